@@ -1,0 +1,134 @@
+//! The one contact law: linear spring with a dashpot that never pulls, and Coulomb friction.
+//!
+//! Normal force   F_n = max(0, k u + γ u̇),  γ = 2 ζ √(k m_r)
+//! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = (2/7) k
+//!
+//! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step.
+//! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
+//! Written without branches so that a loop over contacts becomes vector instructions.
+
+/// Where and how two bodies touch: what geometry hands to the law. The second body is "the other one".
+#[derive(Clone, Copy, Debug)]
+pub struct ContactPoint {
+    /// Unit normal from the first body to the other.
+    pub normal: [f64; 3],
+    /// Overlap u (m), positive in contact.
+    pub overlap: f64,
+    /// Velocity of the other body's surface relative to the first's, at the contact (m/s).
+    pub velocity: [f64; 3],
+    /// Mean spin of the two bodies about the normal (rad/s); it turns the stored friction force.
+    pub twist: f64,
+    /// Normal stiffness k (N/m).
+    pub stiffness: f64,
+    /// 1/m_r = 1/m_1 + 1/m_2 (1/kg).
+    pub inverse_mass: f64,
+    /// Friction coefficient μ, the smaller of the pair.
+    pub friction: f64,
+}
+
+/// What a contact remembers from step to step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(32))]
+pub struct Memory {
+    /// Tangential force on the first body (N).
+    pub tangential: [f64; 3],
+    /// Dashpot part of the last normal force (N), for the energy account.
+    pub dashpot: f64,
+}
+
+/// Constants shared by all contacts of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LawConstants {
+    /// Damping ratio ζ.
+    pub damping_ratio: f64,
+    /// k_t / k_n.
+    pub tangential_ratio: f64,
+    /// Time step (s).
+    pub time_step: f64,
+}
+
+/// The law's answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Response {
+    /// Force on the first body (N); the other gets the opposite.
+    pub force: [f64; 3],
+    /// Magnitude of the normal force (N).
+    pub normal_force: f64,
+    pub memory: Memory,
+    /// Elastic energy stored now (J).
+    pub stored: f64,
+    /// Energy lost in the dashpot in this step (J).
+    pub lost_damping: f64,
+    /// Energy lost by slip in this step (J).
+    pub lost_friction: f64,
+}
+
+#[inline(always)]
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+pub fn add_scaled(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
+    [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// Force of one contact for one step.
+///
+/// Energy is accounted by the trapezoidal rule over the step just made, which equals the discrete work of
+/// the leapfrog integrator: dashpot ½(D_old + D_new) u̇ Δt, slip = work done minus change of stored energy.
+#[inline(always)]
+pub fn respond(point: &ContactPoint, memory: &Memory, constants: &LawConstants) -> Response {
+    let n = point.normal;
+    let step = constants.time_step;
+    let separation_rate = dot(point.velocity, n);
+    let spring = point.stiffness * point.overlap;
+    let damping = 2.0 * constants.damping_ratio * (point.stiffness / point.inverse_mass).sqrt();
+    let normal_force = larger(0.0, spring - damping * separation_rate);
+    let dashpot = normal_force - spring;
+    let lost_damping = -0.5 * (memory.dashpot + dashpot) * separation_rate * step;
+
+    let tangential_stiffness = constants.tangential_ratio * point.stiffness;
+    let old = carried(memory.tangential, n, point.twist * step);
+    let slip = add_scaled(point.velocity, -separation_rate, n);
+    let trial = add_scaled(old, tangential_stiffness * step, slip);
+    let trial_squared = dot(trial, trial);
+    let limit = point.friction * normal_force;
+    let scale = if trial_squared > limit * limit { limit / trial_squared.sqrt() } else { 1.0 };
+    let tangential = [trial[0] * scale, trial[1] * scale, trial[2] * scale];
+
+    let now_squared = trial_squared * scale * scale;
+    let work = 0.5 * step * (dot(old, slip) + dot(tangential, slip));
+    let half_compliance = 0.5 / tangential_stiffness;
+    let change = (now_squared - dot(old, old)) * half_compliance;
+    Response {
+        force: add_scaled(tangential, -normal_force, n),
+        normal_force,
+        memory: Memory { tangential, dashpot },
+        stored: 0.5 * spring * point.overlap + now_squared * half_compliance,
+        lost_damping,
+        lost_friction: work - change,
+    }
+}
+
+/// The stored tangential force carried into the present contact frame: turned about the normal by `angle`,
+/// laid into the tangent plane, its magnitude kept.
+#[inline(always)]
+fn carried(force: [f64; 3], n: [f64; 3], angle: f64) -> [f64; 3] {
+    let turned = add_scaled(force, angle, cross(n, force));
+    let flat = add_scaled(turned, -dot(turned, n), n);
+    let before = dot(force, force);
+    let after = dot(flat, flat);
+    let scale = if after > 1e-300 { (before / after).sqrt() } else { 0.0 };
+    [flat[0] * scale, flat[1] * scale, flat[2] * scale]
+}

@@ -1,0 +1,11 @@
+//! Contact laws and the loops that apply them to each kind of pair.
+//!
+//! Geometry makes a [`law::ContactPoint`], the law answers with force and energies; grains, surfaces and ropes
+//! share the one law.
+
+pub mod candidates;
+pub mod grain_pairs;
+pub mod law;
+pub mod restitution;
+pub mod ropes;
+pub mod surfaces;

@@ -1,0 +1,4 @@
+//! Structural elements of a flexible barrier.
+
+pub mod dissipator;
+pub mod rope;

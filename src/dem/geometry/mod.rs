@@ -1,0 +1,3 @@
+//! Pure geometry: one function per pair of shapes.
+
+pub mod point_segment;

@@ -1,0 +1,89 @@
+//! The energy account of a run: what came in, where it is, where it went.
+
+use crate::dem::contact::law::Response;
+
+/// Sums over the contacts of one block in one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactSums {
+    /// Elastic energy stored in contacts now (J).
+    pub stored: f64,
+    /// Lost in dashpots during this step (J).
+    pub lost_damping: f64,
+    /// Lost by slip during this step (J).
+    pub lost_friction: f64,
+    /// Largest overlap over the smaller radius.
+    pub overlap_ratio: f64,
+    pub contacts: u64,
+}
+
+impl ContactSums {
+    pub fn add(&mut self, other: &Self) {
+        self.stored += other.stored;
+        self.lost_damping += other.lost_damping;
+        self.lost_friction += other.lost_friction;
+        self.overlap_ratio = self.overlap_ratio.max(other.overlap_ratio);
+        self.contacts += other.contacts;
+    }
+
+    /// Books one contact.
+    #[inline(always)]
+    pub fn count(&mut self, response: &Response, overlap_ratio: f64) {
+        self.stored += response.stored;
+        self.lost_damping += response.lost_damping;
+        self.lost_friction += response.lost_friction;
+        self.overlap_ratio = self.overlap_ratio.max(overlap_ratio);
+        self.contacts += 1;
+    }
+
+    /// Contacts across a block border are met by both blocks; each books half the energy.
+    pub fn halve_energies(&mut self) {
+        self.stored *= 0.5;
+        self.lost_damping *= 0.5;
+        self.lost_friction *= 0.5;
+    }
+}
+
+/// Energies of the whole model at one instant, and losses since the start (all J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    pub kinetic: f64,
+    /// Rotational part of `kinetic`.
+    pub rotational: f64,
+    /// Gravity potential, relative to the start.
+    pub potential: f64,
+    pub stored_contacts: f64,
+    pub stored_barrier: f64,
+    pub lost_damping: f64,
+    pub lost_friction: f64,
+    pub lost_ropes: f64,
+    pub lost_dissipators: f64,
+    /// Energy of grains that left the model.
+    pub carried_out: f64,
+}
+
+impl Ledger {
+    /// Everything that must stay constant.
+    pub fn total(&self) -> f64 {
+        self.kinetic
+            + self.potential
+            + self.stored_contacts
+            + self.stored_barrier
+            + self.lost_damping
+            + self.lost_friction
+            + self.lost_ropes
+            + self.lost_dissipators
+            + self.carried_out
+    }
+
+    /// Energy dissipated so far.
+    pub fn dissipated(&self) -> f64 {
+        self.lost_damping + self.lost_friction + self.lost_ropes + self.lost_dissipators
+    }
+
+    /// Imbalance against `start`, relative to the energy put in: the kinetic energy at the start plus the
+    /// potential energy released since. Zero while nothing was put in.
+    pub fn relative_error(&self, start: &Self) -> f64 {
+        let put_in = start.kinetic + (start.potential - self.potential - self.carried_out).max(0.0);
+        if put_in > 0.0 { (self.total() - start.total()) / put_in } else { 0.0 }
+    }
+}

@@ -1,0 +1,15 @@
+//! The engine: rigid grains, fixed surfaces and a barrier of ropes, stepped in time. SI numbers only; knows
+//! nothing of designs, guidelines or reports.
+
+pub mod contact;
+pub mod elements;
+pub mod geometry;
+pub mod ledger;
+pub mod neighbours;
+pub mod net;
+pub mod simulation;
+pub mod tables;
+pub mod time;
+
+/// A vector in the channel frame: x down the slope, y across, z normal to the bed (m, m/s, N, as used).
+pub type Vec3 = nalgebra::Vector3<f64>;

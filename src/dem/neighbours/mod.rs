@@ -1,0 +1,9 @@
+//! Who might touch whom: trees of boxes, and candidate lists with a skin so that they are renewed only
+//! when something has moved far enough.
+
+pub mod blocks;
+pub mod broad_phase;
+pub mod candidates;
+pub mod memory_rows;
+pub mod order;
+pub mod renew;

@@ -1,0 +1,77 @@
+//! Flexible barrier: point masses (nodes) joined by tension-only segments and dissipators.
+
+use crate::dem::Vec3;
+use crate::dem::elements::dissipator::Dissipator;
+
+/// A point mass of the net or of a rope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    pub position: Vec3,
+    /// At half steps, like the grains'.
+    pub velocity: Vec3,
+    /// kg
+    pub mass: f64,
+    /// A fixed node never moves: an anchor, or a rope bolted to the bed.
+    pub fixed: bool,
+    /// Radius with which grains touch the node (m): the thickest rope that meets there.
+    pub radius: f64,
+    /// Segments that end here; grains that touch the very node are found through it.
+    pub segments: Vec<u32>,
+}
+
+/// A straight piece of wire rope: a spring that pulls and never pushes, with a little damping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    pub nodes: [u32; 2],
+    pub kind: SegmentKind,
+    /// Length at which tension starts (m).
+    pub rest_length: f64,
+    /// Axial stiffness over length, EA/L0 (N/m).
+    pub stiffness: f64,
+    /// Axial damping (N s/m), active while taut.
+    pub damping: f64,
+    /// Radius with which grains touch (m).
+    pub radius: f64,
+}
+
+/// Which part of the barrier a segment belongs to; `Main` carries the number of its rope from the bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SegmentKind {
+    Net,
+    Main(u16),
+    Lateral,
+}
+
+/// An anchor point with the main rope it holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Anchor {
+    pub node: u32,
+    pub rope: u16,
+}
+
+/// The flexible barrier as the engine sees it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Barrier {
+    pub nodes: Vec<Node>,
+    pub segments: Vec<Segment>,
+    pub dissipators: Vec<Dissipator>,
+    pub anchors: Vec<Anchor>,
+    /// Friction coefficient between grain and rope, tan φ.
+    pub friction: f64,
+    /// Young's modulus of the rope in contact with a grain (Pa).
+    pub contact_modulus: f64,
+}
+
+impl Barrier {
+    /// Records at every node which segments end there. Call once all segments stand.
+    pub fn connect(&mut self) {
+        for node in &mut self.nodes {
+            node.segments.clear();
+        }
+        for (index, segment) in self.segments.iter().enumerate() {
+            for node in segment.nodes {
+                self.nodes[node as usize].segments.push(index as u32);
+            }
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Time: how long a step may be, and how bodies move through it.
+
+pub mod integrate;
+pub mod stable_step;

@@ -1,0 +1,203 @@
+//! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
+
+pub mod sizes;
+
+use self::sizes::SizeCurve;
+
+/// A checked design. Lengths in m, masses in kg, forces in N, angles in rad, friction as tan φ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    pub project: Project,
+    pub channel: Channel,
+    pub flow: Flow,
+    pub barrier: BarrierDesign,
+    pub limits: Limits,
+    pub factors: Factors,
+    pub simulation: SimulationWishes,
+}
+
+/// Who and what the report is about.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Project {
+    pub name: String,
+    pub barrier: String,
+    pub revision: String,
+    pub author: String,
+    pub notes: String,
+}
+
+/// A straight channel of rectangular section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Channel {
+    pub width: f64,
+    /// Slope of the bed against the horizontal (rad).
+    pub slope: f64,
+    pub wall_height: f64,
+    pub base_friction: f64,
+    pub side_friction: f64,
+    /// Friction of grains on the barrier, wall or rope.
+    pub barrier_friction: f64,
+}
+
+/// The design flow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flow {
+    pub mass: f64,
+    /// kg/m³, grains with pores.
+    pub bulk_density: f64,
+    /// kg/m³, grains alone.
+    pub solid_density: f64,
+    pub sizes: SizeCurve,
+    /// Length over width of a grain, 1 (sphere) to 2.
+    pub aspect: f64,
+    pub grain_friction: f64,
+    pub restitution: f64,
+    /// Contact modulus of the grains (Pa).
+    pub modulus: f64,
+    pub arrival: Arrival,
+}
+
+impl Flow {
+    /// Volume of the flow with its pores (m³).
+    pub fn volume(&self) -> f64 {
+        self.mass / self.bulk_density
+    }
+}
+
+/// How the flow comes to the barrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arrival {
+    /// A block at rest behind a gate; `distance` is from the gate to the barrier's foot.
+    DamBreak { length: f64, height: f64, distance: f64 },
+    /// A block just upstream, already moving down the channel.
+    Surge { length: f64, depth: f64, velocity: f64 },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum BarrierDesign {
+    RigidWall(RigidWall),
+    FlexibleNet(Box<FlexibleNet>),
+}
+
+/// A wall across the channel, normal to the bed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidWall {
+    pub height: f64,
+    /// Tops of the segments whose force is reported, from the bottom up.
+    pub segment_tops: Vec<f64>,
+    /// Resistance of the whole wall to the total force (N), if known.
+    pub resistance: Option<f64>,
+}
+
+/// A net of wire ropes on horizontal main ropes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlexibleNet {
+    /// Length of the barrier along its own plane (m).
+    pub height: f64,
+    /// Angle against plumb (rad), positive towards the flow.
+    pub tilt: f64,
+    /// Side of the square mesh, which stands on its corner (m).
+    pub mesh_opening: f64,
+    pub net_rope: Rope,
+    pub main_ropes: MainRopes,
+    pub lateral_rope: Rope,
+    pub lateral_to: LateralTo,
+    pub dissipators: Option<DissipatorDesign>,
+    /// Characteristic resistance of each anchor (N).
+    pub anchor_resistance: f64,
+    pub bottom: Bottom,
+}
+
+/// A wire rope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rope {
+    pub diameter: f64,
+    /// Modulus that, with the full circle of the diameter, gives the rope's EA (Pa).
+    pub modulus: f64,
+    /// N
+    pub breaking_load: f64,
+}
+
+/// The horizontal ropes that carry the net.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MainRopes {
+    /// Heights along the barrier, from the bottom (m).
+    pub heights: Vec<f64>,
+    pub rope: Rope,
+    /// Spacing of the rings along the rope (m).
+    pub ring_spacing: f64,
+    /// Friction between ring and rope.
+    pub ring_friction: f64,
+}
+
+/// Where the ropes along the sides of the net end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LateralTo {
+    /// At the rope ends, so that their load passes through the dissipators.
+    Dissipators,
+    /// At the anchors, past the dissipators.
+    Anchors,
+}
+
+/// Energy dissipators, one at each end of every main rope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DissipatorDesign {
+    pub plateau: f64,
+    pub stroke: f64,
+    /// Elastic stiffness before the plateau (N/m).
+    pub stiffness: f64,
+}
+
+/// What holds the lowest main rope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bottom {
+    /// Bolted to the bed along its length.
+    Fixed,
+    /// Free, this far above the bed (m).
+    Opening(f64),
+}
+
+/// What a design must keep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Least share of the mass that must be held.
+    pub retained_mass: f64,
+    /// Least height left over the initial height, both normal to the bed.
+    pub residual_height: f64,
+    pub rope_utilisation: f64,
+    pub anchor_utilisation: f64,
+    /// Greatest share of the stroke that may be used.
+    pub brake_utilisation: f64,
+}
+
+/// Coefficients of the guideline and partial factors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factors {
+    /// Earth-pressure coefficient K.
+    pub earth_pressure: f64,
+    /// Hydrodynamic pressure coefficient λ.
+    pub dynamic_pressure: f64,
+    /// On loads.
+    pub load: f64,
+    /// On rope resistance: breaking load over this is the design resistance.
+    pub rope: f64,
+    /// On anchor resistance.
+    pub anchor: f64,
+}
+
+/// How to simulate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationWishes {
+    pub fidelity: FidelityWish,
+    pub seed: u64,
+    /// Longest simulated time (s).
+    pub longest: f64,
+}
+
+/// How fine the model shall be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FidelityWish {
+    Fast,
+    Standard,
+    Fine,
+}

@@ -1,0 +1,91 @@
+//! Grain-size distributions.
+
+/// How grain sizes are distributed. Diameters are of the sphere of equal volume (m).
+#[derive(Clone, Debug, PartialEq)]
+pub enum SizeCurve {
+    /// Uniform in number between two diameters.
+    ByNumber { smallest: f64, largest: f64 },
+    /// Cumulative curve by mass: (share of mass that is finer, diameter), both increasing, from 0 to 1.
+    ByMass(Vec<(f64, f64)>),
+}
+
+impl SizeCurve {
+    /// A curve by mass through some quantiles, such as d30, d50, d70 and d90. The ends at 0 and 1 continue the
+    /// outermost slopes on a logarithmic diameter axis. Needs two quantiles or more.
+    pub fn through(quantiles: &[(f64, f64)]) -> Self {
+        let extend = |from: (f64, f64), to: (f64, f64), share: f64| {
+            let slope = (to.1 / from.1).ln() / (to.0 - from.0);
+            (share, to.1 * (slope * (share - to.0)).exp())
+        };
+        let mut points = quantiles.to_vec();
+        let count = points.len();
+        if points[0].0 > 0.0 {
+            points.insert(0, extend(points[1], points[0], 0.0));
+        }
+        if quantiles[count - 1].0 < 1.0 {
+            points.push(extend(quantiles[count - 2], quantiles[count - 1], 1.0));
+        }
+        Self::ByMass(points)
+    }
+
+    /// Diameter below which the given share of the mass lies.
+    pub fn quantile(&self, share: f64) -> f64 {
+        match self {
+            Self::ByNumber { smallest, largest } => {
+                // Uniform in number: the mass finer than d grows with the fourth power of d.
+                let (low, high) = (smallest.powi(4), largest.powi(4));
+                (low + share * (high - low)).powf(0.25)
+            }
+            Self::ByMass(points) => {
+                let upper = points.iter().position(|point| point.0 >= share).unwrap_or(points.len() - 1).max(1);
+                let ((s0, d0), (s1, d1)) = (points[upper - 1], points[upper]);
+                d0 * (d1 / d0).powf(((share - s0) / (s1 - s0)).clamp(0.0, 1.0))
+            }
+        }
+    }
+
+    /// Diameters of grains that together weigh `mass`, from fine to coarse. Each grain is the quantile at the
+    /// middle of the mass it adds, so the curve is met to within the mass of one grain.
+    pub fn grains(&self, mass: f64, solid_density: f64) -> Vec<f64> {
+        let mass_of = |diameter: f64| solid_density * std::f64::consts::PI / 6.0 * diameter.powi(3);
+        let mut diameters = Vec::new();
+        let mut sum = 0.0;
+        while sum < mass {
+            let first = self.quantile(sum / mass);
+            let middle = self.quantile(((sum + 0.5 * mass_of(first)) / mass).min(1.0));
+            diameters.push(middle);
+            sum += mass_of(middle);
+        }
+        // The last grain overshoots: scale all by the same tiny amount so that the mass is exact.
+        let scale = (mass / sum).cbrt();
+        diameters.iter_mut().for_each(|diameter| *diameter *= scale);
+        diameters
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn mass_fractions_are_met_to_one_percent() {
+        let curve = SizeCurve::through(&[(0.3, 0.30), (0.5, 0.45), (0.7, 0.60), (0.9, 0.80)]);
+        let grains = curve.grains(340e3, 2701.0);
+        let mass = |d: &f64| 2701.0 * std::f64::consts::PI / 6.0 * d.powi(3);
+        let total: f64 = grains.iter().map(mass).sum();
+        assert_relative_eq!(total, 340e3, max_relative = 1e-9);
+        for (share, diameter) in [(0.3, 0.30), (0.5, 0.45), (0.7, 0.60), (0.9, 0.80)] {
+            let finer: f64 = grains.iter().filter(|d| **d <= diameter).map(mass).sum();
+            assert!((finer / total - share).abs() < 0.01, "{share}: {}", finer / total);
+        }
+    }
+
+    #[test]
+    fn uniform_in_number_is_uniform_in_number() {
+        let grains = SizeCurve::ByNumber { smallest: 9.82e-3, largest: 19.64e-3 }.grains(27.25, 2701.0);
+        let middle = grains.iter().filter(|d| **d < 14.73e-3).count() as f64;
+        assert!((middle / grains.len() as f64 - 0.5).abs() < 0.01);
+        assert!((grains.len() as f64 - 5406.0).abs() < 10.0, "{}", grains.len());
+    }
+}

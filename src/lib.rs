@@ -1,0 +1,4 @@
+//! barrier-check
+pub mod dem;
+pub mod design;
+pub mod scene;

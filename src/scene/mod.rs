@@ -1,0 +1,3 @@
+//! From a design to bodies: `Design` + `Fidelity` → `dem::Model`.
+
+pub mod flow;
