@@ -1,3 +1,4 @@
 //! From a design to bodies: `Design` + `Fidelity` → `dem::Model`.
 
 pub mod flow;
+pub mod net;

@@ -1,0 +1,192 @@
+//! Builds the barrier's nodes and elements from the design.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use crate::dem::Vec3;
+use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::tables::barrier::{Anchor, Barrier, Node, Segment, SegmentKind};
+use crate::design::{Bottom, Channel, FlexibleNet, LateralTo, Rope};
+use crate::scene::net::grid::Grid;
+
+/// Density of wire rope over its full circle (kg/m³): steel.
+pub const ROPE_DENSITY: f64 = 7850.0;
+/// Axial damping of a rope segment over critical (numerical; the thesis states none).
+pub const ROPE_DAMPING_RATIO: f64 = 0.05;
+/// Length between anchor and first knot (m): one 70 mm cylinder in Albaba 2015, section 4.2.3.
+pub const END_PIECE: f64 = 0.07;
+
+/// A built barrier with the places of its knots, which recorders need.
+#[derive(Clone, Debug)]
+pub struct BuiltNet {
+    pub barrier: Barrier,
+    /// Node numbers of the knots, row by row from the bottom, each from one side to the other.
+    pub rows: Vec<Vec<u32>>,
+    /// Row of each main rope.
+    pub rope_rows: Vec<usize>,
+}
+
+/// Builds the net of `design` across `channel`. The barrier's foot is at x = 0.
+pub fn build(design: &FlexibleNet, channel: &Channel) -> BuiltNet {
+    let mut builder = Builder {
+        design,
+        channel,
+        grid: Grid::fit(design, channel.width),
+        barrier: Barrier {
+            friction: channel.barrier_friction,
+            contact_modulus: design.net_rope.modulus,
+            ..Barrier::default()
+        },
+        knots: BTreeMap::new(),
+    };
+    builder.add_knots();
+    builder.add_net();
+    builder.add_main_ropes();
+    builder.add_lateral_ropes();
+    builder.finish()
+}
+
+struct Builder<'a> {
+    design: &'a FlexibleNet,
+    channel: &'a Channel,
+    grid: Grid,
+    barrier: Barrier,
+    knots: BTreeMap<(usize, usize), u32>,
+}
+
+impl Builder<'_> {
+    /// A point of the barrier's plane: `across` from the first side wall, `up` along the plane.
+    fn place(&self, across: f64, up: f64) -> Vec3 {
+        let lean = self.channel.slope + self.design.tilt;
+        let lift = match self.design.bottom {
+            Bottom::Fixed => 0.0,
+            Bottom::Opening(gap) => gap,
+        };
+        Vec3::new(-lean.sin() * up, across, lean.cos() * up + lift)
+    }
+
+    fn add_node(&mut self, position: Vec3, fixed: bool) -> u32 {
+        self.barrier.nodes.push(Node {
+            position,
+            velocity: Vec3::zeros(),
+            mass: 0.0,
+            fixed,
+            radius: 0.0,
+            segments: Vec::new(),
+        });
+        self.barrier.nodes.len() as u32 - 1
+    }
+
+    fn add_knots(&mut self) {
+        let inner = self.channel.width - 2.0 * END_PIECE;
+        let bottom_fixed = self.design.bottom == Bottom::Fixed;
+        for row in 0..self.grid.row_heights.len() {
+            for column in self.grid.knot_columns(row) {
+                let across = END_PIECE + inner * column as f64 / self.grid.columns as f64;
+                let position = self.place(across, self.grid.row_heights[row]);
+                let node = self.add_node(position, bottom_fixed && row == 0);
+                self.knots.insert((column, row), node);
+            }
+        }
+    }
+
+    fn add_net(&mut self) {
+        let mut pairs = Vec::new();
+        for (&(column, row), &node) in &self.knots {
+            for neighbour in [column.checked_sub(1), Some(column + 1)].into_iter().flatten() {
+                if let Some(&above) = self.knots.get(&(neighbour, row + 1)) {
+                    pairs.push([node, above]);
+                }
+            }
+        }
+        for nodes in pairs {
+            self.add_segment(nodes, SegmentKind::Net, &self.design.net_rope);
+        }
+    }
+
+    fn add_main_ropes(&mut self) {
+        for (rope, row) in self.grid.rope_rows.clone().into_iter().enumerate() {
+            let kind = SegmentKind::Main(rope as u16);
+            let nodes: Vec<u32> = self.knots_of_row(row);
+            for pair in nodes.windows(2) {
+                self.add_segment([pair[0], pair[1]], kind, &self.design.main_ropes.rope);
+            }
+            let held_by_bed = rope == 0 && self.design.bottom == Bottom::Fixed;
+            if !held_by_bed {
+                let up = self.grid.row_heights[row];
+                self.add_rope_end(rope as u16, nodes[0], self.place(0.0, up));
+                self.add_rope_end(rope as u16, nodes[nodes.len() - 1], self.place(self.channel.width, up));
+            }
+        }
+    }
+
+    /// Anchors one end of a main rope, through a dissipator where the design has them.
+    fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
+        let anchor = self.add_node(place, true);
+        self.barrier.anchors.push(Anchor { node: anchor, rope });
+        match self.design.dissipators {
+            Some(dissipator) => self.barrier.dissipators.push(Dissipator {
+                nodes: [anchor, end],
+                rope,
+                rest_length: END_PIECE,
+                stiffness: dissipator.stiffness,
+                plateau: dissipator.plateau,
+                stroke: dissipator.stroke,
+                used: 0.0,
+            }),
+            None => self.add_segment([anchor, end], SegmentKind::Main(rope), &self.design.main_ropes.rope),
+        }
+    }
+
+    /// Ropes along both sides of the net; at each main rope they meet the rope's end or its anchor.
+    fn add_lateral_ropes(&mut self) {
+        for column in [0, self.grid.columns] {
+            let mut line: Vec<u32> = Vec::new();
+            for row in (0..self.grid.row_heights.len()).step_by(2) {
+                line.push(self.lateral_stop(column, row));
+            }
+            for pair in line.windows(2) {
+                self.add_segment([pair[0], pair[1]], SegmentKind::Lateral, &self.design.lateral_rope);
+            }
+        }
+    }
+
+    fn lateral_stop(&self, column: usize, row: usize) -> u32 {
+        let rope = self.grid.rope_rows.iter().position(|&rope_row| rope_row == row);
+        let anchor = match (self.design.lateral_to, rope) {
+            (LateralTo::Anchors, Some(rope)) => {
+                let side = usize::from(column > 0);
+                self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == rope).nth(side)
+            }
+            _ => None,
+        };
+        anchor.map_or_else(|| self.knots[&(column, row)], |anchor| anchor.node)
+    }
+
+    fn knots_of_row(&self, row: usize) -> Vec<u32> {
+        self.grid.knot_columns(row).map(|column| self.knots[&(column, row)]).collect()
+    }
+
+    /// Adds a straight rope between two nodes, unstretched as it lies, half its mass to each.
+    fn add_segment(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
+        let radius = 0.5 * rope.diameter;
+        let area = PI * radius * radius;
+        let [a, b] = nodes.map(|node| self.barrier.nodes[node as usize].position);
+        let rest_length = (b - a).norm();
+        let stiffness = rope.modulus * area / rest_length;
+        let half_mass = 0.5 * ROPE_DENSITY * area * rest_length;
+        for node in nodes {
+            let node = &mut self.barrier.nodes[node as usize];
+            node.mass += half_mass;
+            node.radius = node.radius.max(radius);
+        }
+        let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
+        self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius });
+    }
+
+    fn finish(mut self) -> BuiltNet {
+        self.barrier.connect();
+        let rows = (0..self.grid.row_heights.len()).map(|row| self.knots_of_row(row)).collect();
+        BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }
+    }
+}

@@ -1,0 +1,4 @@
+//! The flexible barrier: mesh, main and lateral ropes, dissipators and anchors, as nodes and elements.
+
+pub mod build;
+pub mod grid;
