@@ -1,5 +1,12 @@
 //! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
 
+pub mod document;
+pub mod entries;
+pub mod key;
+pub mod read;
+pub mod resolve;
+pub mod rules;
+pub mod schema;
 pub mod sizes;
 
 use self::sizes::SizeCurve;

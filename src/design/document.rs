@@ -1,0 +1,262 @@
+//! The file as a tree of typed words, and the way back from a key path to a line.
+
+use std::cell::Cell;
+use std::fmt;
+
+use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+
+use crate::problem::{Position, Problem};
+
+/// Larger files are refused unread: a design is a few kilobytes.
+const MOST_BYTES: usize = 1 << 20;
+/// Values after which reading stops: protects against aliases that refer to themselves in growing numbers.
+const MOST_VALUES: usize = 20_000;
+/// Prefix by which an exhausted budget is recognised among parser messages.
+const TOO_MANY: &str = "more than 20000 values";
+
+/// A value of the file as typed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// Keys in the order of the file; a key may stand twice (which is then reported).
+    Map(Vec<(String, Node)>),
+    List(Vec<Node>),
+    Text(String),
+    Number(f64),
+    Flag(bool),
+    Nothing,
+}
+
+impl Node {
+    /// What the value is, for messages.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Map(_) => "a group of keys".into(),
+            Self::List(_) => "a list".into(),
+            Self::Text(text) => format!("`{text}`"),
+            Self::Number(number) => format!("`{number}`, a number without a unit"),
+            Self::Flag(flag) => format!("`{flag}`"),
+            Self::Nothing => "nothing".into(),
+        }
+    }
+}
+
+/// A design file in memory.
+#[derive(Clone, Debug)]
+pub struct Document {
+    text: String,
+    pub root: Node,
+}
+
+impl Document {
+    /// Parses the bytes of a file. On failure says where and why.
+    pub fn parse(bytes: &[u8]) -> Result<Self, Problem> {
+        let whole = |found: &str, allowed: &str| Problem::new("", found, allowed);
+        if bytes.len() > MOST_BYTES {
+            return Err(whole(&format!("a file of {} bytes", bytes.len()), "at most 1 MiB; a design is a few kilobytes"));
+        }
+        let Ok(text) = std::str::from_utf8(bytes) else {
+            return Err(whole("bytes that are not UTF-8 text", "a YAML text file").hint("is this a binary file?"));
+        };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
+        if let Some(line) = text.lines().position(|line| line.starts_with('\t')) {
+            let position = Position { line: line + 1, column: 1 };
+            return Err(whole("a tab at the beginning of the line", "spaces").at(Some(position)));
+        }
+        BUDGET.set(MOST_VALUES);
+        let parsed = serde_yaml::Deserializer::from_str(&text);
+        match NodeSeed.deserialize(parsed) {
+            Ok(Node::Nothing) => Err(whole("an empty file", "a design with the sections project, channel, flow, barrier")),
+            Ok(root @ Node::Map(_)) => Ok(Self { text, root }),
+            Ok(other) => Err(whole(&other.describe(), "a group of keys: project, channel, flow, barrier, …")),
+            Err(error) => Err(unreadable(&error)),
+        }
+    }
+
+    /// Position of the value (or of the key itself) at `path`, a dotted path with list indices as numbers.
+    pub fn position(&self, path: &str) -> Option<Position> {
+        BUDGET.set(MOST_VALUES);
+        let steps: Vec<&str> = if path.is_empty() { Vec::new() } else { path.split('.').collect() };
+        let located = Locate { steps: &steps }.deserialize(serde_yaml::Deserializer::from_str(&self.text));
+        let location = located.err()?.location()?;
+        Some(Position { line: location.line(), column: location.column() })
+    }
+}
+
+fn unreadable(error: &serde_yaml::Error) -> Problem {
+    let message = error.to_string();
+    let position = error.location().map(|place| Position { line: place.line(), column: place.column() });
+    let problem = if message.contains(TOO_MANY) {
+        Problem::new("", TOO_MANY, "a design of some hundred values").hint("does an alias (`*name`) repeat itself?")
+    } else {
+        let said = message.split(" at line ").next().unwrap_or(&message).to_string();
+        Problem::new("", format!("text that is not YAML: {said}"), "YAML: `key: value` lines, indented with spaces")
+    };
+    problem.at(position)
+}
+
+thread_local! {
+    static BUDGET: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Reads any value, within the budget.
+struct NodeSeed;
+
+impl<'de> DeserializeSeed<'de> for NodeSeed {
+    type Value = Node;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        let left = BUDGET.get();
+        if left == 0 {
+            return Err(D::Error::custom(TOO_MANY));
+        }
+        BUDGET.set(left - 1);
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for NodeSeed {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
+        Ok(Node::Flag(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Node, E> {
+        Ok(Node::Number(value as f64))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
+        Ok(Node::Number(value as f64))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Node, E> {
+        Ok(Node::Number(value))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Node, E> {
+        Ok(Node::Text(value.to_string()))
+    }
+
+    fn visit_unit<E>(self) -> Result<Node, E> {
+        Ok(Node::Nothing)
+    }
+
+    fn visit_none<E>(self) -> Result<Node, E> {
+        Ok(Node::Nothing)
+    }
+
+    fn visit_some<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        self.deserialize(deserializer)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Node, A::Error> {
+        let mut list = Vec::new();
+        while let Some(item) = items.next_element_seed(NodeSeed)? {
+            list.push(item);
+        }
+        Ok(Node::List(list))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Node, A::Error> {
+        let mut map = Vec::new();
+        while let Some(key) = entries.next_key_seed(NodeSeed)? {
+            let name = match key {
+                Node::Text(text) => text,
+                Node::Number(number) => number.to_string(),
+                Node::Flag(flag) => flag.to_string(),
+                other => return Err(A::Error::custom(format!("{} as a key", other.describe()))),
+            };
+            map.push((name, entries.next_value_seed(NodeSeed)?));
+        }
+        Ok(Node::Map(map))
+    }
+}
+
+/// Walks to the end of a path and fails there, so that the parser tells where "there" is.
+struct Locate<'a> {
+    steps: &'a [&'a str],
+}
+
+impl<'de> DeserializeSeed<'de> for Locate<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Locate<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the value sought")
+    }
+
+    fn visit_bool<E: Error>(self, _: bool) -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+
+    fn visit_i64<E: Error>(self, _: i64) -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+
+    fn visit_u64<E: Error>(self, _: u64) -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+
+    fn visit_f64<E: Error>(self, _: f64) -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+
+    fn visit_str<E: Error>(self, _: &str) -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<(), A::Error> {
+        let Some((first, rest)) = self.steps.split_first() else { return Err(A::Error::custom("here")) };
+        let wanted: usize = first.parse().map_err(A::Error::custom)?;
+        for _ in 0..wanted {
+            items.next_element::<IgnoredAny>()?;
+        }
+        items.next_element_seed(Locate { steps: rest })?;
+        Ok(())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<(), A::Error> {
+        let Some((first, rest)) = self.steps.split_first() else { return Err(A::Error::custom("here")) };
+        let stop_at_key = if rest.is_empty() { Some(*first) } else { None };
+        while let Some(found) = entries.next_key_seed(KeySeed { wanted: first, stop: stop_at_key.is_some() })? {
+            if found {
+                return entries.next_value_seed(Locate { steps: rest });
+            }
+            entries.next_value::<IgnoredAny>()?;
+        }
+        Ok(())
+    }
+}
+
+/// Reads a key; fails on the wanted one when the path ends there.
+struct KeySeed<'a> {
+    wanted: &'a str,
+    stop: bool,
+}
+
+impl<'de> DeserializeSeed<'de> for KeySeed<'_> {
+    type Value = bool;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
+        let Ok(Node::Text(name)) = NodeSeed.deserialize(deserializer) else { return Ok(false) };
+        if name == self.wanted && self.stop {
+            return Err(D::Error::custom("here"));
+        }
+        Ok(name == self.wanted)
+    }
+}

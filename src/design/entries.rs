@@ -1,0 +1,255 @@
+//! From the tree of words to checked values, with every problem noted on the way.
+
+use std::collections::BTreeMap;
+
+use crate::design::document::Node;
+use crate::design::key::{Key, Kind, Need, names};
+use crate::problem::{Problem, nearest};
+use crate::units::{self, Dimension};
+
+/// A checked value. Quantities are SI.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    Number(f64),
+    Numbers(Vec<f64>),
+    Text(String),
+}
+
+/// Where a value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    File,
+    Default,
+}
+
+/// One value of the design, as typed and as understood.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    pub value: Value,
+    pub typed: String,
+    pub origin: Origin,
+    pub meaning: &'static str,
+}
+
+/// All values by their dotted path, and the sections that are there.
+#[derive(Clone, Debug, Default)]
+pub struct Entries {
+    pub values: BTreeMap<String, Entry>,
+    sections: Vec<String>,
+    /// Paths in the order of the tables.
+    pub order: Vec<String>,
+}
+
+impl Entries {
+    pub fn has_section(&self, path: &str) -> bool {
+        self.sections.iter().any(|section| section == path)
+    }
+
+    pub fn number(&self, path: &str) -> Option<f64> {
+        match self.values.get(path)?.value {
+            Value::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    pub fn numbers(&self, path: &str) -> Option<&[f64]> {
+        match &self.values.get(path)?.value {
+            Value::Numbers(numbers) => Some(numbers),
+            _ => None,
+        }
+    }
+
+    pub fn text(&self, path: &str) -> Option<&str> {
+        match &self.values.get(path)?.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The value as typed, for messages.
+    pub fn typed(&self, path: &str) -> &str {
+        self.values.get(path).map_or("", |entry| &entry.typed)
+    }
+}
+
+/// Reads a whole design by its table of keys; problems go to `problems`.
+pub fn read(root: &Node, keys: &'static [Key], problems: &mut Vec<Problem>) -> Entries {
+    let mut reader = Reader { entries: Entries::default(), problems };
+    reader.section(root, keys, "");
+    reader.entries
+}
+
+struct Reader<'a> {
+    entries: Entries,
+    problems: &'a mut Vec<Problem>,
+}
+
+impl Reader<'_> {
+    fn section(&mut self, node: &Node, keys: &'static [Key], path: &str) {
+        self.entries.sections.push(path.to_string());
+        let Node::Map(map) = node else {
+            if !(matches!(node, Node::Nothing) && keys.iter().all(|key| key.need != Need::Required)) {
+                let allowed = Kind::Section(keys).allowed();
+                self.problems.push(Problem::new(path, node.describe(), allowed));
+                return;
+            }
+            return self.fields(&[], keys, path);
+        };
+        self.report_unknown(map, keys, path);
+        self.fields(map, keys, path);
+    }
+
+    fn fields(&mut self, map: &[(String, Node)], keys: &'static [Key], path: &str) {
+        for key in keys {
+            let here = join(path, key.name);
+            match map.iter().find(|(name, _)| name == key.name) {
+                Some((_, node)) => self.value(node, key, &here, Origin::File),
+                None => self.absent(key, path, &here),
+            }
+        }
+    }
+
+    fn report_unknown(&mut self, map: &[(String, Node)], keys: &'static [Key], path: &str) {
+        for (index, (name, _)) in map.iter().enumerate() {
+            let here = join(path, name);
+            if map[..index].iter().any(|(earlier, _)| earlier == name) {
+                self.problems.push(Problem::new(&here, format!("the key `{name}` a second time"), "each key once"));
+            }
+            if !keys.iter().any(|key| key.name == name) {
+                let mut problem =
+                    Problem::new(&here, format!("the unknown key `{name}`"), format!("the keys {}", names(keys)));
+                if let Some(near) = nearest(name, keys.iter().map(|key| key.name)) {
+                    problem = problem.hint(format!("did you mean `{near}`?"));
+                }
+                self.problems.push(problem);
+            }
+        }
+    }
+
+    fn absent(&mut self, key: &'static Key, path: &str, here: &str) {
+        match (key.need, key.kind) {
+            (Need::Optional, _) => {}
+            (Need::Default(_), Kind::Section(keys)) => self.section(&Node::Map(Vec::new()), keys, here),
+            (Need::Default(typed), _) => {
+                let node = typed.parse().map_or_else(|_| Node::Text(typed.to_string()), Node::Number);
+                self.value(&node, key, here, Origin::Default);
+            }
+            (Need::Required, kind) => {
+                let problem = Problem::new(path, format!("no key `{}`", key.name), kind.allowed());
+                self.problems.push(problem.hint(format!("`{}` is {}", key.name, key.meaning)));
+            }
+        }
+    }
+
+    fn value(&mut self, node: &Node, key: &'static Key, path: &str, origin: Origin) {
+        match key.kind {
+            Kind::Section(keys) => return self.section(node, keys, path),
+            Kind::OneOf(keys) => return self.one_of(node, keys, path),
+            _ => {}
+        }
+        match understand(node, &key.kind) {
+            Ok(value) => {
+                let entry = Entry { value, typed: typed(node), origin, meaning: key.meaning };
+                self.entries.order.push(path.to_string());
+                self.entries.values.insert(path.to_string(), entry);
+            }
+            Err((found, hint)) => {
+                let mut problem = Problem::new(path, found, key.kind.allowed());
+                problem.hint = hint;
+                self.problems.push(problem);
+            }
+        }
+    }
+
+    fn one_of(&mut self, node: &Node, keys: &'static [Key], path: &str) {
+        self.entries.sections.push(path.to_string());
+        let allowed = Kind::OneOf(keys).allowed();
+        let Node::Map(map) = node else {
+            self.problems.push(Problem::new(path, node.describe(), allowed));
+            return;
+        };
+        self.report_unknown(map, keys, path);
+        let known: Vec<_> = map.iter().filter(|(name, _)| keys.iter().any(|key| key.name == name)).collect();
+        if known.len() != 1 {
+            let found = match known.len() {
+                0 => "none of them".to_string(),
+                _ => known.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(" and "),
+            };
+            self.problems.push(Problem::new(path, found, allowed));
+        }
+        for (name, node) in known {
+            if let Some(key) = keys.iter().find(|key| key.name == name) {
+                self.value(node, key, &join(path, name), Origin::File);
+            }
+        }
+    }
+}
+
+fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
+}
+
+fn typed(node: &Node) -> String {
+    match node {
+        Node::Text(text) => text.clone(),
+        Node::Number(number) => number.to_string(),
+        Node::Flag(flag) => flag.to_string(),
+        Node::List(items) => items.iter().map(typed).collect::<Vec<_>>().join(", "),
+        Node::Map(_) | Node::Nothing => String::new(),
+    }
+}
+
+type Misunderstood = (String, Option<String>);
+
+fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
+    match *kind {
+        Kind::Quantity { dimension, low, high } => quantity(node, dimension, low, high).map(Value::Number),
+        Kind::Quantities { dimension, low, high } => match node {
+            Node::List(items) if !items.is_empty() => {
+                items.iter().map(|item| quantity(item, dimension, low, high)).collect::<Result<_, _>>().map(Value::Numbers)
+            }
+            Node::List(_) => Err(("an empty list".into(), None)),
+            other => Err((other.describe(), Some("write a list: `[1 m, 2 m]`".into()))),
+        },
+        Kind::Number { low, high } => match *node {
+            Node::Number(number) if (low..=high).contains(&number) => Ok(Value::Number(number)),
+            Node::Number(number) => Err((format!("`{number}`"), None)),
+            _ => Err((node.describe(), Some("this is a plain number without a unit".into()))),
+        },
+        Kind::Count { low, high } => match *node {
+            Node::Number(number) if number.fract() == 0.0 && number >= low as f64 && number <= high as f64 => {
+                Ok(Value::Number(number))
+            }
+            Node::Number(number) => Err((format!("`{number}`"), None)),
+            _ => Err((node.describe(), None)),
+        },
+        Kind::Text => match node {
+            Node::Map(_) | Node::List(_) => Err((node.describe(), None)),
+            _ => Ok(Value::Text(typed(node))),
+        },
+        Kind::Choice(words) => match node {
+            Node::Text(text) if words.contains(&text.as_str()) => Ok(Value::Text(text.clone())),
+            Node::Text(text) => {
+                let near = nearest(text, words.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+                Err((node.describe(), near))
+            }
+            _ => Err((node.describe(), None)),
+        },
+        Kind::Section(_) | Kind::OneOf(_) => Err((node.describe(), None)),
+    }
+}
+
+fn quantity(node: &Node, dimension: Dimension, low: f64, high: f64) -> Result<f64, Misunderstood> {
+    let text = match node {
+        Node::Text(text) => text.clone(),
+        Node::Number(number) => number.to_string(),
+        other => return Err((other.describe(), Some(format!("write for example `1 {}`", dimension.display_symbol())))),
+    };
+    let value = units::parse(&text, dimension).map_err(|error| (error.found, error.hint))?;
+    // Bounds are inclusive up to rounding of the unit's factor.
+    let slack = 1e-12 * low.abs().max(high.abs());
+    if value < low - slack || value > high + slack {
+        return Err((format!("`{}`", text.trim()), Some("the value is out of range; is the unit right?".into())));
+    }
+    Ok(value)
+}

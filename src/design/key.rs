@@ -1,0 +1,87 @@
+//! What a key of the design file may be. The tables in [`super::schema`] are made of these; reading, the JSON
+//! Schema and the list of inputs in the report all come from the same tables.
+
+use crate::units::Dimension;
+
+/// One key of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    pub name: &'static str,
+    pub kind: Kind,
+    pub need: Need,
+    /// Meaning, for documentation and messages.
+    pub meaning: &'static str,
+}
+
+/// What stands behind a key.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Number and unit, within SI bounds.
+    Quantity { dimension: Dimension, low: f64, high: f64 },
+    /// A list of quantities.
+    Quantities { dimension: Dimension, low: f64, high: f64 },
+    /// A bare number.
+    Number { low: f64, high: f64 },
+    /// A whole number.
+    Count { low: u64, high: u64 },
+    Text,
+    Choice(&'static [&'static str]),
+    Section(&'static [Key]),
+    /// A section that holds exactly one of several sections.
+    OneOf(&'static [Key]),
+}
+
+/// Whether a key may be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    Required,
+    /// May be left out; then it is not there.
+    Optional,
+    /// May be left out; then it is as if this were typed.
+    Default(&'static str),
+}
+
+impl Key {
+    pub const fn required(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
+        Self { name, kind, need: Need::Required, meaning }
+    }
+
+    pub const fn optional(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
+        Self { name, kind, need: Need::Optional, meaning }
+    }
+
+    pub const fn default(name: &'static str, kind: Kind, typed: &'static str, meaning: &'static str) -> Self {
+        Self { name, kind, need: Need::Default(typed), meaning }
+    }
+}
+
+/// A quantity within bounds given in SI.
+pub const fn quantity(dimension: Dimension, low: f64, high: f64) -> Kind {
+    Kind::Quantity { dimension, low, high }
+}
+
+impl Kind {
+    /// What is allowed, in words.
+    pub fn allowed(&self) -> String {
+        match *self {
+            Self::Quantity { dimension, low, high } => {
+                let units = dimension.symbols().join(", ");
+                format!("{} with unit ({units}), {} to {}", dimension.name(), dimension.show(low), dimension.show(high))
+            }
+            Self::Quantities { dimension, low, high } => {
+                format!("a list of values, each {}", Self::Quantity { dimension, low, high }.allowed())
+            }
+            Self::Number { low, high } => format!("a number from {low} to {high}"),
+            Self::Count { low, high } => format!("a whole number from {low} to {high}"),
+            Self::Text => "a text".into(),
+            Self::Choice(words) => format!("one of {}", words.join(", ")),
+            Self::Section(keys) => format!("a group of keys: {}", names(keys)),
+            Self::OneOf(keys) => format!("exactly one of {}", names(keys)),
+        }
+    }
+}
+
+/// The keys' names, for messages.
+pub fn names(keys: &[Key]) -> String {
+    keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", ")
+}

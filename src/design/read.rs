@@ -1,0 +1,60 @@
+//! Reads a design file: text, then words, then values, then rules; every problem at once.
+
+use crate::design::Design;
+use crate::design::document::Document;
+use crate::design::entries::{Entries, read};
+use crate::design::resolve::resolve;
+use crate::design::rules::RULES;
+use crate::design::schema::DESIGN;
+use crate::problem::{Problem, Problems};
+
+/// A design with the words it was read from.
+#[derive(Clone, Debug)]
+pub struct DesignFile {
+    /// The file's name without folder and extension.
+    pub name: String,
+    /// SHA-256 of the file, in hexadecimal.
+    pub sha256: String,
+    pub design: Design,
+    pub entries: Entries,
+}
+
+/// Reads the bytes of the file called `file`.
+pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
+    let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
+    let document = Document::parse(bytes).map_err(|problem| refuse(vec![problem]))?;
+    let mut problems = Vec::new();
+    let entries = read(&document.root, DESIGN, &mut problems);
+    problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
+    if problems.is_empty() {
+        if let Some(design) = resolve(&entries) {
+            return Ok(DesignFile { name: stem(file), sha256: sha256(bytes), design, entries });
+        }
+        problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
+    }
+    for problem in &mut problems {
+        problem.position = problem.position.or_else(|| nearest_position(&document, &problem.path));
+    }
+    problems.sort_by_key(|problem| problem.position);
+    Err(refuse(problems))
+}
+
+/// Position of the key at `path`, or of the nearest key above it that is in the file.
+fn nearest_position(document: &Document, path: &str) -> Option<crate::problem::Position> {
+    let mut path = path;
+    loop {
+        if let Some(position) = document.position(path) {
+            return Some(position);
+        }
+        path = path.rsplit_once('.')?.0;
+    }
+}
+
+fn stem(file: &str) -> String {
+    std::path::Path::new(file).file_stem().map_or_else(|| "design".to_string(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    use sha2::Digest;
+    sha2::Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,79 @@
+//! What is wrong with an input, said so that its author can mend it: where, what was found, what is allowed,
+//! and a hint.
+
+use std::fmt;
+
+/// A position in a file, both counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    pub line: usize,
+    pub column: usize,
+}
+
+/// One thing that is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Key path such as `barrier.flexible_net.height`; empty for the file as a whole.
+    pub path: String,
+    pub position: Option<Position>,
+    pub found: String,
+    pub allowed: String,
+    pub hint: Option<String>,
+}
+
+impl Problem {
+    pub fn new(path: impl Into<String>, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self { path: path.into(), position: None, found: found.into(), allowed: allowed.into(), hint: None }
+    }
+
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    pub fn at(mut self, position: Option<Position>) -> Self {
+        self.position = position;
+        self
+    }
+}
+
+/// All that is wrong with one file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problems {
+    /// The file's name as the user gave it.
+    pub file: String,
+    pub list: Vec<Problem>,
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for problem in &self.list {
+            write!(f, "error: {}", self.file)?;
+            if let Some(Position { line, column }) = problem.position {
+                write!(f, ":{line}:{column}")?;
+            }
+            if !problem.path.is_empty() {
+                write!(f, ": {}", problem.path)?;
+            }
+            writeln!(f, "\n  found:   {}", problem.found)?;
+            writeln!(f, "  allowed: {}", problem.allowed)?;
+            if let Some(hint) = &problem.hint {
+                writeln!(f, "  hint:    {hint}")?;
+            }
+        }
+        let count = self.list.len();
+        writeln!(f, "{count} problem{} in {}; nothing was run.", if count == 1 { "" } else { "s" }, self.file)
+    }
+}
+
+impl std::error::Error for Problems {}
+
+/// The nearest of `known` to a mistyped `word`, if any is near.
+pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
+        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
