@@ -1,1 +1,70 @@
-fn main() {}
+//! Arguments → command → exit code: 0 pass, 1 a check fails, 2 cannot decide.
+
+use std::path::PathBuf;
+use std::process;
+
+use barrier_check::commands::check::check;
+use barrier_check::commands::schema::{design_schema, result_schema};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Checks a debris-flow barrier: guideline loads, granular-flow simulation, limits, report.
+#[derive(Parser)]
+#[command(
+    version,
+    args_conflicts_with_subcommands = true,
+    arg_required_else_help = true
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    check: CheckArguments,
+}
+
+#[derive(Args)]
+struct CheckArguments {
+    /// Design file in YAML, for example designs/small_net.yaml
+    design: Option<PathBuf>,
+    /// Folder for the report [default: out/<name of the design file>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Number of threads [default: all cores]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Prints a JSON Schema
+    Schema { of: SchemaOf },
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SchemaOf {
+    Design,
+    Result,
+}
+
+fn main() {
+    let arguments = Arguments::parse();
+    let code = match arguments.command {
+        Some(Command::Schema { of }) => {
+            let schema = match of {
+                SchemaOf::Design => design_schema(),
+                SchemaOf::Result => result_schema(),
+            };
+            println!("{schema:#}");
+            0
+        }
+        None => {
+            let CheckArguments {
+                design,
+                out,
+                threads,
+            } = arguments.check;
+            let design = design.unwrap_or_default();
+            check(&design, out.as_deref(), threads.map(usize::from)) as i32
+        }
+    };
+    process::exit(code);
+}

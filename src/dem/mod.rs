@@ -7,6 +7,7 @@ pub mod geometry;
 pub mod ledger;
 pub mod neighbours;
 pub mod net;
+pub mod recorders;
 pub mod simulation;
 pub mod tables;
 pub mod time;

@@ -57,6 +57,20 @@ pub fn pull_all(barrier: &Barrier, time_step: f64) -> NetForces {
     net
 }
 
+/// Lets ropes slide through their rings at the present places; returns the energy lost (J).
+pub fn slide_all(barrier: &mut Barrier) -> f64 {
+    let Barrier {
+        nodes,
+        segments,
+        chains,
+        ..
+    } = barrier;
+    chains
+        .iter()
+        .map(|chain| chain.slide(segments, nodes))
+        .sum()
+}
+
 impl NetForces {
     /// Adds the force of a grain on a segment.
     pub fn push(&mut self, push: &Push) {

@@ -11,7 +11,7 @@ use crate::dem::contact::surfaces::{SurfaceContext, SurfaceForces, load_surfaces
 use crate::dem::ledger::{ContactSums, Ledger};
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
-use crate::dem::net::{NetForces, pull_all};
+use crate::dem::net::{NetForces, pull_all, slide_all};
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grains::{Grain, GrainShape, Member, MemberLoad, place_members};
 use crate::dem::tables::surfaces::{Surface, SurfaceRole};
@@ -20,6 +20,12 @@ use crate::dem::time::stable_step::{Audit, StepRatio};
 
 /// Steps between two audits of the stable step.
 const STEPS_PER_AUDIT: u64 = 250;
+
+/// Step over critical step to which the time step is cut when an audit finds it beyond the critical step.
+const STEP_AFTER_CUT: f64 = 0.95;
+
+/// Share of the first time step below which a run is given up.
+const SHORTEST_STEP: f64 = 0.05;
 
 /// What the grains are made of, as contacts feel it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +61,8 @@ pub struct Model {
 pub enum Unstable {
     #[error("grain {id} left all bounds at t = {time:.4} s (speed {speed:.3e} m/s)")]
     Grain { id: u32, time: f64, speed: f64 },
+    #[error("no time step is stable at t = {time:.4} s: cut down to {step:.3e} s")]
+    Step { time: f64, step: f64 },
     #[error("barrier node {node} left all bounds at t = {time:.4} s (speed {speed:.3e} m/s)")]
     Node { node: usize, time: f64, speed: f64 },
 }
@@ -92,6 +100,9 @@ pub struct Simulation {
     pub sums: StepSums,
     pub ledger: Ledger,
     pub extremes: Extremes,
+    /// How often an audit has shortened the time step.
+    pub step_cuts: u32,
+    first_time_step: f64,
     damping_ratio: f64,
     kinetic_before: MotionSums,
     /// Speed no grain or node can have by honest means (m/s).
@@ -117,6 +128,8 @@ impl Simulation {
             sums: StepSums::default(),
             ledger: Ledger::default(),
             extremes: Extremes::default(),
+            step_cuts: 0,
+            first_time_step: time_step,
             damping_ratio,
             kinetic_before: MotionSums::default(),
             speed_limit,
@@ -135,8 +148,8 @@ impl Simulation {
         self.steps += 1;
         self.load();
         self.gather_sums();
-        if self.steps.is_multiple_of(STEPS_PER_AUDIT) {
-            self.audit();
+        if self.steps.is_multiple_of(STEPS_PER_AUDIT) && self.drag == 0.0 {
+            self.audit()?;
         }
         self.advance();
         self.time += self.time_step;
@@ -206,13 +219,35 @@ impl Simulation {
     fn load(&mut self) {
         let law = self.law();
         let step = self.steps as u32;
-        let Self { model, members, loads, neighbours, sums, .. } = self;
-        let forces = BlockForces { model, members, law, step };
-        let block_rows = neighbours.blocks.first().map_or(1, |block| block.members.len().max(1));
+        let Self {
+            model,
+            members,
+            loads,
+            neighbours,
+            sums,
+            ..
+        } = self;
+        let forces = BlockForces {
+            model,
+            members,
+            law,
+            step,
+        };
+        let block_rows = neighbours
+            .blocks
+            .first()
+            .map_or(1, |block| block.members.len().max(1));
         let (net, ()) = rayon::join(
-            || model.barrier.as_ref().map(|barrier| pull_all(barrier, law.time_step)),
             || {
-                let rows = loads.par_chunks_mut(block_rows).zip(neighbours.blocks.par_iter_mut());
+                model
+                    .barrier
+                    .as_ref()
+                    .map(|barrier| pull_all(barrier, law.time_step))
+            },
+            || {
+                let rows = loads
+                    .par_chunks_mut(block_rows)
+                    .zip(neighbours.blocks.par_iter_mut());
                 rows.for_each(|(loads, block)| forces.load_block(block, loads));
             },
         );
@@ -241,7 +276,8 @@ impl Simulation {
         self.sums.surfaces = surfaces;
     }
 
-    fn audit(&mut self) {
+    /// Holds the time step against what is connected now, and cuts it where it is too long.
+    fn audit(&mut self) -> Result<(), Unstable> {
         let audit = Audit {
             grains: &self.model.grains,
             members: &self.members,
@@ -256,18 +292,41 @@ impl Simulation {
         };
         let ratio = audit.ratio();
         let worst = &mut self.extremes.step_ratio;
-        *worst = StepRatio { grains: worst.grains.max(ratio.grains), nodes: worst.nodes.max(ratio.nodes) };
+        *worst = StepRatio {
+            grains: worst.grains.max(ratio.grains),
+            nodes: worst.nodes.max(ratio.nodes),
+        };
+        if ratio.largest() > 1.0 {
+            self.time_step *= STEP_AFTER_CUT / ratio.largest();
+            self.step_cuts += 1;
+        }
+        if self.time_step < SHORTEST_STEP * self.first_time_step || !ratio.largest().is_finite() {
+            return Err(Unstable::Step {
+                time: self.time,
+                step: self.time_step,
+            });
+        }
+        Ok(())
     }
 
     /// Moves everything through the step and closes the account of the instant the forces belong to.
     fn advance(&mut self) {
-        let time = Stretch { step: self.time_step, drag: self.drag };
+        let time = Stretch {
+            step: self.time_step,
+            drag: self.drag,
+        };
         let gravity = self.model.gravity;
         let per_grain = self.model.shape.members();
         let mut motion = MotionSums::default();
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_dissipators += self.sums.net.slip_dissipators(barrier);
-            motion.add(&move_nodes(&mut barrier.nodes, &self.sums.net.forces, &gravity, self.time_step));
+            self.ledger.lost_friction += slide_all(barrier);
+            motion.add(&move_nodes(
+                &mut barrier.nodes,
+                &self.sums.net.forces,
+                &gravity,
+                self.time_step,
+            ));
         }
         let Neighbours { blocks, .. } = &mut self.neighbours;
         let rows = blocks.first().map_or(1, |block| block.members.len().max(1));
@@ -281,7 +340,10 @@ impl Simulation {
             .zip(reference.par_chunks(rows))
             .map(|(((grains, members), loads), reference)| {
                 let sums = move_grains(grains, members, loads, &gravity, time);
-                (sums, crate::dem::neighbours::renew::moved_squared(reference, members))
+                (
+                    sums,
+                    crate::dem::neighbours::renew::moved_squared(reference, members),
+                )
             })
             .collect();
         for (block, (sums, moved_squared)) in self.neighbours.blocks.iter_mut().zip(&moved) {
@@ -302,7 +364,13 @@ impl Simulation {
             sums.kinetic += 0.5 * grain.body.mass * grain.velocity.norm_squared() + rotational;
             sums.potential -= grain.body.mass * self.model.gravity.dot(&grain.position);
         }
-        for node in self.model.barrier.iter().flat_map(|barrier| &barrier.nodes).filter(|node| !node.fixed) {
+        for node in self
+            .model
+            .barrier
+            .iter()
+            .flat_map(|barrier| &barrier.nodes)
+            .filter(|node| !node.fixed)
+        {
             sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
             sums.potential -= node.mass * self.model.gravity.dot(&node.position);
         }
@@ -315,13 +383,30 @@ impl Simulation {
         let honest = |position: &Vec3, velocity: &Vec3| {
             position.iter().all(|value| value.is_finite()) && velocity.norm() <= limit
         };
-        if let Some(grain) = self.model.grains.iter().find(|grain| !honest(&grain.position, &grain.velocity)) {
-            return Err(Unstable::Grain { id: grain.id, time: self.time, speed: grain.velocity.norm() });
+        if let Some(grain) = self
+            .model
+            .grains
+            .iter()
+            .find(|grain| !honest(&grain.position, &grain.velocity))
+        {
+            return Err(Unstable::Grain {
+                id: grain.id,
+                time: self.time,
+                speed: grain.velocity.norm(),
+            });
         }
-        let nodes = self.model.barrier.iter().flat_map(|barrier| barrier.nodes.iter().enumerate());
+        let nodes = self
+            .model
+            .barrier
+            .iter()
+            .flat_map(|barrier| barrier.nodes.iter().enumerate());
         for (index, node) in nodes {
             if !honest(&node.position, &node.velocity) {
-                return Err(Unstable::Node { node: index, time: self.time, speed: node.velocity.norm() });
+                return Err(Unstable::Node {
+                    node: index,
+                    time: self.time,
+                    speed: node.velocity.norm(),
+                });
             }
         }
         Ok(())
@@ -338,13 +423,31 @@ struct BlockForces<'a> {
 
 impl BlockForces<'_> {
     fn load_block(&self, block: &mut Block, loads: &mut [MemberLoad]) {
-        let Self { model, members, law, step } = *self;
+        let Self {
+            model,
+            members,
+            law,
+            step,
+        } = *self;
         let material = &model.material;
         loads.fill(MemberLoad::default());
-        let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
-        let pairs = PairContext { members, constants, step };
+        let constants = PairConstants {
+            law,
+            modulus: material.modulus,
+            friction: material.friction,
+        };
+        let pairs = PairContext {
+            members,
+            constants,
+            step,
+        };
         let mut sums = load_inner(&mut block.inner, &pairs, &block.members, loads);
-        sums.add(&load_border(&mut block.border, &pairs, &block.members, loads));
+        sums.add(&load_border(
+            &mut block.border,
+            &pairs,
+            &block.members,
+            loads,
+        ));
         let surfaces = SurfaceContext {
             members,
             surfaces: &model.surfaces,
@@ -355,7 +458,13 @@ impl BlockForces<'_> {
             wall_levels: &model.wall_levels,
         };
         block.surface_forces.reset(model.wall_levels.len());
-        sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.members, loads, &mut block.surface_forces));
+        sums.add(&load_surfaces(
+            &mut block.surfaces,
+            &surfaces,
+            &block.members,
+            loads,
+            &mut block.surface_forces,
+        ));
         if let Some(barrier) = &model.barrier {
             let context = RopeContext {
                 members,

@@ -75,9 +75,17 @@ impl Flow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
     /// A block at rest behind a gate; `distance` is from the gate to the barrier's foot.
-    DamBreak { length: f64, height: f64, distance: f64 },
+    DamBreak {
+        length: f64,
+        height: f64,
+        distance: f64,
+    },
     /// A block just upstream, already moving down the channel.
-    Surge { length: f64, depth: f64, velocity: f64 },
+    Surge {
+        length: f64,
+        depth: f64,
+        velocity: f64,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -196,6 +204,7 @@ pub struct Factors {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationWishes {
     pub fidelity: FidelityWish,
+    pub barrier_model: BarrierModel,
     pub seed: u64,
     /// Longest simulated time (s).
     pub longest: f64,
@@ -207,4 +216,13 @@ pub enum FidelityWish {
     Fast,
     Standard,
     Fine,
+}
+
+/// How the net hangs on its main ropes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BarrierModel {
+    /// Rings are fixed to the rope.
+    PinnedRopes,
+    /// Ropes run through the rings with friction.
+    SlidingRopes,
 }

@@ -4,8 +4,9 @@ use crate::design::entries::Entries;
 use crate::design::rules::{flow_volume, quantiles, rope_heights};
 use crate::design::sizes::SizeCurve;
 use crate::design::{
-    Arrival, BarrierDesign, Bottom, Channel, Design, DissipatorDesign, Factors, FidelityWish, FlexibleNet, Flow, LateralTo,
-    Limits, MainRopes, Project, RigidWall, Rope, SimulationWishes,
+    Arrival, BarrierDesign, BarrierModel, Bottom, Channel, Design, DissipatorDesign, Factors,
+    FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, Project, RigidWall, Rope,
+    SimulationWishes,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -22,8 +23,18 @@ pub fn resolve(e: &Entries) -> Option<Design> {
 }
 
 fn project(e: &Entries) -> Project {
-    let text = |key: &str| e.text(&format!("project.{key}")).unwrap_or_default().to_string();
-    Project { name: text("name"), barrier: text("barrier"), revision: text("revision"), author: text("author"), notes: text("notes") }
+    let text = |key: &str| {
+        e.text(&format!("project.{key}"))
+            .unwrap_or_default()
+            .to_string()
+    };
+    Project {
+        name: text("name"),
+        barrier: text("barrier"),
+        revision: text("revision"),
+        author: text("author"),
+        notes: text("notes"),
+    }
 }
 
 fn channel(e: &Entries) -> Option<Channel> {
@@ -68,10 +79,18 @@ fn arrival(e: &Entries) -> Option<Arrival> {
     let area = |length: f64| Some(flow_volume(e)? / (length * e.number("channel.width")?));
     if e.has_section("flow.arrival.dam_break") {
         let length = value("dam_break.length")?;
-        return Some(Arrival::DamBreak { length, height: area(length)?, distance: value("dam_break.distance")? });
+        return Some(Arrival::DamBreak {
+            length,
+            height: area(length)?,
+            distance: value("dam_break.distance")?,
+        });
     }
     let depth = value("surge.depth")?;
-    Some(Arrival::Surge { length: area(depth)?, depth, velocity: value("surge.velocity")? })
+    Some(Arrival::Surge {
+        length: area(depth)?,
+        depth,
+        velocity: value("surge.velocity")?,
+    })
 }
 
 fn barrier(e: &Entries) -> Option<BarrierDesign> {
@@ -87,12 +106,18 @@ const DEFAULT_SEGMENTS: usize = 6;
 fn rigid_wall(e: &Entries) -> Option<RigidWall> {
     let height = e.number("barrier.rigid_wall.height")?;
     let even = vec![height / DEFAULT_SEGMENTS as f64; DEFAULT_SEGMENTS];
-    let parts = e.numbers("barrier.rigid_wall.segments").map_or(even, <[f64]>::to_vec);
+    let parts = e
+        .numbers("barrier.rigid_wall.segments")
+        .map_or(even, <[f64]>::to_vec);
     let segment_tops = parts.iter().scan(0.0, |top, part| {
         *top += part;
         Some(*top)
     });
-    Some(RigidWall { height, segment_tops: segment_tops.collect(), resistance: e.number("barrier.rigid_wall.resistance") })
+    Some(RigidWall {
+        height,
+        segment_tops: segment_tops.collect(),
+        resistance: e.number("barrier.rigid_wall.resistance"),
+    })
 }
 
 fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
@@ -117,7 +142,11 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             ring_friction: value("main_ropes.rings.friction")?.tan(),
         },
         lateral_rope: rope(e, "lateral_ropes")?,
-        lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::Dissipators },
+        lateral_to: if tied_to == "anchors" {
+            LateralTo::Anchors
+        } else {
+            LateralTo::Dissipators
+        },
         dissipators: match dissipators {
             Some(dissipators) => Some(dissipators?),
             None => None,
@@ -129,7 +158,11 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
 
 fn rope(e: &Entries, part: &str) -> Option<Rope> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{part}.{key}"));
-    Some(Rope { diameter: value("diameter")?, modulus: value("modulus")?, breaking_load: value("breaking_load")? })
+    Some(Rope {
+        diameter: value("diameter")?,
+        modulus: value("modulus")?,
+        breaking_load: value("breaking_load")?,
+    })
 }
 
 fn limits(e: &Entries) -> Option<Limits> {
@@ -160,6 +193,15 @@ fn simulation(e: &Entries) -> Option<SimulationWishes> {
         "fine" => FidelityWish::Fine,
         _ => FidelityWish::Standard,
     };
+    let barrier_model = match e.text("simulation.barrier_model")? {
+        "pinned_ropes" => BarrierModel::PinnedRopes,
+        _ => BarrierModel::SlidingRopes,
+    };
     let seed = e.number("simulation.seed")? as u64;
-    Some(SimulationWishes { fidelity, seed, longest: e.number("simulation.longest")? })
+    Some(SimulationWishes {
+        fidelity,
+        barrier_model,
+        seed,
+        longest: e.number("simulation.longest")?,
+    })
 }

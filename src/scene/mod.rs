@@ -1,4 +1,6 @@
 //! From a design to bodies: `Design` + `Fidelity` → `dem::Model`.
 
+pub mod build;
+pub mod event;
 pub mod flow;
 pub mod net;

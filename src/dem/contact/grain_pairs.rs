@@ -7,7 +7,9 @@
 use std::ops::Range;
 
 use crate::dem::contact::candidates::CandidateList;
-use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Response, add_scaled, cross, dot, respond};
+use crate::dem::contact::law::{
+    ContactPoint, LawConstants, Memory, Response, add_scaled, cross, dot, respond,
+};
 use crate::dem::ledger::ContactSums;
 use crate::dem::tables::grains::{Member, MemberLoad};
 
@@ -56,27 +58,51 @@ pub struct PairContext<'a> {
 }
 
 /// Loads both members of every touching pair inside the block; `loads` holds the rows of `range`.
-pub fn load_inner(list: &mut CandidateList, context: &PairContext, range: &Range<usize>, loads: &mut [MemberLoad]) -> ContactSums {
+pub fn load_inner(
+    list: &mut CandidateList,
+    context: &PairContext,
+    range: &Range<usize>,
+    loads: &mut [MemberLoad],
+) -> ContactSums {
     load::<{ Sides::Both as u8 }>(list, context, range, loads)
 }
 
 /// Loads the first member of every touching pair across the block's border.
-pub fn load_border(list: &mut CandidateList, context: &PairContext, range: &Range<usize>, loads: &mut [MemberLoad]) -> ContactSums {
+pub fn load_border(
+    list: &mut CandidateList,
+    context: &PairContext,
+    range: &Range<usize>,
+    loads: &mut [MemberLoad],
+) -> ContactSums {
     load::<{ Sides::First as u8 }>(list, context, range, loads)
 }
 
-fn load<const SIDES: u8>(list: &mut CandidateList, context: &PairContext, range: &Range<usize>, loads: &mut [MemberLoad]) -> ContactSums {
+fn load<const SIDES: u8>(
+    list: &mut CandidateList,
+    context: &PairContext,
+    range: &Range<usize>,
+    loads: &mut [MemberLoad],
+) -> ContactSums {
     list.find_touching(context.members);
     let mut batch = Batch::default();
     let mut sums = ContactSums::default();
-    let CandidateList { pairs, memory, touched, active } = list;
+    let CandidateList {
+        pairs,
+        memory,
+        touched,
+        active,
+    } = list;
     for slots in active.chunks(LANES) {
         for (lane, &slot) in slots.iter().enumerate() {
             let slot = slot as usize;
             let [first, second] = pairs[slot];
             let keep = f64::from(touched[slot] + 1 == context.step);
             touched[slot] = context.step;
-            batch.gather(lane, &context.members[first as usize], &context.members[second as usize]);
+            batch.gather(
+                lane,
+                &context.members[first as usize],
+                &context.members[second as usize],
+            );
             batch.remember(lane, &memory[slot], keep);
         }
         batch.evaluate(&context.constants);
@@ -166,7 +192,10 @@ impl Batch {
 
     #[inline(always)]
     fn memory(&self, lane: usize) -> Memory {
-        Memory { tangential: [self.new[0][lane], self.new[1][lane], self.new[2][lane]], dashpot: self.new[3][lane] }
+        Memory {
+            tangential: [self.new[0][lane], self.new[1][lane], self.new[2][lane]],
+            dashpot: self.new[3][lane],
+        }
     }
 
     #[inline(always)]
@@ -222,7 +251,10 @@ impl Batch {
     fn evaluate_lanes(&mut self, constants: &PairConstants) {
         for lane in 0..LANES {
             let (point, arms) = self.touch(lane, constants);
-            let memory = Memory { tangential: column(&self.old, lane), dashpot: self.old[3][lane] };
+            let memory = Memory {
+                tangential: column(&self.old, lane),
+                dashpot: self.old[3][lane],
+            };
             let response = respond(&point, &memory, &constants.law);
             self.store(lane, &point, arms, &response);
         }
@@ -235,7 +267,11 @@ impl Batch {
         let (r1, r2) = (self.radius[0][lane], self.radius[1][lane]);
         let distance = dot(between, between).sqrt();
         let inverse = 1.0 / distance;
-        let normal = [between[0] * inverse, between[1] * inverse, between[2] * inverse];
+        let normal = [
+            between[0] * inverse,
+            between[1] * inverse,
+            between[2] * inverse,
+        ];
         let overlap = r1 + r2 - distance;
         let spin = column(&self.spin, lane);
         let rim = add_scaled(column(&self.rim_spin, lane), -0.5 * overlap, spin);

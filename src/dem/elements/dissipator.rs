@@ -45,7 +45,11 @@ impl Dissipator {
         let line = end.position - anchor.position;
         let length = line.norm();
         let mut brake = self.elongate(length - self.rest_length);
-        brake.direction = if length > 0.0 { line / length } else { Vec3::zeros() };
+        brake.direction = if length > 0.0 {
+            line / length
+        } else {
+            Vec3::zeros()
+        };
         brake
     }
 
@@ -56,7 +60,12 @@ impl Dissipator {
         let lost = self.plateau * (wanted - self.used);
         self.used = wanted;
         let elastic = (elongation - self.used).max(0.0);
-        Brake { tension: self.stiffness * elastic, stored: 0.5 * self.stiffness * elastic * elastic, lost, ..Brake::default() }
+        Brake {
+            tension: self.stiffness * elastic,
+            stored: 0.5 * self.stiffness * elastic * elastic,
+            lost,
+            ..Brake::default()
+        }
     }
 
     /// Whether the stroke is used up.
@@ -71,18 +80,42 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn brake() -> Dissipator {
-        Dissipator { nodes: [0, 1], rope: 0, rest_length: 0.0, stiffness: 45.957e6, plateau: 250e3, stroke: 2.5, used: 0.0 }
+        Dissipator {
+            nodes: [0, 1],
+            rope: 0,
+            rest_length: 0.0,
+            stiffness: 45.957e6,
+            plateau: 250e3,
+            stroke: 2.5,
+            used: 0.0,
+        }
     }
 
     #[test]
     fn holds_the_plateau_exactly_and_unloads_elastically() {
         // Case D18.
         let mut dissipator = brake();
-        assert_relative_eq!(dissipator.elongate(0.001).tension, 45.957e3, max_relative = 1e-12);
-        assert_relative_eq!(dissipator.elongate(1.0).tension, 250e3, max_relative = 1e-12);
+        assert_relative_eq!(
+            dissipator.elongate(0.001).tension,
+            45.957e3,
+            max_relative = 1e-12
+        );
+        assert_relative_eq!(
+            dissipator.elongate(1.0).tension,
+            250e3,
+            max_relative = 1e-12
+        );
         let back = 1.0 - 100e3 / 45.957e6;
-        assert_relative_eq!(dissipator.elongate(back).tension, 150e3, max_relative = 1e-9);
-        assert_relative_eq!(dissipator.used, 1.0 - 250e3 / 45.957e6, max_relative = 1e-12);
+        assert_relative_eq!(
+            dissipator.elongate(back).tension,
+            150e3,
+            max_relative = 1e-9
+        );
+        assert_relative_eq!(
+            dissipator.used,
+            1.0 - 250e3 / 45.957e6,
+            max_relative = 1e-12
+        );
         assert_eq!(dissipator.elongate(0.5).tension, 0.0);
     }
 

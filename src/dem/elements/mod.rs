@@ -2,3 +2,4 @@
 
 pub mod dissipator;
 pub mod rope;
+pub mod sliding;

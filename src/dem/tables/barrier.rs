@@ -2,6 +2,7 @@
 
 use crate::dem::Vec3;
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::sliding::Chain;
 
 /// A point mass of the net or of a rope.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +35,14 @@ pub struct Segment {
     pub radius: f64,
 }
 
+impl Segment {
+    /// Changes the rest length; the stiffness EA/L0 follows.
+    pub fn set_rest_length(&mut self, rest_length: f64) {
+        self.stiffness *= self.rest_length / rest_length;
+        self.rest_length = rest_length;
+    }
+}
+
 /// Which part of the barrier a segment belongs to; `Main` carries the number of its rope from the bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SegmentKind {
@@ -56,6 +65,8 @@ pub struct Barrier {
     pub segments: Vec<Segment>,
     pub dissipators: Vec<Dissipator>,
     pub anchors: Vec<Anchor>,
+    /// Ropes that slide through their rings; empty where rings are pinned.
+    pub chains: Vec<Chain>,
     /// Friction coefficient between grain and rope, tan φ.
     pub friction: f64,
     /// Young's modulus of the rope in contact with a grain (Pa).

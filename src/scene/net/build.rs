@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 
 use crate::dem::Vec3;
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::sliding::Chain;
 use crate::dem::tables::barrier::{Anchor, Barrier, Node, Segment, SegmentKind};
-use crate::design::{Bottom, Channel, FlexibleNet, LateralTo, Rope};
+use crate::design::{BarrierModel, Bottom, Channel, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
 
 /// Density of wire rope over its full circle (kg/m³): steel.
@@ -15,6 +16,9 @@ pub const ROPE_DENSITY: f64 = 7850.0;
 pub const ROPE_DAMPING_RATIO: f64 = 0.05;
 /// Length between anchor and first knot (m): one 70 mm cylinder in Albaba 2015, section 4.2.3.
 pub const END_PIECE: f64 = 0.07;
+
+/// Rest length, over the ring spacing, below which no rope is taken out between two rings: there they touch.
+pub const SHORTEST_SEGMENT: f64 = 0.25;
 
 /// A built barrier with the places of its knots, which recorders need.
 #[derive(Clone, Debug)]
@@ -27,10 +31,11 @@ pub struct BuiltNet {
 }
 
 /// Builds the net of `design` across `channel`. The barrier's foot is at x = 0.
-pub fn build(design: &FlexibleNet, channel: &Channel) -> BuiltNet {
+pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel) -> BuiltNet {
     let mut builder = Builder {
         design,
         channel,
+        model,
         grid: Grid::fit(design, channel.width),
         barrier: Barrier {
             friction: channel.barrier_friction,
@@ -49,6 +54,7 @@ pub fn build(design: &FlexibleNet, channel: &Channel) -> BuiltNet {
 struct Builder<'a> {
     design: &'a FlexibleNet,
     channel: &'a Channel,
+    model: BarrierModel,
     grid: Grid,
     barrier: Barrier,
     knots: BTreeMap<(usize, usize), u32>,
@@ -93,7 +99,10 @@ impl Builder<'_> {
     fn add_net(&mut self) {
         let mut pairs = Vec::new();
         for (&(column, row), &node) in &self.knots {
-            for neighbour in [column.checked_sub(1), Some(column + 1)].into_iter().flatten() {
+            for neighbour in [column.checked_sub(1), Some(column + 1)]
+                .into_iter()
+                .flatten()
+            {
                 if let Some(&above) = self.knots.get(&(neighbour, row + 1)) {
                     pairs.push([node, above]);
                 }
@@ -108,15 +117,35 @@ impl Builder<'_> {
         for (rope, row) in self.grid.rope_rows.clone().into_iter().enumerate() {
             let kind = SegmentKind::Main(rope as u16);
             let nodes: Vec<u32> = self.knots_of_row(row);
+            let first_segment = self.barrier.segments.len() as u32;
             for pair in nodes.windows(2) {
                 self.add_segment([pair[0], pair[1]], kind, &self.design.main_ropes.rope);
             }
             let held_by_bed = rope == 0 && self.design.bottom == Bottom::Fixed;
             if !held_by_bed {
+                let segments = (first_segment..self.barrier.segments.len() as u32).collect();
+                self.add_chain(segments);
                 let up = self.grid.row_heights[row];
                 self.add_rope_end(rope as u16, nodes[0], self.place(0.0, up));
-                self.add_rope_end(rope as u16, nodes[nodes.len() - 1], self.place(self.channel.width, up));
+                self.add_rope_end(
+                    rope as u16,
+                    nodes[nodes.len() - 1],
+                    self.place(self.channel.width, up),
+                );
             }
+        }
+    }
+
+    /// Lets a main rope run through its rings, if the model has it so.
+    fn add_chain(&mut self, segments: Vec<u32>) {
+        if self.model == BarrierModel::SlidingRopes {
+            let rings = &self.design.main_ropes;
+            let shortest = SHORTEST_SEGMENT * rings.ring_spacing;
+            self.barrier.chains.push(Chain {
+                segments,
+                friction: rings.ring_friction,
+                shortest,
+            });
         }
     }
 
@@ -134,7 +163,11 @@ impl Builder<'_> {
                 stroke: dissipator.stroke,
                 used: 0.0,
             }),
-            None => self.add_segment([anchor, end], SegmentKind::Main(rope), &self.design.main_ropes.rope),
+            None => self.add_segment(
+                [anchor, end],
+                SegmentKind::Main(rope),
+                &self.design.main_ropes.rope,
+            ),
         }
     }
 
@@ -146,17 +179,29 @@ impl Builder<'_> {
                 line.push(self.lateral_stop(column, row));
             }
             for pair in line.windows(2) {
-                self.add_segment([pair[0], pair[1]], SegmentKind::Lateral, &self.design.lateral_rope);
+                self.add_segment(
+                    [pair[0], pair[1]],
+                    SegmentKind::Lateral,
+                    &self.design.lateral_rope,
+                );
             }
         }
     }
 
     fn lateral_stop(&self, column: usize, row: usize) -> u32 {
-        let rope = self.grid.rope_rows.iter().position(|&rope_row| rope_row == row);
+        let rope = self
+            .grid
+            .rope_rows
+            .iter()
+            .position(|&rope_row| rope_row == row);
         let anchor = match (self.design.lateral_to, rope) {
             (LateralTo::Anchors, Some(rope)) => {
                 let side = usize::from(column > 0);
-                self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == rope).nth(side)
+                self.barrier
+                    .anchors
+                    .iter()
+                    .filter(|anchor| anchor.rope as usize == rope)
+                    .nth(side)
             }
             _ => None,
         };
@@ -164,7 +209,10 @@ impl Builder<'_> {
     }
 
     fn knots_of_row(&self, row: usize) -> Vec<u32> {
-        self.grid.knot_columns(row).map(|column| self.knots[&(column, row)]).collect()
+        self.grid
+            .knot_columns(row)
+            .map(|column| self.knots[&(column, row)])
+            .collect()
     }
 
     /// Adds a straight rope between two nodes, unstretched as it lies, half its mass to each.
@@ -181,12 +229,25 @@ impl Builder<'_> {
             node.radius = node.radius.max(radius);
         }
         let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
-        self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius });
+        self.barrier.segments.push(Segment {
+            nodes,
+            kind,
+            rest_length,
+            stiffness,
+            damping,
+            radius,
+        });
     }
 
     fn finish(mut self) -> BuiltNet {
         self.barrier.connect();
-        let rows = (0..self.grid.row_heights.len()).map(|row| self.knots_of_row(row)).collect();
-        BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }
+        let rows = (0..self.grid.row_heights.len())
+            .map(|row| self.knots_of_row(row))
+            .collect();
+        BuiltNet {
+            barrier: self.barrier,
+            rows,
+            rope_rows: self.grid.rope_rows,
+        }
     }
 }

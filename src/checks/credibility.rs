@@ -1,0 +1,97 @@
+//! Whether a run may be believed at all. A run that breaks one of these limits ends undecided, never as a pass.
+
+/// Energy imbalance over the energy put in.
+pub const ENERGY_LIMIT: f64 = 0.01;
+/// Overlap over the smaller radius.
+pub const OVERLAP_LIMIT: f64 = 0.20;
+/// Time step over critical step. An audit cuts the step as soon as it finds it beyond 1, so a value much
+/// above means that contacts stiffened between two audits.
+pub const STEP_LIMIT: f64 = 1.5;
+
+/// What a run shows of its own numerics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Numerics {
+    pub energy_error: f64,
+    pub overlap: f64,
+    pub step_ratio: f64,
+    /// Why the run ended early, if it did.
+    pub broke_down: Option<String>,
+    /// Whether the answer still changed when the longest time was reached.
+    pub unfinished: bool,
+}
+
+/// Reasons why the run cannot be relied on; none if it can.
+pub fn doubts(numerics: &Numerics) -> Vec<String> {
+    let mut doubts = Vec::new();
+    doubts.extend(
+        numerics
+            .broke_down
+            .iter()
+            .map(|reason| format!("the simulation broke down: {reason}")),
+    );
+    let mut hold = |what: &str, value: f64, limit: f64| {
+        // Asked as "within", so that a NaN raises a doubt.
+        if !(value.abs() <= limit) {
+            doubts.push(format!("{what} is {value:.3e}, beyond the limit {limit}"));
+        }
+    };
+    hold(
+        "the energy imbalance over the energy put in",
+        numerics.energy_error,
+        ENERGY_LIMIT,
+    );
+    hold(
+        "the largest overlap over the smaller radius",
+        numerics.overlap,
+        OVERLAP_LIMIT,
+    );
+    hold(
+        "the time step over the critical step",
+        numerics.step_ratio,
+        STEP_LIMIT,
+    );
+    if numerics.unfinished {
+        doubts.push(
+            "the flow had not come to rest when the longest simulated time was reached".to_string(),
+        );
+    }
+    doubts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_and_nan_raise_a_doubt() {
+        assert!(doubts(&Numerics::default()).is_empty());
+        for broken in [
+            Numerics {
+                energy_error: -0.02,
+                ..Numerics::default()
+            },
+            Numerics {
+                energy_error: f64::NAN,
+                ..Numerics::default()
+            },
+            Numerics {
+                overlap: 0.21,
+                ..Numerics::default()
+            },
+            Numerics {
+                step_ratio: 2.0,
+                ..Numerics::default()
+            },
+            Numerics {
+                unfinished: true,
+                ..Numerics::default()
+            },
+            Numerics {
+                broke_down: Some("x".into()),
+                ..Numerics::default()
+            },
+        ] {
+            assert_eq!(doubts(&broken).len(), 1, "{broken:?}");
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Limit states, one file each. Nothing here sees the simulation: demands come ready.
+
+pub mod anchors;
+pub mod brakes;
+pub mod credibility;
+pub mod height;
+pub mod outcome;
+pub mod retained;
+pub mod ropes;
+pub mod total_force;
+
+use crate::checks::outcome::Outcome;
+use crate::demand::Demands;
+use crate::design::Design;
+
+type Check = fn(&Design, &Demands) -> Vec<Outcome>;
+
+/// All checks, in the order of the report.
+const CHECKS: &[Check] = &[
+    total_force::check,
+    ropes::check_main,
+    ropes::check_net,
+    brakes::check_stroke,
+    brakes::check_plateau,
+    anchors::check,
+    retained::check,
+    height::check,
+];
+
+/// Holds the demands against all limits.
+pub fn check_all(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    CHECKS
+        .iter()
+        .flat_map(|check| check(design, demands))
+        .collect()
+}

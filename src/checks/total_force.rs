@@ -1,0 +1,24 @@
+//! Total force on the barrier against the resistance of a rigid wall, if that is known.
+
+use crate::checks::outcome::{CheckName, Outcome};
+use crate::demand::Demands;
+use crate::design::{BarrierDesign, Design};
+use crate::sources::DESIGN_LIMIT;
+
+pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    let name = CheckName::new(
+        "total_force",
+        "Total force on the barrier",
+        "N",
+        DESIGN_LIMIT,
+    );
+    let demand = demands.total_force.times(design.factors.load);
+    let resistance = match &design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.resistance,
+        BarrierDesign::FlexibleNet(_) => None,
+    };
+    vec![match resistance {
+        Some(resistance) => Outcome::at_most(name, demand, resistance, 1.0),
+        None => Outcome::informative(name, demand),
+    }]
+}

@@ -1,0 +1,173 @@
+//! `barrier-check DESIGN`: from a design file to a report and an exit code.
+
+use std::io::{IsTerminal, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::commands::ExitCode;
+use crate::design::read::{DesignFile, read_design};
+use crate::pipeline::{Run, RunError, Verdict, run};
+use crate::problem::{Problem, Problems};
+use crate::report::json::ResultFile;
+use crate::report::render::render;
+use crate::report::view::View;
+use crate::report::write::{ReportFile, write_all};
+use crate::scene::event::{ProgressReport, Watch};
+
+/// Bytes read of a file at the most; the document refuses anything near.
+const MOST_READ: u64 = 2 << 20;
+
+/// Runs one design and writes its report below `out`, or `out/<design name>` when none is given.
+pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCode {
+    let file = match load(path) {
+        Ok(file) => file,
+        Err(problems) => {
+            eprint!("{problems}");
+            return ExitCode::Undecided;
+        }
+    };
+    let folder = out.map_or_else(|| Path::new("out").join(&file.name), PathBuf::from);
+    let result = match simulate(file, threads) {
+        Ok(run) => run,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::Undecided;
+        }
+    };
+    if let Err(error) = write(&result, &folder) {
+        eprintln!(
+            "error: the report could not be written to {}: {error}",
+            folder.display()
+        );
+        return ExitCode::Undecided;
+    }
+    summarise(&result, &folder);
+    match result.verdict {
+        Verdict::Pass => ExitCode::Pass,
+        Verdict::Fail => ExitCode::Fail,
+        Verdict::Undecided => ExitCode::Undecided,
+    }
+}
+
+/// Reads and checks a design file.
+pub fn load(path: &Path) -> Result<DesignFile, Problems> {
+    let name = path.display().to_string();
+    let mut bytes = Vec::new();
+    let opened =
+        std::fs::File::open(path).and_then(|file| file.take(MOST_READ).read_to_end(&mut bytes));
+    if let Err(error) = opened {
+        let problem = Problem::new(
+            "",
+            format!("a file that cannot be read: {error}"),
+            "a design file in YAML",
+        )
+        .hint("the examples are in the folder `designs`");
+        return Err(Problems {
+            file: name,
+            list: vec![problem],
+        });
+    }
+    read_design(&name, &bytes)
+}
+
+/// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
+fn simulate(
+    file: DesignFile,
+    threads: Option<usize>,
+) -> Result<Run, Box<dyn std::error::Error + Send + Sync>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let heard = stop.clone();
+    // A second handler cannot be set; then Ctrl-C simply ends the program, which writes nothing either.
+    let _ = ctrlc::set_handler(move || heard.store(true, Ordering::Relaxed));
+    let bar = Mutex::new(progress_bar());
+    let show = |report: ProgressReport| {
+        if let Ok(bar) = bar.lock() {
+            bar.set_position((1000.0 * report.share) as u64);
+            bar.set_message(format!(
+                "t = {:.2} s, force {:.4} kN",
+                report.time,
+                report.force / 1e3
+            ));
+        }
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()?;
+    let result = pool.install(|| {
+        run(
+            file,
+            &Watch {
+                progress: &show,
+                stop: &stop,
+            },
+        )
+    });
+    if let Ok(bar) = bar.lock() {
+        bar.finish_and_clear();
+    }
+    result.map_err(|error: RunError| error.into())
+}
+
+fn progress_bar() -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(1000);
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.set_message("packing the flow");
+    bar
+}
+
+fn write(run: &Run, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let rendered = render(&View::of(run))?;
+    let files = [
+        ReportFile {
+            name: "report.html",
+            text: rendered.html,
+        },
+        ReportFile {
+            name: "report.md",
+            text: rendered.markdown,
+        },
+        ReportFile {
+            name: "histories.csv",
+            text: crate::report::csv::text(&run.histories),
+        },
+        ReportFile {
+            name: "result.json",
+            text: serde_json::to_string_pretty(&ResultFile::of(run))? + "\n",
+        },
+    ];
+    write_all(folder, &files)?;
+    Ok(())
+}
+
+/// Verdict and checks for the terminal.
+fn summarise(run: &Run, folder: &Path) {
+    let view = View::of(run);
+    let mut out = std::io::stdout().lock();
+    let mut say = |line: String| {
+        let _ = writeln!(out, "{line}");
+    };
+    for check in &view.checks {
+        say(format!(
+            "{:<5} {:>6}  {}",
+            check.verdict.to_uppercase(),
+            check.utilisation,
+            check.title
+        ));
+    }
+    say(format!(
+        "{}: {}",
+        view.verdict.to_uppercase(),
+        view.verdict_line
+    ));
+    for doubt in &view.doubts {
+        say(format!("  {doubt}"));
+    }
+    say(format!("report: {}", folder.join("report.html").display()));
+}

@@ -1,0 +1,15 @@
+//! One file per command. Only these and the report's writer touch files.
+
+pub mod check;
+pub mod schema;
+
+/// How the program ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExitCode {
+    /// All checks hold.
+    Pass = 0,
+    /// A check fails.
+    Fail = 1,
+    /// No decision: bad input, or a run that cannot be relied on.
+    Undecided = 2,
+}

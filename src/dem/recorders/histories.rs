@@ -1,0 +1,102 @@
+//! Time series of one run, all with the same times.
+
+use crate::dem::Vec3;
+use crate::dem::ledger::Ledger;
+
+/// What happened, sample by sample. Forces are means over the sampling interval, so that no peak is lost.
+#[derive(Clone, Debug, Default)]
+pub struct Histories {
+    /// End of each sampling interval (s).
+    pub time: Vec<f64>,
+    /// Force of the grains on the barrier, wall or net (N).
+    pub force: Vec<Vec3>,
+    /// Moment of the normal force on a rigid wall about its toe (N m).
+    pub moment: Vec<f64>,
+    /// Normal force on each segment of a rigid wall (N), a row for each segment.
+    pub segments: Vec<Vec<f64>>,
+    /// Mean tension along each main rope (N), a row for each rope.
+    pub rope_mean: Vec<Vec<f64>>,
+    /// Largest tension along each main rope (N).
+    pub rope_largest: Vec<Vec<f64>>,
+    /// Load of the higher loaded anchor of each main rope (N).
+    pub anchors: Vec<Vec<f64>>,
+    /// Stroke used by each rope's dissipators, the larger of the two (m).
+    pub strokes: Vec<Vec<f64>>,
+    /// Largest tension in the net (N).
+    pub net_largest: Vec<f64>,
+    /// Lowest height of the top main rope above the bed (m).
+    pub top_rope_height: Vec<f64>,
+    /// Mean velocity of the grains along the channel and normal to the bed (m/s).
+    pub velocity: Vec<[f64; 2]>,
+    /// Share of the mass that has come to rest at the barrier.
+    pub dead: Vec<f64>,
+    /// Share of the mass still moving upstream of the barrier.
+    pub moving: Vec<f64>,
+    /// Shares of the mass that went through, under, beside and over the barrier.
+    pub lost: Vec<[f64; 4]>,
+    /// Flow depth (m) and velocity (m/s) at the gauge upstream; zero while nothing is there.
+    pub gauge: Vec<[f64; 2]>,
+    /// Depth of the grains at the barrier (m).
+    pub barrier_depth: Vec<f64>,
+    pub ledger: Vec<Ledger>,
+}
+
+/// Centred moving average of a series with even spacing; `window` is in samples and is cut at the ends.
+pub fn smoothed(series: &[f64], window: usize) -> Vec<f64> {
+    let half = window / 2;
+    let mut sums = Vec::with_capacity(series.len() + 1);
+    let mut sum = 0.0;
+    sums.push(sum);
+    for value in series {
+        sum += value;
+        sums.push(sum);
+    }
+    (0..series.len())
+        .map(|index| {
+            let (from, to) = (
+                index.saturating_sub(half),
+                (index + half + 1).min(series.len()),
+            );
+            (sums[to] - sums[from]) / (to - from) as f64
+        })
+        .collect()
+}
+
+/// Largest value and its index; (0, 0.0) for an empty series.
+pub fn peak(series: &[f64]) -> (usize, f64) {
+    series
+        .iter()
+        .copied()
+        .enumerate()
+        .fold(
+            (0, 0.0),
+            |best, (index, value)| {
+                if value > best.1 { (index, value) } else { best }
+            },
+        )
+}
+
+/// Mean of the last `count` values; 0 for an empty series.
+pub fn tail_mean(series: &[f64], count: usize) -> f64 {
+    let tail = &series[series.len().saturating_sub(count)..];
+    if tail.is_empty() {
+        0.0
+    } else {
+        tail.iter().sum::<f64>() / tail.len() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn smoothing_keeps_the_mean_of_a_plateau_and_finds_its_peak() {
+        let series = [0.0, 0.0, 3.0, 3.0, 3.0, 0.0, 0.0];
+        let smooth = smoothed(&series, 3);
+        assert_eq!(peak(&smooth), (3, 3.0));
+        assert_eq!(smooth[1], 1.0);
+        assert_eq!(tail_mean(&series, 2), 0.0);
+        assert_eq!(tail_mean(&series, 3), 1.0);
+    }
+}

@@ -1,0 +1,290 @@
+//! Watches a simulation and fills its histories.
+
+use std::collections::BTreeMap;
+
+use crate::dem::Vec3;
+use crate::dem::recorders::histories::Histories;
+use crate::dem::recorders::passage::{Screen, WAYS, Way};
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::barrier::{Barrier, SegmentKind};
+use crate::dem::tables::grains::Grain;
+
+/// A grain is at rest below this share of the highest mean velocity (Albaba 2015, section 3.3.3).
+const DEAD_SHARE: f64 = 0.05;
+
+/// What and how often to record.
+#[derive(Clone, Debug)]
+pub struct RecorderSetup {
+    /// Sampling interval (s).
+    pub interval: f64,
+    /// Time between two looks at which grains have passed (s).
+    pub passage_interval: f64,
+    /// Knots of the net, row by row; empty for a rigid wall.
+    pub net_rows: Vec<Vec<u32>>,
+    /// Main ropes of the net; 0 for a rigid wall.
+    pub ropes: usize,
+    /// Height (m) and width (m) of the rigid wall, if that is the barrier.
+    pub wall: Option<[f64; 2]>,
+    /// Reach upstream of the barrier between which the incoming flow is gauged (m, both positive).
+    pub gauge: [f64; 2],
+    /// The same for the depth of the deposit at the barrier (m).
+    pub barrier_gauge: [f64; 2],
+    /// Mass of the whole flow (kg).
+    pub mass: f64,
+    /// Diameter added in half to the gauged depth (m).
+    pub mean_diameter: f64,
+}
+
+pub struct Recorder {
+    setup: RecorderSetup,
+    pub histories: Histories,
+    sum: IntervalSum,
+    highest_velocity: f64,
+    passed: BTreeMap<u32, Way>,
+    lost: [f64; WAYS],
+    impact: bool,
+    next_passage: f64,
+}
+
+/// Sums over the steps of one sampling interval.
+#[derive(Clone, Debug, Default)]
+struct IntervalSum {
+    steps: u32,
+    time: f64,
+    force: Vec3,
+    moment: f64,
+    segments: Vec<f64>,
+    rope_mean: Vec<f64>,
+    rope_largest: Vec<f64>,
+    anchors: Vec<f64>,
+    net_largest: f64,
+}
+
+impl Recorder {
+    pub fn new(setup: RecorderSetup) -> Self {
+        Self {
+            setup,
+            histories: Histories::default(),
+            sum: IntervalSum::default(),
+            highest_velocity: 0.0,
+            passed: BTreeMap::new(),
+            lost: [0.0; WAYS],
+            impact: false,
+            next_passage: 0.0,
+        }
+    }
+
+    /// Takes in the step just made. Returns whether a sample was completed.
+    pub fn observe(&mut self, simulation: &Simulation) -> bool {
+        self.add_step(simulation);
+        // Half a step of slack: rounding must not move samples about.
+        if self.sum.time + 0.5 * simulation.time_step < self.setup.interval {
+            return false;
+        }
+        self.sample(simulation);
+        self.sum = IntervalSum::default();
+        true
+    }
+
+    /// Highest mean velocity so far (m/s).
+    pub fn highest_velocity(&self) -> f64 {
+        self.highest_velocity
+    }
+
+    fn add_step(&mut self, simulation: &Simulation) {
+        let sum = &mut self.sum;
+        sum.steps += 1;
+        sum.time += simulation.time_step;
+        let surfaces = &simulation.sums.surfaces;
+        sum.force += simulation.sums.net.from_grains + surfaces.wall;
+        sum.moment += surfaces.wall_moment;
+        add_rows(&mut sum.segments, &surfaces.wall_segments);
+        if let Some(barrier) = &simulation.model.barrier {
+            let net = &simulation.sums.net;
+            add_tensions(sum, barrier, &net.tensions, self.setup.ropes);
+            add_rows(
+                &mut sum.anchors,
+                &anchor_loads(barrier, &net.tensions, &net.brakes, self.setup.ropes),
+            );
+        }
+    }
+
+    fn sample(&mut self, simulation: &Simulation) {
+        let mean = 1.0 / f64::from(self.sum.steps);
+        let histories = &mut self.histories;
+        histories.time.push(simulation.time);
+        histories.force.push(self.sum.force * mean);
+        histories.moment.push(self.sum.moment * mean);
+        push_rows(&mut histories.segments, &self.sum.segments, mean);
+        push_rows(&mut histories.rope_mean, &self.sum.rope_mean, mean);
+        push_rows(&mut histories.rope_largest, &self.sum.rope_largest, mean);
+        push_rows(&mut histories.anchors, &self.sum.anchors, mean);
+        histories.net_largest.push(self.sum.net_largest * mean);
+        histories.ledger.push(simulation.ledger);
+        self.impact |= self.sum.force.norm() > 0.0;
+        if let Some(barrier) = &simulation.model.barrier {
+            self.sample_shape(barrier);
+        }
+        if simulation.time >= self.next_passage {
+            self.look_for_passed(simulation);
+            self.next_passage = simulation.time + self.setup.passage_interval;
+        }
+        self.sample_grains(simulation);
+        self.sample_gauges(simulation);
+    }
+
+    fn sample_shape(&mut self, barrier: &Barrier) {
+        let mut strokes = vec![0.0_f64; self.setup.ropes];
+        for dissipator in &barrier.dissipators {
+            let stroke = &mut strokes[dissipator.rope as usize];
+            *stroke = stroke.max(dissipator.used);
+        }
+        push_rows(&mut self.histories.strokes, &strokes, 1.0);
+        let top = self.setup.net_rows.last().into_iter().flatten();
+        let lowest = top
+            .map(|&node| barrier.nodes[node as usize].position.z)
+            .fold(f64::INFINITY, f64::min);
+        self.histories.top_rope_height.push(lowest);
+    }
+
+    fn look_for_passed(&mut self, simulation: &Simulation) {
+        let screen = match (&simulation.model.barrier, self.setup.wall) {
+            (Some(barrier), _) => Screen::of_net(barrier, &self.setup.net_rows),
+            (None, Some([height, width])) => Screen::of_wall(height, width),
+            (None, None) => return,
+        };
+        for grain in &simulation.model.grains {
+            if self.passed.contains_key(&grain.id) {
+                continue;
+            }
+            if let Some(way) = screen.way_of(&grain.position, grain.body.radius + grain.body.offset)
+            {
+                self.passed.insert(grain.id, way);
+                self.lost[way as usize] += grain.body.mass / self.setup.mass;
+            }
+        }
+    }
+
+    fn sample_grains(&mut self, simulation: &Simulation) {
+        let grains = &simulation.model.grains;
+        let count = grains.len().max(1) as f64;
+        let sum = grains
+            .iter()
+            .fold(Vec3::zeros(), |sum, grain| sum + grain.velocity);
+        self.histories.velocity.push([sum.x / count, sum.z / count]);
+        self.highest_velocity = self.highest_velocity.max(sum.x / count);
+        let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
+        let (mut dead, mut moving) = (0.0, 0.0);
+        for grain in grains
+            .iter()
+            .filter(|grain| !self.passed.contains_key(&grain.id))
+        {
+            let at_rest = grain.velocity.norm_squared() <= limit;
+            *(if at_rest { &mut dead } else { &mut moving }) += grain.body.mass / self.setup.mass;
+        }
+        self.histories
+            .dead
+            .push(if self.impact { dead } else { 0.0 });
+        self.histories.moving.push(moving);
+        self.histories.lost.push(self.lost);
+    }
+
+    fn sample_gauges(&mut self, simulation: &Simulation) {
+        let half_grain = 0.5 * self.setup.mean_diameter;
+        let grains = &simulation.model.grains;
+        self.histories
+            .gauge
+            .push(gauge(grains, self.setup.gauge, half_grain));
+        let [at_barrier, _] = gauge(grains, self.setup.barrier_gauge, half_grain);
+        self.histories.barrier_depth.push(at_barrier);
+    }
+}
+
+/// Depth (the height below which 90 % of the centres lie, plus half a grain) and mean velocity of the grains
+/// between two distances upstream of the barrier's foot; zeros where there are none.
+fn gauge(grains: &[Grain], [near, far]: [f64; 2], half_grain: f64) -> [f64; 2] {
+    let inside = grains
+        .iter()
+        .filter(|grain| (-far..=-near).contains(&grain.position.x));
+    let (mut heights, mut speed) = (Vec::new(), 0.0);
+    for grain in inside {
+        heights.push(grain.position.z);
+        speed += grain.velocity.x;
+    }
+    if heights.is_empty() {
+        return [0.0, 0.0];
+    }
+    let rank = (heights.len() * 9 / 10).min(heights.len() - 1);
+    let (_, ninety, _) = heights.select_nth_unstable_by(rank, f64::total_cmp);
+    [*ninety + half_grain, speed / heights.len() as f64]
+}
+
+fn add_rows(sums: &mut Vec<f64>, values: &[f64]) {
+    sums.resize(values.len(), 0.0);
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += value;
+    }
+}
+
+fn push_rows(rows: &mut Vec<Vec<f64>>, values: &[f64], factor: f64) {
+    rows.resize(values.len(), Vec::new());
+    for (row, value) in rows.iter_mut().zip(values) {
+        row.push(value * factor);
+    }
+}
+
+fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, tensions: &[f64], ropes: usize) {
+    let (mut mean, mut largest) = (vec![[0.0, 0.0]; ropes], vec![0.0_f64; ropes]);
+    let mut net_largest: f64 = 0.0;
+    for (segment, &tension) in barrier.segments.iter().zip(tensions) {
+        match segment.kind {
+            SegmentKind::Main(rope) => {
+                let [weighted, length] = &mut mean[rope as usize];
+                *weighted += tension * segment.rest_length;
+                *length += segment.rest_length;
+                largest[rope as usize] = largest[rope as usize].max(tension);
+            }
+            SegmentKind::Net => net_largest = net_largest.max(tension),
+            SegmentKind::Lateral => {}
+        }
+    }
+    let mean: Vec<f64> = mean
+        .iter()
+        .map(|[weighted, length]| weighted / length)
+        .collect();
+    add_rows(&mut sum.rope_mean, &mean);
+    add_rows(&mut sum.rope_largest, &largest);
+    sum.net_largest += net_largest;
+}
+
+/// Load of each rope's higher loaded anchor: the vector sum of all that is tied to it.
+fn anchor_loads(barrier: &Barrier, tensions: &[f64], brakes: &[f64], ropes: usize) -> Vec<f64> {
+    let mut loads = vec![0.0_f64; ropes];
+    for anchor in &barrier.anchors {
+        let mut sum = Vec3::zeros();
+        let mut pull = |nodes: [u32; 2], tension: f64| {
+            let other = if nodes[0] == anchor.node {
+                nodes[1]
+            } else {
+                nodes[0]
+            };
+            let line = barrier.nodes[other as usize].position
+                - barrier.nodes[anchor.node as usize].position;
+            sum += line * (tension / line.norm());
+        };
+        for &segment in &barrier.nodes[anchor.node as usize].segments {
+            pull(
+                barrier.segments[segment as usize].nodes,
+                tensions[segment as usize],
+            );
+        }
+        for (dissipator, &tension) in barrier.dissipators.iter().zip(brakes) {
+            if dissipator.nodes[0] == anchor.node {
+                pull(dissipator.nodes, tension);
+            }
+        }
+        let load = &mut loads[anchor.rope as usize];
+        *load = load.max(sum.norm());
+    }
+    loads
+}

@@ -1,0 +1,153 @@
+//! What the simulation showed, as numbers.
+
+use crate::dem::recorders::histories::{Histories, peak, smoothed, tail_mean};
+use crate::demand::from_loads::Guideline;
+use crate::design::Design;
+
+/// Numbers read off the histories of one run, SI.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observed {
+    /// Largest total force of the smoothed signal (N) and its time (s).
+    pub force_peak: f64,
+    pub force_peak_time: f64,
+    /// Mean total force over the last stretch of the run (N).
+    pub force_residual: f64,
+    /// Highest mean velocity of all grains along the channel (m/s), and its time (s).
+    pub velocity_peak: f64,
+    pub velocity_peak_time: f64,
+    pub retained: f64,
+    /// Shares that went through, under, beside, over.
+    pub lost: [f64; 4],
+    /// Lowest height of the top rope at the end over its initial height; 1 for a wall.
+    pub residual_height: f64,
+    pub rope_tension_peak: Vec<f64>,
+    pub rope_mean_peak: Vec<f64>,
+    pub rope_mean_residual: Vec<f64>,
+    pub anchor_force_peak: Vec<f64>,
+    pub brake_stroke: Vec<f64>,
+    pub net_tension_peak: f64,
+    /// Per metre of width (N/m), from the bottom.
+    pub segment_peak: Vec<f64>,
+    pub segment_residual: Vec<f64>,
+    /// Largest moment about the toe (N m/m).
+    pub moment_peak: f64,
+    /// Depth (m) and velocity (m/s) of the incoming flow where its momentum flux was largest.
+    pub incoming: [f64; 2],
+    /// Depth of the deposit at the barrier at the end (m).
+    pub deposit_depth: f64,
+    /// K that the residual force means, where there is a deposit.
+    pub k_effective: Option<f64>,
+    /// λ that the peak force means, where a flow was gauged.
+    pub lambda_effective: Option<f64>,
+}
+
+/// How the histories were sampled and are to be read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Samples in the smoothing window.
+    pub window: usize,
+    /// Samples at the end over which residuals are averaged.
+    pub tail: usize,
+}
+
+impl Observed {
+    pub fn read(
+        histories: &Histories,
+        design: &Design,
+        guideline: &Guideline,
+        reading: Reading,
+    ) -> Self {
+        let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
+        let (at_peak, force_peak) = peak(&smoothed(&force, reading.window));
+        let velocity: Vec<f64> = histories
+            .velocity
+            .iter()
+            .map(|velocity| velocity[0])
+            .collect();
+        let (at_fastest, velocity_peak) = peak(&velocity);
+        let lost = histories.lost.last().copied().unwrap_or_default();
+        let time = |index: usize| histories.time.get(index).copied().unwrap_or(0.0);
+        let raw_peaks = |rows: &[Vec<f64>]| rows.iter().map(|row| peak(row).1).collect::<Vec<_>>();
+        let width = design.channel.width;
+        let mut observed = Self {
+            force_peak,
+            force_peak_time: time(at_peak),
+            force_residual: tail_mean(&force, reading.tail),
+            velocity_peak,
+            velocity_peak_time: time(at_fastest),
+            retained: 1.0 - lost.iter().sum::<f64>(),
+            lost,
+            residual_height: residual_height(histories),
+            rope_tension_peak: raw_peaks(&histories.rope_largest),
+            rope_mean_peak: raw_peaks(&histories.rope_mean),
+            rope_mean_residual: histories
+                .rope_mean
+                .iter()
+                .map(|row| tail_mean(row, reading.tail))
+                .collect(),
+            anchor_force_peak: raw_peaks(&histories.anchors),
+            brake_stroke: raw_peaks(&histories.strokes),
+            net_tension_peak: peak(&histories.net_largest).1,
+            segment_peak: histories
+                .segments
+                .iter()
+                .map(|row| peak(&smoothed(row, reading.window)).1 / width)
+                .collect(),
+            segment_residual: histories
+                .segments
+                .iter()
+                .map(|row| tail_mean(row, reading.tail) / width)
+                .collect(),
+            moment_peak: peak(&smoothed(&histories.moment, reading.window)).1 / width,
+            incoming: incoming(histories, at_peak),
+            deposit_depth: histories.barrier_depth.last().copied().unwrap_or(0.0),
+            ..Self::default()
+        };
+        observed.measure_coefficients(histories, at_peak, width, guideline);
+        observed
+    }
+
+    /// K from the force at rest, λ from the peak with the design's K for the static part.
+    fn measure_coefficients(
+        &mut self,
+        histories: &Histories,
+        at_peak: usize,
+        width: f64,
+        guideline: &Guideline,
+    ) {
+        let unit = guideline.input.density * guideline.input.gravity_normal;
+        if self.deposit_depth > 0.0 {
+            self.k_effective =
+                Some(2.0 * self.force_residual / width / (unit * self.deposit_depth.powi(2)));
+        }
+        let [depth, velocity] = self.incoming;
+        if depth > 0.0 && velocity > 0.0 {
+            let standing = histories.barrier_depth.get(at_peak).copied().unwrap_or(0.0);
+            let fixed = 0.5 * guideline.input.earth_pressure * unit * standing.powi(2);
+            let flux = guideline.input.density * velocity * velocity * depth;
+            self.lambda_effective = Some((self.force_peak / width - fixed) / flux);
+        }
+    }
+}
+
+fn residual_height(histories: &Histories) -> f64 {
+    match (
+        histories.top_rope_height.first(),
+        histories.top_rope_height.last(),
+    ) {
+        (Some(first), Some(last)) if *first > 0.0 => last / first,
+        _ => 1.0,
+    }
+}
+
+/// Depth and velocity at the gauge when the momentum flux there was largest, before the force peaked.
+fn incoming(histories: &Histories, until: usize) -> [f64; 2] {
+    let flux = |gauge: &&[f64; 2]| gauge[0] * gauge[1] * gauge[1].abs();
+    histories
+        .gauge
+        .iter()
+        .take(until + 1)
+        .max_by(|a, b| flux(a).total_cmp(&flux(b)))
+        .copied()
+        .unwrap_or_default()
+}

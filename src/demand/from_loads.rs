@@ -1,0 +1,129 @@
+//! Guideline loads on the design's barrier: stages of filling, total force, share of each main rope.
+
+use std::f64::consts::FRAC_PI_4;
+
+use crate::design::{Arrival, BarrierDesign, Bottom, Design, FlexibleNet};
+use crate::loads::rope::{RopeInput, RopeState};
+use crate::loads::volkwein::{GuidelineInput, LoadCase, level_deposit_height};
+use crate::units::GRAVITY;
+
+/// Guideline loads and what follows for the ropes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guideline {
+    pub input: GuidelineInput,
+    pub cases: Vec<LoadCase>,
+    /// Largest total force over the stages (N).
+    pub largest_force: f64,
+    /// Worst state of each main rope over the stages, from the bottom; rope 1 is at rest when the bed holds it.
+    pub ropes: Vec<RopeState>,
+}
+
+/// Depth of the wave at the gate over the height behind it (Ritter 1892).
+const RITTER: f64 = 4.0 / 9.0;
+
+pub fn guideline(design: &Design) -> Guideline {
+    let input = input(design);
+    let cases = input.cases();
+    let largest = cases
+        .iter()
+        .map(|case| case.force_per_width)
+        .fold(0.0, f64::max);
+    let ropes = match &design.barrier {
+        BarrierDesign::RigidWall(_) => Vec::new(),
+        BarrierDesign::FlexibleNet(net) => rope_states(net, design, &input, &cases),
+    };
+    Guideline {
+        input,
+        cases,
+        largest_force: largest * design.channel.width,
+        ropes,
+    }
+}
+
+fn input(design: &Design) -> GuidelineInput {
+    let (depth, velocity) = incoming(design);
+    let slope = design.channel.slope;
+    let level = level_deposit_height(design.flow.volume() / design.channel.width, slope);
+    GuidelineInput {
+        density: design.flow.bulk_density,
+        gravity_normal: GRAVITY * slope.cos(),
+        earth_pressure: design.factors.earth_pressure,
+        dynamic_pressure: design.factors.dynamic_pressure,
+        depth,
+        velocity,
+        fill_height: height_over_bed(design).min(level),
+    }
+}
+
+/// Height of the barrier's top above the bed, normal to it (m).
+pub fn height_over_bed(design: &Design) -> f64 {
+    match &design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.height,
+        BarrierDesign::FlexibleNet(net) => {
+            let gap = match net.bottom {
+                Bottom::Fixed => 0.0,
+                Bottom::Opening(gap) => gap,
+            };
+            net.height * (design.channel.slope + net.tilt).cos() + gap
+        }
+    }
+}
+
+/// Depth and velocity with which the flow reaches the barrier. A surge has them; for a dam break the depth is
+/// Ritter's and the velocity that of a block sliding on the bed with its friction.
+fn incoming(design: &Design) -> (f64, f64) {
+    match design.flow.arrival {
+        Arrival::Surge {
+            depth, velocity, ..
+        } => (depth, velocity),
+        Arrival::DamBreak {
+            length,
+            height,
+            distance,
+        } => {
+            let slope = design.channel.slope;
+            let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
+            let way = distance + 0.5 * length;
+            (RITTER * height, (2.0 * acceleration.max(0.0) * way).sqrt())
+        }
+    }
+}
+
+/// Each rope under the pressure on its tributary height, worst over the stages.
+fn rope_states(
+    net: &FlexibleNet,
+    design: &Design,
+    input: &GuidelineInput,
+    cases: &[LoadCase],
+) -> Vec<RopeState> {
+    let rope = net.main_ropes.rope;
+    let span = RopeInput {
+        span: design.channel.width,
+        axial_stiffness: rope.modulus * FRAC_PI_4 * rope.diameter.powi(2),
+        dissipator: net
+            .dissipators
+            .map(|dissipator| [dissipator.plateau, dissipator.stroke]),
+    };
+    let to_bed_normal = height_over_bed(design) / net.height;
+    let heights = &net.main_ropes.heights;
+    let middle = |a: usize, b: usize| 0.5 * (heights[a] + heights[b]) * to_bed_normal;
+    (0..heights.len())
+        .map(|index| {
+            if index == 0 && net.bottom == Bottom::Fixed {
+                return RopeState::default();
+            }
+            let low = if index == 0 {
+                0.0
+            } else {
+                middle(index - 1, index)
+            };
+            let high = if index + 1 == heights.len() {
+                f64::INFINITY
+            } else {
+                middle(index, index + 1)
+            };
+            let loads = cases.iter().map(|case| input.strip_force(case, low, high));
+            span.under(loads.fold(0.0, f64::max))
+        })
+        .collect()
+}

@@ -1,0 +1,92 @@
+//! How finely to model, and why.
+
+use crate::dem::contact::restitution::damping_ratio_for;
+use crate::dem::time::stable_step::critical_step_of_pair;
+use crate::design::{BarrierDesign, Design, FidelityWish, FlexibleNet, Rope};
+use crate::scene::flow::release::bodies;
+use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
+
+/// Choices that trade time against accuracy, each with its reason.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fidelity {
+    pub name: &'static str,
+    /// Time step (s).
+    pub time_step: f64,
+    /// Reach of neighbour lists over the mean member radius.
+    pub skin_share: f64,
+    /// Why the time step is what it is, for the report.
+    pub reason: String,
+}
+
+/// Steps of the lightest pair's critical step that each wish takes.
+fn step_share(wish: FidelityWish) -> (&'static str, f64) {
+    match wish {
+        FidelityWish::Fast => ("fast", 0.6),
+        FidelityWish::Standard => ("standard", 0.4),
+        FidelityWish::Fine => ("fine", 0.2),
+    }
+}
+
+/// Chooses the time step from the stiffest of what can be connected: a pair of the smallest grains with
+/// their dashpot, and a knot of the net with its ropes and a grain pressed on it.
+pub fn choose(design: &Design) -> Fidelity {
+    let (name, share) = step_share(design.simulation.fidelity);
+    let grains = critical_step_of_grains(design);
+    let net = match &design.barrier {
+        BarrierDesign::RigidWall(_) => f64::INFINITY,
+        BarrierDesign::FlexibleNet(net) => critical_step_of_net(net, design),
+    };
+    let governing = if net < grains {
+        "a knot of the net with a grain pressed on it"
+    } else {
+        "a pair of the smallest grains"
+    };
+    let time_step = round_down(share * grains.min(net));
+    let reason = format!(
+        "{share} of the critical step of {governing} ({:.2e} s); what is really connected is audited during the run",
+        grains.min(net)
+    );
+    Fidelity {
+        name,
+        time_step,
+        skin_share: 0.3,
+        reason,
+    }
+}
+
+fn critical_step_of_grains(design: &Design) -> f64 {
+    let flow = &design.flow;
+    let zeta = damping_ratio_for(flow.restitution);
+    let steps = bodies(flow).into_iter().map(|body| {
+        let stiffness = flow.modulus * body.radius;
+        critical_step_of_pair(stiffness, 0.5 * body.mass, zeta)
+    });
+    steps.fold(f64::INFINITY, f64::min)
+}
+
+/// Four net ropes meet in a knot; along the mesh's diagonal their stiffness adds up to twice one rope's on each
+/// side. A grain of the mean size presses on it as well.
+fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
+    let area = |rope: &Rope| std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
+    let diagonal = net.mesh_opening * std::f64::consts::SQRT_2;
+    let knot = |rope: &Rope, length: f64, parts: f64, sides: f64| {
+        let mass = 0.5 * parts * ROPE_DENSITY * area(rope) * length;
+        let stiffness = rope.modulus * area(rope) / length;
+        (mass, sides * stiffness)
+    };
+    let (net_mass, net_stiffness) = knot(&net.net_rope, net.mesh_opening, 4.0, 4.0);
+    let (rope_mass, rope_stiffness) = knot(&net.main_ropes.rope, diagonal, 2.0, 4.0);
+    let radius = 0.42 * design.flow.sizes.quantile(0.5);
+    let grain = design.flow.modulus * radius;
+    let rope = net.net_rope.modulus * 0.5 * net.net_rope.diameter;
+    let contact = 2.0 * grain * rope / (grain + rope);
+    let on_net = net_mass / (net_stiffness + contact);
+    let on_rope = (rope_mass + net_mass) / (rope_stiffness + net_stiffness + contact);
+    critical_step_of_pair(1.0, on_net.min(on_rope), ROPE_DAMPING_RATIO)
+}
+
+/// Two significant digits, downwards: a step a person can read.
+fn round_down(step: f64) -> f64 {
+    let magnitude = 10_f64.powi(step.log10().floor() as i32 - 1);
+    (step / magnitude).floor() * magnitude
+}

@@ -1,0 +1,163 @@
+//! Rows of the report that tell what the simulation showed and how far it can be relied on.
+
+use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, STEP_LIMIT};
+use crate::pipeline::Run;
+use crate::report::view::{Row, with_unit};
+
+fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) -> Row {
+    Row {
+        name: name.into(),
+        value: value.into(),
+        remark: remark.into(),
+    }
+}
+
+/// What the simulation showed.
+pub fn rows(run: &Run) -> Vec<Row> {
+    let seen = &run.observed;
+    let width = run.file.design.channel.width;
+    let mut rows = vec![
+        row(
+            "Largest total force",
+            with_unit(seen.force_peak, "N"),
+            format!(
+                "at {:.2} s; {} of width",
+                seen.force_peak_time,
+                with_unit(seen.force_peak / width, "N/m")
+            ),
+        ),
+        row(
+            "Total force at rest",
+            with_unit(seen.force_residual, "N"),
+            format!("{} of width", with_unit(seen.force_residual / width, "N/m")),
+        ),
+        row(
+            "Highest mean velocity",
+            with_unit(seen.velocity_peak, "m/s"),
+            format!("at {:.2} s", seen.velocity_peak_time),
+        ),
+        row(
+            "Incoming flow",
+            format!(
+                "{} deep, {}",
+                with_unit(seen.incoming[0], "m"),
+                with_unit(seen.incoming[1], "m/s")
+            ),
+            "at the gauge upstream, when its momentum flux was largest",
+        ),
+        row(
+            "Depth of the deposit at the barrier",
+            with_unit(seen.deposit_depth, "m"),
+            "at the end",
+        ),
+    ];
+    if let Some(k) = seen.k_effective {
+        rows.push(row(
+            "K that the simulation shows",
+            format!("{k:.2}"),
+            format!(
+                "from the force at rest; the design takes {}",
+                run.guideline.input.earth_pressure
+            ),
+        ));
+    }
+    if let Some(lambda) = seen.lambda_effective {
+        rows.push(row("λ that the simulation shows", format!("{lambda:.2}"), format!("from the largest force less the static part with the design's K; the design takes {}", run.guideline.input.dynamic_pressure)));
+    }
+    let [through, under, beside, over] = seen.lost.map(|share| with_unit(share, "-"));
+    rows.push(row(
+        "Mass lost",
+        with_unit(1.0 - seen.retained, "-"),
+        format!("through {through}, under {under}, beside {beside}, over {over}"),
+    ));
+    if !seen.segment_peak.is_empty() {
+        let list = |values: &[f64]| {
+            values
+                .iter()
+                .map(|value| with_unit(*value, "N/m"))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        rows.push(row(
+            "Wall segments, largest",
+            list(&seen.segment_peak),
+            "from the bottom up",
+        ));
+        rows.push(row(
+            "Wall segments, at rest",
+            list(&seen.segment_residual),
+            "from the bottom up",
+        ));
+        rows.push(row(
+            "Moment about the toe, largest",
+            with_unit(seen.moment_peak, "N m/m"),
+            "",
+        ));
+    }
+    rows
+}
+
+/// How the numbers were obtained, and the limits of credibility.
+pub fn numerics_rows(run: &Run) -> Vec<Row> {
+    let (facts, numerics) = (&run.facts, &run.numerics);
+    let ending = if facts.steady {
+        "force and masses no longer changed"
+    } else {
+        "stopped before it was steady"
+    };
+    vec![
+        row(
+            "Energy imbalance",
+            format!("{:.3} %", 100.0 * numerics.energy_error),
+            format!("of the energy put in; limit {} %", 100.0 * ENERGY_LIMIT),
+        ),
+        row(
+            "Largest overlap",
+            format!("{:.1} %", 100.0 * numerics.overlap),
+            format!("of the smaller radius; limit {} %", 100.0 * OVERLAP_LIMIT),
+        ),
+        row(
+            "Time step over critical step",
+            format!("{:.2}", numerics.step_ratio),
+            format!(
+                "largest upper bound met (grains {:.2}, barrier {:.2}); limit {STEP_LIMIT}",
+                facts.step_ratio.grains, facts.step_ratio.nodes
+            ),
+        ),
+        row(
+            "Time step",
+            format!("{:.2e} s", facts.time_step),
+            format!("{}; cut {} times", run.fidelity.reason, facts.step_cuts),
+        ),
+        row("Simulated time", with_unit(facts.simulated, "s"), ending),
+        row(
+            "Model",
+            format!("{} grains of {} spheres", facts.grains, facts.spheres),
+            format!(
+                "{} nodes and {} elements of the barrier",
+                facts.barrier_nodes, facts.barrier_elements
+            ),
+        ),
+        row(
+            "Seed",
+            run.file.design.simulation.seed.to_string(),
+            "of the packing; one run, so no scatter is known",
+        ),
+        row(
+            "Smoothing",
+            format!("{:.0} ms", 1e3 * facts.smoothing),
+            format!(
+                "of total and wall forces; ropes and anchors are means over {:.1} ms",
+                1e3 * facts.sampling
+            ),
+        ),
+        row(
+            "Cost",
+            format!("{:.1} s", facts.wall_clock),
+            format!(
+                "{} steps on {} threads, {} neighbour lists",
+                facts.steps, facts.threads, facts.renewals
+            ),
+        ),
+    ]
+}

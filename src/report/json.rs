@@ -1,0 +1,250 @@
+//! `result.json`: the contract that other programs script against. Fields may be added, never renamed.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::checks::outcome::Outcome;
+use crate::demand::from_loads::Guideline;
+use crate::pipeline::Run;
+
+/// Version of this contract.
+pub const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ResultFile {
+    pub schema_version: u32,
+    pub design: DesignPart,
+    /// pass, fail or undecided
+    pub verdict: String,
+    /// Why the run cannot be relied on; empty unless undecided.
+    pub doubts: Vec<String>,
+    pub checks: Vec<CheckPart>,
+    pub guideline: GuidelinePart,
+    pub simulation: SimulationPart,
+    pub numerics: NumericsPart,
+    /// Version of the program.
+    pub program_version: String,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct DesignPart {
+    pub name: String,
+    pub sha256: String,
+}
+
+/// Values in the SI unit named by `unit`; `-` for shares. With partial factors.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CheckPart {
+    pub id: String,
+    pub title: String,
+    pub demand_guideline: Option<f64>,
+    pub demand_simulation: Option<f64>,
+    pub capacity: Option<f64>,
+    pub utilisation: Option<f64>,
+    pub unit: String,
+    /// pass, warn, fail or info
+    pub verdict: String,
+    pub source: String,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct GuidelinePart {
+    pub k: f64,
+    pub lambda: f64,
+    pub froude: f64,
+    pub depth_m: f64,
+    pub velocity_m_s: f64,
+    pub cases: Vec<CasePart>,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CasePart {
+    pub id: String,
+    pub pressure_static_pa: f64,
+    pub pressure_dynamic_pa: f64,
+    pub force_n_per_m: f64,
+}
+
+/// Ropes and anchors in order from the bottom. Peaks of the total force and of the wall are of the signal
+/// smoothed over `smoothing_s`; peaks of ropes and anchors are of means over `sampling_s`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SimulationPart {
+    pub fidelity: String,
+    pub seed: u64,
+    pub grains: usize,
+    pub spheres: usize,
+    pub barrier_nodes: usize,
+    pub barrier_elements: usize,
+    pub simulated_s: f64,
+    /// Whether the run ended because its answer no longer changed.
+    pub ended_steady: bool,
+    pub smoothing_s: f64,
+    pub sampling_s: f64,
+    pub force_total_peak_n: f64,
+    pub force_total_peak_time_s: f64,
+    pub force_total_residual_n: f64,
+    pub velocity_mean_peak_m_s: f64,
+    pub velocity_mean_peak_time_s: f64,
+    pub retained_fraction: f64,
+    pub lost: LostPart,
+    pub residual_height_m: Option<f64>,
+    pub rope_tension_peak_n: Vec<f64>,
+    pub rope_tension_mean_peak_n: Vec<f64>,
+    pub rope_tension_mean_residual_n: Vec<f64>,
+    pub anchor_force_peak_n: Vec<f64>,
+    pub brake_stroke_m: Vec<f64>,
+    pub net_tension_peak_n: f64,
+    pub wall: Option<WallPart>,
+    pub incoming_depth_m: f64,
+    pub incoming_velocity_m_s: f64,
+    pub deposit_depth_m: f64,
+    /// K that the residual force means for the depth of the deposit.
+    pub k_effective: Option<f64>,
+    /// lambda that the peak force means for the incoming flow.
+    pub lambda_effective: Option<f64>,
+}
+
+/// Shares of the mass.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct LostPart {
+    pub through: f64,
+    pub under: f64,
+    pub beside: f64,
+    pub over: f64,
+}
+
+/// Segments in order from the bottom.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct WallPart {
+    pub segment_force_peak_n_per_m: Vec<f64>,
+    pub segment_force_residual_n_per_m: Vec<f64>,
+    pub moment_peak_n_m_per_m: f64,
+}
+
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct NumericsPart {
+    pub steps: u64,
+    pub time_step_s: f64,
+    /// Largest found by the audits, an upper bound.
+    pub time_step_over_critical: f64,
+    pub time_step_cuts: u32,
+    pub energy_error_relative: f64,
+    pub overlap_max_relative: f64,
+    pub neighbour_rebuilds: u64,
+    pub threads: usize,
+    pub wall_clock_s: f64,
+    pub sphere_steps_per_s: f64,
+}
+
+impl ResultFile {
+    pub fn of(run: &Run) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            design: DesignPart {
+                name: run.file.name.clone(),
+                sha256: run.file.sha256.clone(),
+            },
+            verdict: run.verdict.word().to_string(),
+            doubts: run.doubts.clone(),
+            checks: run.outcomes.iter().map(check_part).collect(),
+            guideline: guideline_part(&run.guideline),
+            simulation: simulation_part(run),
+            numerics: numerics_part(run),
+            program_version: env!("CARGO_PKG_VERSION").to_string(),
+        }
+    }
+}
+
+fn check_part(outcome: &Outcome) -> CheckPart {
+    CheckPart {
+        id: outcome.id.clone(),
+        title: outcome.title.clone(),
+        demand_guideline: outcome.demand.guideline,
+        demand_simulation: outcome.demand.simulation,
+        capacity: outcome.capacity,
+        utilisation: outcome.utilisation,
+        unit: outcome.unit.to_string(),
+        verdict: outcome.verdict.word().to_string(),
+        source: outcome.source.to_string(),
+    }
+}
+
+fn guideline_part(guideline: &Guideline) -> GuidelinePart {
+    let cases = guideline.cases.iter().map(|case| CasePart {
+        id: case.id.to_string(),
+        pressure_static_pa: case.pressure_static,
+        pressure_dynamic_pa: case.pressure_dynamic,
+        force_n_per_m: case.force_per_width,
+    });
+    GuidelinePart {
+        k: guideline.input.earth_pressure,
+        lambda: guideline.input.dynamic_pressure,
+        froude: guideline.input.froude(),
+        depth_m: guideline.input.depth,
+        velocity_m_s: guideline.input.velocity,
+        cases: cases.collect(),
+    }
+}
+
+fn simulation_part(run: &Run) -> SimulationPart {
+    let (seen, facts) = (&run.observed, &run.facts);
+    let [through, under, beside, over] = seen.lost;
+    let wall = (!seen.segment_peak.is_empty()).then(|| WallPart {
+        segment_force_peak_n_per_m: seen.segment_peak.clone(),
+        segment_force_residual_n_per_m: seen.segment_residual.clone(),
+        moment_peak_n_m_per_m: seen.moment_peak,
+    });
+    SimulationPart {
+        fidelity: run.fidelity.name.to_string(),
+        seed: run.file.design.simulation.seed,
+        grains: facts.grains,
+        spheres: facts.spheres,
+        barrier_nodes: facts.barrier_nodes,
+        barrier_elements: facts.barrier_elements,
+        simulated_s: facts.simulated,
+        ended_steady: facts.steady,
+        smoothing_s: facts.smoothing,
+        sampling_s: facts.sampling,
+        force_total_peak_n: seen.force_peak,
+        force_total_peak_time_s: seen.force_peak_time,
+        force_total_residual_n: seen.force_residual,
+        velocity_mean_peak_m_s: seen.velocity_peak,
+        velocity_mean_peak_time_s: seen.velocity_peak_time,
+        retained_fraction: seen.retained,
+        lost: LostPart {
+            through,
+            under,
+            beside,
+            over,
+        },
+        residual_height_m: run.histories.top_rope_height.last().copied(),
+        rope_tension_peak_n: seen.rope_tension_peak.clone(),
+        rope_tension_mean_peak_n: seen.rope_mean_peak.clone(),
+        rope_tension_mean_residual_n: seen.rope_mean_residual.clone(),
+        anchor_force_peak_n: seen.anchor_force_peak.clone(),
+        brake_stroke_m: seen.brake_stroke.clone(),
+        net_tension_peak_n: seen.net_tension_peak,
+        wall,
+        incoming_depth_m: seen.incoming[0],
+        incoming_velocity_m_s: seen.incoming[1],
+        deposit_depth_m: seen.deposit_depth,
+        k_effective: seen.k_effective,
+        lambda_effective: seen.lambda_effective,
+    }
+}
+
+fn numerics_part(run: &Run) -> NumericsPart {
+    let facts = &run.facts;
+    NumericsPart {
+        steps: facts.steps,
+        time_step_s: facts.time_step,
+        time_step_over_critical: facts.step_ratio.largest(),
+        time_step_cuts: facts.step_cuts,
+        energy_error_relative: run.numerics.energy_error,
+        overlap_max_relative: run.numerics.overlap,
+        neighbour_rebuilds: facts.renewals,
+        threads: facts.threads,
+        wall_clock_s: facts.wall_clock,
+        sphere_steps_per_s: facts.steps as f64 * facts.spheres as f64 / facts.wall_clock.max(1e-9),
+    }
+}

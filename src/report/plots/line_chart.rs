@@ -1,0 +1,284 @@
+//! A line chart: some series over time, with level lines drawn in.
+
+use std::fmt::Write;
+
+/// One curve.
+pub struct Series<'a> {
+    pub label: String,
+    pub values: &'a [f64],
+    /// Number of the colour, which the page's style sheet sets.
+    pub colour: usize,
+}
+
+/// A horizontal line at a value of interest.
+pub struct Level {
+    pub label: String,
+    pub value: f64,
+}
+
+pub struct LineChart<'a> {
+    pub title: &'a str,
+    pub unit: &'a str,
+    /// Factor from the series' unit to the shown unit.
+    pub factor: f64,
+    pub time: &'a [f64],
+    pub series: Vec<Series<'a>>,
+    pub levels: Vec<Level>,
+}
+
+const WIDTH: f64 = 720.0;
+const HEIGHT: f64 = 280.0;
+const LEFT: f64 = 64.0;
+const RIGHT: f64 = 150.0;
+const TOP: f64 = 16.0;
+const BOTTOM: f64 = 40.0;
+/// Columns into which the time axis is cut; in each the least and the largest value are drawn.
+const COLUMNS: usize = 400;
+/// Least distance between two labels at the right edge.
+const LABEL_STEP: f64 = 14.0;
+
+/// Scales of one chart.
+struct Frame {
+    last_time: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Frame {
+    fn x(&self, time: f64) -> f64 {
+        LEFT + (WIDTH - LEFT - RIGHT) * time / self.last_time
+    }
+
+    fn y(&self, value: f64) -> f64 {
+        HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (value - self.low) / (self.high - self.low)
+    }
+}
+
+impl LineChart<'_> {
+    /// The chart as an SVG element.
+    pub fn svg(&self) -> String {
+        let frame = self.frame();
+        let mut out = String::new();
+        let _ = write!(
+            out,
+            r#"<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}">"#,
+            escape(self.title)
+        );
+        self.draw_axes(&frame, &mut out);
+        let mut labels = Vec::new();
+        for level in &self.levels {
+            let y = frame.y(level.value * self.factor);
+            let end = WIDTH - RIGHT;
+            let _ = write!(
+                out,
+                r#"<line class="level" x1="{LEFT}" x2="{end}" y1="{y:.1}" y2="{y:.1}"/>"#
+            );
+            labels.push((y, level.label.clone(), "level".to_string()));
+        }
+        for series in &self.series {
+            let _ = write!(
+                out,
+                r#"<polyline class="series c{}" points="{}"/>"#,
+                series.colour,
+                self.points(series, &frame)
+            );
+            let last = series.values.last().copied().unwrap_or(0.0) * self.factor;
+            labels.push((
+                frame.y(last),
+                series.label.clone(),
+                format!("c{}", series.colour),
+            ));
+        }
+        draw_labels(labels, &mut out);
+        out.push_str("</svg>");
+        out
+    }
+
+    fn frame(&self) -> Frame {
+        let values = self
+            .series
+            .iter()
+            .flat_map(|series| series.values.iter().map(|value| value * self.factor));
+        let (low, high) = values
+            .chain(self.levels.iter().map(|level| level.value * self.factor))
+            .filter(|value| value.is_finite())
+            .fold((0.0_f64, 0.0_f64), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
+        let high = if high > low { high } else { low + 1.0 };
+        let step = nice_step(high - low);
+        let last_time = self
+            .time
+            .last()
+            .copied()
+            .filter(|time| *time > 0.0)
+            .unwrap_or(1.0);
+        Frame {
+            last_time,
+            low: (low / step).floor() * step,
+            high: (high / step).ceil() * step,
+        }
+    }
+
+    fn draw_axes(&self, frame: &Frame, out: &mut String) {
+        let (bottom, end) = (HEIGHT - BOTTOM, WIDTH - RIGHT);
+        let step = nice_step(frame.high - frame.low);
+        for value in ticks(frame.low, frame.high, step) {
+            let y = frame.y(value);
+            let _ = write!(
+                out,
+                r#"<line class="grid" x1="{LEFT}" x2="{end}" y1="{y:.1}" y2="{y:.1}"/>"#
+            );
+            let _ = write!(
+                out,
+                r#"<text class="tick" text-anchor="end" x="{}" y="{:.1}">{}</text>"#,
+                LEFT - 6.0,
+                y + 4.0,
+                short(value)
+            );
+        }
+        let step = nice_step(frame.last_time);
+        for time in ticks(0.0, frame.last_time, step) {
+            let x = frame.x(time);
+            let _ = write!(
+                out,
+                r#"<line class="grid" x1="{x:.1}" x2="{x:.1}" y1="{TOP}" y2="{bottom}"/>"#
+            );
+            let _ = write!(
+                out,
+                r#"<text class="tick" text-anchor="middle" x="{x:.1}" y="{}">{}</text>"#,
+                bottom + 16.0,
+                short(time)
+            );
+        }
+        let middle = 0.5 * (LEFT + end);
+        let _ = write!(
+            out,
+            r#"<text class="axis" text-anchor="middle" x="{middle}" y="{}">time since release (s)</text>"#,
+            HEIGHT - 6.0
+        );
+        let up = 0.5 * (TOP + bottom);
+        let _ = write!(
+            out,
+            r#"<text class="axis" text-anchor="middle" transform="translate(14 {up}) rotate(-90)">{} ({})</text>"#,
+            escape(self.title),
+            escape(self.unit)
+        );
+    }
+
+    /// Points of a curve, thinned so that every peak survives.
+    fn points(&self, series: &Series, frame: &Frame) -> String {
+        let count = self.time.len().min(series.values.len());
+        let chunk = count.div_ceil(COLUMNS).max(1);
+        let mut out = String::new();
+        for start in (0..count).step_by(chunk) {
+            let range = start..(start + chunk).min(count);
+            let by_value = |a: &usize, b: &usize| series.values[*a].total_cmp(&series.values[*b]);
+            let (Some(low), Some(high)) = (range.clone().min_by(by_value), range.max_by(by_value))
+            else {
+                continue;
+            };
+            let mut pair = [low, high];
+            pair.sort_unstable();
+            for index in if low == high { &pair[..1] } else { &pair[..] } {
+                let value = series.values[*index] * self.factor;
+                if value.is_finite() {
+                    let _ = write!(
+                        out,
+                        "{:.1},{:.1} ",
+                        frame.x(self.time[*index]),
+                        frame.y(value)
+                    );
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Labels at the right edge, pushed apart where they would overlap.
+fn draw_labels(mut labels: Vec<(f64, String, String)>, out: &mut String) {
+    labels.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut lowest_free = TOP;
+    for (y, label, class) in labels {
+        let place = y.max(lowest_free);
+        lowest_free = place + LABEL_STEP;
+        let _ = write!(
+            out,
+            r#"<text class="label {class}" x="{}" y="{:.1}">{}</text>"#,
+            WIDTH - RIGHT + 6.0,
+            place + 4.0,
+            escape(&label)
+        );
+    }
+}
+
+/// Values of the grid lines from `low` to `high`.
+fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = ((high - low) / step + 1e-9).floor() as usize;
+    (0..=count).map(move |index| low + step * index as f64)
+}
+
+/// A step of 1, 2 or 5 times a power of ten that cuts `span` into four to ten parts.
+fn nice_step(span: f64) -> f64 {
+    let rough = span / 6.0;
+    let power = 10_f64.powf(rough.log10().floor());
+    let choices = [1.0, 2.0, 5.0, 10.0];
+    choices
+        .into_iter()
+        .map(|choice| choice * power)
+        .find(|step| *step >= rough)
+        .unwrap_or(power)
+}
+
+fn short(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text.is_empty() || text == "-0" {
+        "0".to_string()
+    } else {
+        text.to_string()
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peaks_survive_thinning() {
+        let time: Vec<f64> = (0..10_000).map(f64::from).collect();
+        let mut values = vec![0.0; 10_000];
+        values[7_777] = 5.0;
+        let series = Series {
+            label: "a".into(),
+            values: &values,
+            colour: 0,
+        };
+        let chart = LineChart {
+            title: "t",
+            unit: "N",
+            factor: 1.0,
+            time: &time,
+            series: vec![series],
+            levels: Vec::new(),
+        };
+        let frame = chart.frame();
+        let top = format!("{:.1}", frame.y(5.0));
+        assert!(chart.points(&chart.series[0], &frame).contains(&top));
+    }
+
+    #[test]
+    fn steps_are_round() {
+        assert_eq!(nice_step(6.0), 1.0);
+        assert_eq!(nice_step(2990.0), 500.0);
+        assert_eq!(nice_step(0.7), 0.2);
+    }
+}

@@ -1,0 +1,3 @@
+//! Charts as plain SVG, so that the report opens offline and prints sharply.
+
+pub mod line_chart;

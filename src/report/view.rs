@@ -1,0 +1,448 @@
+//! What the templates may see: texts and finished figures. All rounding and all units happen here.
+
+use serde::Serialize;
+
+use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::design::entries::Origin;
+use crate::pipeline::{Run, Verdict};
+use crate::report::plots::line_chart::{Level, LineChart, Series};
+
+#[derive(Debug, Serialize)]
+pub struct View {
+    pub title: String,
+    pub project: Vec<Row>,
+    pub verdict: &'static str,
+    pub verdict_line: String,
+    pub doubts: Vec<String>,
+    pub checks: Vec<CheckRow>,
+    pub guideline: Vec<Row>,
+    pub cases: Vec<CaseRow>,
+    pub findings: Vec<Row>,
+    pub charts: Vec<Chart>,
+    pub inputs: Vec<InputRow>,
+    pub assumptions: Vec<&'static str>,
+    pub not_checked: Vec<&'static str>,
+    pub numerics: Vec<Row>,
+    pub version: &'static str,
+    pub sha256: String,
+}
+
+/// A name with its value and, where it helps, a remark.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    pub name: String,
+    pub value: String,
+    pub remark: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct CheckRow {
+    pub title: String,
+    pub guideline: String,
+    pub simulation: String,
+    pub capacity: String,
+    pub utilisation: String,
+    pub verdict: &'static str,
+    pub source: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+pub struct CaseRow {
+    pub title: &'static str,
+    pub deposit: String,
+    pub moving: String,
+    pub pressure_static: String,
+    pub pressure_dynamic: String,
+    pub force_per_width: String,
+    pub total: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Chart {
+    pub title: &'static str,
+    pub svg: String,
+    pub note: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct InputRow {
+    pub path: String,
+    pub typed: String,
+    pub origin: &'static str,
+    pub meaning: &'static str,
+}
+
+const ASSUMPTIONS: &[&str] = &[
+    "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
+    "The flow is dry: no water pressure, no cohesion, no breakage of grains.",
+    "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
+    "Ropes pull and never push; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+    "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
+    "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.",
+    "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
+    "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed; the barrier fills at most to a level surface of the design volume.",
+];
+
+const NOT_CHECKED: &[&str] = &[
+    "scour, abutments and foundations",
+    "corrosion, abrasion and maintenance",
+    "impact of single boulders larger than the design grains, and of wood",
+    "later surges on a filled barrier, drainage of the deposit, snow",
+];
+
+impl View {
+    pub fn of(run: &Run) -> Self {
+        let project = &run.file.design.project;
+        let row = |name: &str, value: &str| Row {
+            name: name.into(),
+            value: value.into(),
+            remark: String::new(),
+        };
+        let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
+        outcomes.sort_by(|a, b| {
+            b.utilisation
+                .unwrap_or(-1.0)
+                .total_cmp(&a.utilisation.unwrap_or(-1.0))
+        });
+        Self {
+            title: format!("{}: {}", project.name, project.barrier),
+            project: vec![
+                row("Project", &project.name),
+                row("Barrier", &project.barrier),
+                row("Revision", &project.revision),
+                row("Author", &project.author),
+                row("Notes", &project.notes),
+                row("Design file", &run.file.name),
+            ],
+            verdict: run.verdict.word(),
+            verdict_line: verdict_line(run, &outcomes),
+            doubts: run.doubts.clone(),
+            checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
+            guideline: guideline_rows(run),
+            cases: case_rows(run),
+            findings: super::findings::rows(run),
+            charts: charts(run),
+            inputs: input_rows(run),
+            assumptions: ASSUMPTIONS.to_vec(),
+            not_checked: NOT_CHECKED.to_vec(),
+            numerics: super::findings::numerics_rows(run),
+            version: env!("CARGO_PKG_VERSION"),
+            sha256: run.file.sha256.clone(),
+        }
+    }
+}
+
+fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
+    let failed = run
+        .outcomes
+        .iter()
+        .filter(|outcome| outcome.verdict == CheckVerdict::Fail)
+        .count();
+    let governing = sorted.first().map_or(String::new(), |outcome| {
+        format!(
+            " Governing: {} ({}).",
+            outcome.title.to_lowercase(),
+            percent(outcome.utilisation)
+        )
+    });
+    match run.verdict {
+        Verdict::Undecided => {
+            "The simulation cannot be relied on; see the reasons below.".to_string()
+        }
+        Verdict::Fail => format!("{failed} of {} checks fail.{governing}", run.outcomes.len()),
+        Verdict::Pass => format!("All {} checks hold.{governing}", run.outcomes.len()),
+    }
+}
+
+fn check_row(outcome: &Outcome) -> CheckRow {
+    let show = |value: Option<f64>| {
+        value.map_or("–".to_string(), |value| with_unit(value, outcome.unit))
+    };
+    CheckRow {
+        title: outcome.title.clone(),
+        guideline: show(outcome.demand.guideline),
+        simulation: show(outcome.demand.simulation),
+        capacity: show(outcome.capacity),
+        utilisation: percent(outcome.utilisation),
+        verdict: outcome.verdict.word(),
+        source: outcome.source,
+    }
+}
+
+fn percent(share: Option<f64>) -> String {
+    share.map_or("–".to_string(), |share| format!("{:.0} %", 100.0 * share))
+}
+
+/// A value with the unit a person would use.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    match unit {
+        "N" if value.abs() < 2000.0 => format!("{value:.0} N"),
+        "N" => format!("{} kN", figures(value / 1e3)),
+        "N/m" if value.abs() < 2000.0 => format!("{value:.0} N/m"),
+        "N/m" => format!("{} kN/m", figures(value / 1e3)),
+        "Pa" if value.abs() < 2000.0 => format!("{value:.0} Pa"),
+        "Pa" => format!("{} kPa", figures(value / 1e3)),
+        "-" => format!("{:.1} %", 100.0 * value),
+        unit => format!("{} {unit}", figures(value)),
+    }
+}
+
+/// Three significant figures, whole numbers from 100 on.
+fn figures(value: f64) -> String {
+    match value.abs() {
+        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 10.0 => format!("{value:.1}"),
+        size if size >= 0.1 || size == 0.0 => format!("{value:.2}"),
+        _ => format!("{value:.4}"),
+    }
+}
+
+fn guideline_rows(run: &Run) -> Vec<Row> {
+    let input = &run.guideline.input;
+    let row = |name: &str, value: String, remark: &str| Row {
+        name: name.into(),
+        value,
+        remark: remark.into(),
+    };
+    vec![
+        row(
+            "K",
+            figures(input.earth_pressure),
+            "static pressure K ρ g H cos α",
+        ),
+        row(
+            "λ",
+            figures(input.dynamic_pressure),
+            "dynamic pressure λ ρ v²",
+        ),
+        row(
+            "Density ρ",
+            with_unit(input.density, "kg/m³"),
+            "bulk density of the flow",
+        ),
+        row("Depth h", with_unit(input.depth, "m"), "of the moving flow"),
+        row(
+            "Velocity v",
+            with_unit(input.velocity, "m/s"),
+            "of the moving flow",
+        ),
+        row("Froude number", figures(input.froude()), "v/√(g h cos α)"),
+        row(
+            "Height of filling",
+            with_unit(input.fill_height, "m"),
+            "normal to the bed",
+        ),
+    ]
+}
+
+fn case_rows(run: &Run) -> Vec<CaseRow> {
+    let width = run.file.design.channel.width;
+    let row = |case: &crate::loads::volkwein::LoadCase| CaseRow {
+        title: case.title,
+        deposit: with_unit(case.deposit, "m"),
+        moving: with_unit(case.moving, "m"),
+        pressure_static: with_unit(case.pressure_static, "Pa"),
+        pressure_dynamic: with_unit(case.pressure_dynamic, "Pa"),
+        force_per_width: with_unit(case.force_per_width, "N/m"),
+        total: with_unit(case.force_per_width * width, "N"),
+    };
+    run.guideline.cases.iter().map(row).collect()
+}
+
+fn input_rows(run: &Run) -> Vec<InputRow> {
+    let entries = &run.file.entries;
+    let row = |path: &String| {
+        let entry = &entries.values[path];
+        InputRow {
+            path: path.clone(),
+            typed: entry.typed.clone(),
+            origin: if entry.origin == Origin::File {
+                "file"
+            } else {
+                "default"
+            },
+            meaning: entry.meaning,
+        }
+    };
+    entries.order.iter().map(row).collect()
+}
+
+fn charts(run: &Run) -> Vec<Chart> {
+    let mut charts = vec![force_chart(run), mass_chart(run)];
+    if run
+        .histories
+        .strokes
+        .iter()
+        .flatten()
+        .any(|stroke| *stroke > 0.0)
+    {
+        charts.push(stroke_chart(run));
+    }
+    if !run.histories.rope_mean.is_empty() {
+        charts.push(rope_chart(run));
+    }
+    charts.push(velocity_chart(run));
+    charts
+}
+
+fn force_chart(run: &Run) -> Chart {
+    let histories = &run.histories;
+    let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
+    let force = crate::dem::recorders::histories::smoothed(
+        &force,
+        crate::scene::build::SAMPLES_PER_WINDOW as usize,
+    );
+    let width = run.file.design.channel.width;
+    let levels = run.guideline.cases.iter();
+    let (unit, factor) = if run.observed.force_peak < 2000.0 {
+        ("N", 1.0)
+    } else {
+        ("kN", 1e-3)
+    };
+    let chart = LineChart {
+        title: "total force",
+        unit,
+        factor,
+        time: &histories.time,
+        series: vec![Series {
+            label: "simulation".into(),
+            values: &force,
+            colour: 0,
+        }],
+        levels: levels
+            .map(|case| Level {
+                label: case.title.to_string(),
+                value: case.force_per_width * width,
+            })
+            .collect(),
+    };
+    let note = format!(
+        "Mean over {:.0} ms. Dashed: guideline.",
+        1e3 * run.facts.smoothing
+    );
+    Chart {
+        title: "Force on the barrier",
+        svg: chart.svg(),
+        note,
+    }
+}
+
+fn mass_chart(run: &Run) -> Chart {
+    let histories = &run.histories;
+    let retained: Vec<f64> = histories
+        .lost
+        .iter()
+        .map(|lost| 1.0 - lost.iter().sum::<f64>())
+        .collect();
+    let chart = LineChart {
+        title: "share of the mass",
+        unit: "%",
+        factor: 100.0,
+        time: &histories.time,
+        series: vec![
+            Series {
+                label: "not past the barrier".into(),
+                values: &retained,
+                colour: 0,
+            },
+            Series {
+                label: "at rest".into(),
+                values: &histories.dead,
+                colour: 1,
+            },
+        ],
+        levels: vec![Level {
+            label: "limit".into(),
+            value: run.file.design.limits.retained_mass,
+        }],
+    };
+    Chart {
+        title: "Retained mass",
+        svg: chart.svg(),
+        note: "At rest: slower than 5 % of the highest mean velocity.".into(),
+    }
+}
+
+fn stroke_chart(run: &Run) -> Chart {
+    let limit = match &run.file.design.barrier {
+        crate::design::BarrierDesign::FlexibleNet(net) => {
+            net.dissipators.map(|dissipator| dissipator.stroke)
+        }
+        crate::design::BarrierDesign::RigidWall(_) => None,
+    };
+    let chart = LineChart {
+        title: "stroke used",
+        unit: "m",
+        factor: 1.0,
+        time: &run.histories.time,
+        series: rope_series(&run.histories.strokes),
+        levels: limit
+            .map(|value| Level {
+                label: "available".into(),
+                value,
+            })
+            .into_iter()
+            .collect(),
+    };
+    Chart {
+        title: "Dissipators",
+        svg: chart.svg(),
+        note: "The longer of the two strokes of each main rope.".into(),
+    }
+}
+
+fn rope_chart(run: &Run) -> Chart {
+    let chart = LineChart {
+        title: "mean tension",
+        unit: "kN",
+        factor: 1e-3,
+        time: &run.histories.time,
+        series: rope_series(&run.histories.rope_mean),
+        levels: Vec::new(),
+    };
+    Chart {
+        title: "Main ropes",
+        svg: chart.svg(),
+        note: "Mean along each rope, numbered from the bottom.".into(),
+    }
+}
+
+fn velocity_chart(run: &Run) -> Chart {
+    let velocity: Vec<f64> = run
+        .histories
+        .velocity
+        .iter()
+        .map(|velocity| velocity[0])
+        .collect();
+    let chart = LineChart {
+        title: "mean velocity",
+        unit: "m/s",
+        factor: 1.0,
+        time: &run.histories.time,
+        series: vec![Series {
+            label: "along the channel".into(),
+            values: &velocity,
+            colour: 0,
+        }],
+        levels: Vec::new(),
+    };
+    Chart {
+        title: "Velocity of the flow",
+        svg: chart.svg(),
+        note: "Mean over all grains that have not left the model.".into(),
+    }
+}
+
+fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {
+    let moving = rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| row.iter().any(|value| *value > 0.0));
+    moving
+        .map(|(index, row)| Series {
+            label: format!("rope {}", index + 1),
+            values: row,
+            colour: index % 6,
+        })
+        .collect()
+}

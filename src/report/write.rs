@@ -1,0 +1,33 @@
+//! Writes all files of a report, whole or not at all.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A file of the report by its name.
+pub struct ReportFile {
+    pub name: &'static str,
+    pub text: String,
+}
+
+/// Writes `files` into `folder`. They are first written beside it under temporary names and then renamed one by
+/// one, `result.json` last, so that a reader who finds that file finds the others complete.
+pub fn write_all(folder: &Path, files: &[ReportFile]) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let temporary =
+        |name: &str| -> PathBuf { folder.join(format!(".{name}.{}.tmp", std::process::id())) };
+    let written = files
+        .iter()
+        .try_for_each(|file| fs::write(temporary(file.name), &file.text));
+    let renamed = written.and_then(|()| {
+        files
+            .iter()
+            .try_for_each(|file| fs::rename(temporary(file.name), folder.join(file.name)))
+    });
+    if renamed.is_err() {
+        for file in files {
+            let _ = fs::remove_file(temporary(file.name));
+        }
+    }
+    renamed
+}

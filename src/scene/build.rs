@@ -1,0 +1,270 @@
+//! `Design` + `Fidelity` → a simulation ready to be released, and what its recorder must know.
+
+use crate::dem::Vec3;
+use crate::dem::recorders::recorder::RecorderSetup;
+use crate::dem::simulation::{Material, Model, Simulation, Unstable};
+use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use crate::design::{Arrival, BarrierDesign, Design};
+use crate::fidelity::Fidelity;
+use crate::scene::flow::packing::PackingError;
+use crate::scene::flow::release::{Block, packed_block, shape};
+use crate::scene::net::build::{BuiltNet, build as build_net};
+use crate::units::GRAVITY;
+
+/// A simulation at the moment of release.
+pub struct Scene {
+    pub simulation: Simulation,
+    pub recorder: RecorderSetup,
+    /// Time over which forces are averaged to find peaks (s).
+    pub smoothing: f64,
+    /// Stretch over which steadiness is judged and residuals are averaged (s).
+    pub rest: f64,
+    /// Rough time the event takes (s), for telling progress.
+    pub expected_time: f64,
+}
+
+impl Scene {
+    /// Samples in the stretch over which residuals are averaged.
+    pub fn samples_of_rest(&self) -> usize {
+        (self.rest / self.recorder.interval).ceil() as usize
+    }
+}
+
+/// The time a grain of mean size takes to fall about half its diameter, √(D50/g): the unit in which sampling,
+/// smoothing and settling are measured, so that scenes of different size are treated alike.
+pub fn time_scale(design: &Design) -> f64 {
+    (design.flow.sizes.quantile(0.5) / GRAVITY).sqrt()
+}
+
+/// Longest smoothing window (s), and the longest over [`time_scale`], which binds in small scenes only.
+const SMOOTHING: f64 = 0.05;
+const SMOOTHING_SHARE: f64 = 1.3;
+/// Samples in one smoothing window.
+pub const SAMPLES_PER_WINDOW: f64 = 11.0;
+/// Stretch over which steadiness is judged and residuals are averaged, over [`time_scale`].
+const REST: f64 = 2.5;
+/// Time between two looks at which grains have passed, over [`time_scale`].
+const PASSAGE: f64 = 0.2;
+
+/// Time over which forces are averaged before a peak is read off (s).
+fn smoothing(design: &Design) -> f64 {
+    SMOOTHING.min(SMOOTHING_SHARE * time_scale(design))
+}
+/// Settling time over √(block height/g), and its drag times that time.
+const SETTLING: f64 = 1.2;
+const SETTLING_DRAG: f64 = 2.5;
+/// A dam-break block settles with larger steps: it hardly moves.
+const SETTLING_STEP: f64 = 1.5;
+
+/// Gravity in the channel frame.
+fn gravity(slope: f64) -> Vec3 {
+    Vec3::new(GRAVITY * slope.sin(), 0.0, -GRAVITY * slope.cos())
+}
+
+/// Builds the scene: packs the flow, lets it settle behind the gate, puts the barrier up.
+pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
+    let net = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => Some(build_net(
+            net,
+            &design.channel,
+            design.simulation.barrier_model,
+        )),
+        BarrierDesign::RigidWall(_) => None,
+    };
+    let block = Block::of(&design.flow, upstream_reach(design, net.as_ref()));
+    let grains = packed_block(&design.flow, &design.channel, &block, seed)?;
+    let flow = &design.flow;
+    let model = Model {
+        shape: shape(flow),
+        grains,
+        surfaces: surfaces(design, &block),
+        barrier: None,
+        material: Material {
+            modulus: flow.modulus,
+            restitution: flow.restitution,
+            tangential_ratio: 2.0 / 7.0,
+            friction: flow.grain_friction,
+        },
+        gravity: gravity(design.channel.slope),
+        wall_levels: match &design.barrier {
+            BarrierDesign::RigidWall(wall) => wall.segment_tops.clone(),
+            BarrierDesign::FlexibleNet(_) => Vec::new(),
+        },
+        outlet: outlet(design),
+    };
+    let mean_radius = 0.42 * flow.sizes.quantile(0.5);
+    let mut simulation = Simulation::new(
+        model,
+        fidelity.time_step,
+        fidelity.skin_share * mean_radius,
+        speed_limit(design, &block),
+    );
+    if matches!(flow.arrival, Arrival::DamBreak { .. }) {
+        settle(&mut simulation, &block)?;
+    }
+    simulation.remove_surfaces(SurfaceRole::Gate);
+    simulation.model.barrier = net.as_ref().map(|net| net.barrier.clone());
+    simulation.start_account();
+    let recorder = recorder_setup(design, net);
+    Ok(Scene {
+        simulation,
+        recorder,
+        smoothing: smoothing(design),
+        rest: REST * time_scale(design),
+        expected_time: expected_time(design),
+    })
+}
+
+/// Time of the last grain's arrival, and some falls from the barrier's height to come to rest.
+fn expected_time(design: &Design) -> f64 {
+    let rest = 4.0 * (barrier_height(design) / GRAVITY).sqrt();
+    rest + match design.flow.arrival {
+        Arrival::Surge {
+            length, velocity, ..
+        } => length / velocity,
+        Arrival::DamBreak {
+            length, distance, ..
+        } => {
+            let slope = design.channel.slope;
+            let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
+            (2.0 * (distance + length) / acceleration.max(0.1)).sqrt()
+        }
+    }
+}
+
+/// How far upstream of its foot the barrier reaches (m), with room for the largest grain.
+fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
+    let lean = net.map_or(0.0, |net| {
+        net.barrier
+            .nodes
+            .iter()
+            .map(|node| -node.position.x)
+            .fold(0.0, f64::max)
+    });
+    lean + 0.5 * design.flow.sizes.quantile(1.0)
+}
+
+/// Lets the block settle behind the gate under gravity, slowed by drag.
+fn settle(simulation: &mut Simulation, block: &Block) -> Result<(), Unstable> {
+    let fall = (block.height / GRAVITY).sqrt();
+    let step = simulation.time_step;
+    simulation.time_step = SETTLING_STEP * step;
+    simulation.drag = SETTLING_DRAG / fall;
+    while simulation.time < SETTLING * fall {
+        simulation.step()?;
+    }
+    simulation.drag = 0.0;
+    simulation.time_step = step;
+    Ok(())
+}
+
+/// Beyond this, grains are gone for good: three barrier heights downstream.
+fn outlet(design: &Design) -> f64 {
+    3.0 * barrier_height(design)
+}
+
+/// Height of the barrier: of a wall normal to the bed, of a net along its plane (m).
+fn barrier_height(design: &Design) -> f64 {
+    match &design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.height,
+        BarrierDesign::FlexibleNet(net) => net.height,
+    }
+}
+
+/// Ten times the speed of falling from the top of the scene to its outlet, plus the speed it came with.
+fn speed_limit(design: &Design, block: &Block) -> f64 {
+    let drop = block.length - block.front + outlet(design) + block.height;
+    10.0 * ((2.0 * GRAVITY * drop).sqrt() + block.velocity)
+}
+
+/// Base, side walls, back wall and gate, and the rigid wall if that is the barrier.
+fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
+    let channel = &design.channel;
+    let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
+    let up_to = |height: f64| Span::bounded(z, f64::NEG_INFINITY, height);
+    let surface = |role, origin, normal, spans, friction| Surface {
+        role,
+        origin,
+        normal,
+        spans,
+        friction,
+    };
+    let across = Span::unbounded(y);
+    let along = Span::unbounded(x);
+    let walls = up_to(channel.wall_height);
+    let back = x * (block.front - block.length);
+    let mut all = vec![
+        surface(
+            SurfaceRole::Base,
+            Vec3::zeros(),
+            z,
+            [along, across],
+            channel.base_friction,
+        ),
+        surface(
+            SurfaceRole::Side,
+            Vec3::zeros(),
+            y,
+            [along, walls],
+            channel.side_friction,
+        ),
+        surface(
+            SurfaceRole::Side,
+            y * channel.width,
+            -y,
+            [along, walls],
+            channel.side_friction,
+        ),
+    ];
+    if matches!(design.flow.arrival, Arrival::DamBreak { .. }) {
+        all.push(surface(
+            SurfaceRole::Side,
+            back,
+            x,
+            [Span::unbounded(z), across],
+            channel.side_friction,
+        ));
+        all.push(surface(
+            SurfaceRole::Gate,
+            x * block.front,
+            -x,
+            [Span::unbounded(z), across],
+            channel.side_friction,
+        ));
+    }
+    if let BarrierDesign::RigidWall(wall) = &design.barrier {
+        let spans = [Span::bounded(z, 0.0, wall.height), across];
+        all.push(surface(
+            SurfaceRole::Wall,
+            Vec3::zeros(),
+            -x,
+            spans,
+            channel.barrier_friction,
+        ));
+    }
+    all
+}
+
+/// Distance of the gauge window upstream, over the barrier's height: 40 to 50 cm at the 40 cm laboratory wall.
+const GAUGE: [f64; 2] = [1.0, 1.25];
+
+/// Distance of the window in which the deposit's depth at the barrier is measured, over the barrier's height.
+const BARRIER_GAUGE: [f64; 2] = [0.0, 0.25];
+
+fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
+    let height = barrier_height(design);
+    RecorderSetup {
+        interval: smoothing(design) / SAMPLES_PER_WINDOW,
+        passage_interval: PASSAGE * time_scale(design),
+        ropes: net.as_ref().map_or(0, |net| net.rope_rows.len()),
+        net_rows: net.map_or(Vec::new(), |net| net.rows),
+        wall: match &design.barrier {
+            BarrierDesign::RigidWall(wall) => Some([wall.height, design.channel.width]),
+            BarrierDesign::FlexibleNet(_) => None,
+        },
+        gauge: GAUGE.map(|share| share * height),
+        barrier_gauge: BARRIER_GAUGE.map(|share| share * height),
+        mass: design.flow.mass,
+        mean_diameter: design.flow.sizes.quantile(0.5),
+    }
+}
