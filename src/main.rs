@@ -9,11 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Checks a debris-flow barrier: guideline loads, granular-flow simulation, limits, report.
 #[derive(Parser)]
-#[command(
-    version,
-    args_conflicts_with_subcommands = true,
-    arg_required_else_help = true
-)]
+#[command(version, args_conflicts_with_subcommands = true, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -57,11 +53,7 @@ fn main() {
             0
         }
         None => {
-            let CheckArguments {
-                design,
-                out,
-                threads,
-            } = arguments.check;
+            let CheckArguments { design, out, threads } = arguments.check;
             let design = design.unwrap_or_default();
             check(&design, out.as_deref(), threads.map(usize::from)) as i32
         }

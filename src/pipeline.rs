@@ -94,10 +94,7 @@ pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
         threads: rayon::current_num_threads(),
         ..Facts::default()
     };
-    let reading = Reading {
-        window: SAMPLES_PER_WINDOW as usize,
-        tail: scene.samples_of_rest(),
-    };
+    let reading = Reading { window: SAMPLES_PER_WINDOW as usize, tail: scene.samples_of_rest() };
     let event = run_event(scene, design.simulation.longest, watch);
     if event.ending == Ending::Interrupted {
         return Err(RunError::Interrupted);
@@ -127,10 +124,7 @@ pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
 fn verdict(outcomes: &[Outcome], doubts: &[String]) -> Verdict {
     if !doubts.is_empty() {
         Verdict::Undecided
-    } else if outcomes
-        .iter()
-        .any(|outcome| outcome.verdict == CheckVerdict::Fail)
-    {
+    } else if outcomes.iter().any(|outcome| outcome.verdict == CheckVerdict::Fail) {
         Verdict::Fail
     } else {
         Verdict::Pass

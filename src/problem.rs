@@ -22,18 +22,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub fn new(
-        path: impl Into<String>,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Self {
-        Self {
-            path: path.into(),
-            position: None,
-            found: found.into(),
-            allowed: allowed.into(),
-            hint: None,
-        }
+    pub fn new(path: impl Into<String>, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self { path: path.into(), position: None, found: found.into(), allowed: allowed.into(), hint: None }
     }
 
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
@@ -72,12 +62,7 @@ impl fmt::Display for Problems {
             }
         }
         let count = self.list.len();
-        writeln!(
-            f,
-            "{count} problem{} in {}; nothing was run.",
-            if count == 1 { "" } else { "s" },
-            self.file
-        )
+        writeln!(f, "{count} problem{} in {}; nothing was run.", if count == 1 { "" } else { "s" }, self.file)
     }
 }
 

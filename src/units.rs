@@ -80,11 +80,7 @@ impl Dimension {
 
     /// Symbols of this dimension, the first being the one used in examples.
     pub fn symbols(self) -> Vec<&'static str> {
-        UNITS
-            .iter()
-            .filter(|(_, dimension, _)| *dimension == self)
-            .map(|(symbol, _, _)| *symbol)
-            .collect()
+        UNITS.iter().filter(|(_, dimension, _)| *dimension == self).map(|(symbol, _, _)| *symbol).collect()
     }
 
     /// The unit in which values of this dimension are shown.
@@ -120,20 +116,14 @@ impl Dimension {
 
 fn trim_zeros(number: &str) -> String {
     if number.contains('.') {
-        number
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_string()
+        number.trim_end_matches('0').trim_end_matches('.').to_string()
     } else {
         number.to_string()
     }
 }
 
 fn factor_of(symbol: &str) -> Option<(Dimension, f64)> {
-    UNITS
-        .iter()
-        .find(|(known, _, _)| *known == symbol)
-        .map(|(_, dimension, factor)| (*dimension, *factor))
+    UNITS.iter().find(|(known, _, _)| *known == symbol).map(|(_, dimension, factor)| (*dimension, *factor))
 }
 
 /// Reads `text` as a quantity of the given dimension and returns its SI value.
@@ -144,38 +134,20 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
     let fail = |found: String, hint: Option<String>| Err(NotAQuantity { found, hint });
     let (number, unit) = split(trimmed);
     let Ok(value) = number.parse::<f64>() else {
-        let comma = trimmed
-            .contains(',')
-            .then(|| "use a point as decimal separator, not a comma".to_string());
-        return fail(
-            format!("`{trimmed}`, which does not start with a number"),
-            comma,
-        );
+        let comma = trimmed.contains(',').then(|| "use a point as decimal separator, not a comma".to_string());
+        return fail(format!("`{trimmed}`, which does not start with a number"), comma);
     };
     if unit.is_empty() {
-        return fail(
-            format!("`{trimmed}`, a number without a unit"),
-            Some(example(number, wanted)),
-        );
+        return fail(format!("`{trimmed}`, a number without a unit"), Some(example(number, wanted)));
     }
-    let symbol = unit
-        .replace('^', "")
-        .replace('³', "3")
-        .replace('²', "2")
-        .replace('°', "deg");
+    let symbol = unit.replace('^', "").replace('³', "3").replace('²', "2").replace('°', "deg");
     match factor_of(&symbol) {
         Some((dimension, factor)) if dimension == wanted && value.is_finite() => Ok(value * factor),
-        Some((dimension, _)) if dimension == wanted => {
-            fail(format!("`{trimmed}`, which is not a finite number"), None)
+        Some((dimension, _)) if dimension == wanted => fail(format!("`{trimmed}`, which is not a finite number"), None),
+        Some((dimension, _)) => {
+            fail(format!("`{trimmed}`, which is {}", dimension.name()), Some(example(number, wanted)))
         }
-        Some((dimension, _)) => fail(
-            format!("`{trimmed}`, which is {}", dimension.name()),
-            Some(example(number, wanted)),
-        ),
-        None => fail(
-            format!("`{trimmed}`, whose unit `{unit}` is not known"),
-            near_unit(&symbol, wanted, number),
-        ),
+        None => fail(format!("`{trimmed}`, whose unit `{unit}` is not known"), near_unit(&symbol, wanted, number)),
     }
 }
 
@@ -185,11 +157,8 @@ fn split(text: &str) -> (&str, &str) {
     let mut end = 0;
     while end < bytes.len() {
         let exponent = matches!(bytes[end], b'e' | b'E')
-            && bytes
-                .get(end + 1)
-                .is_some_and(|next| next.is_ascii_digit() || matches!(next, b'+' | b'-'));
-        let sign = matches!(bytes[end], b'+' | b'-')
-            && (end == 0 || matches!(bytes[end - 1], b'e' | b'E'));
+            && bytes.get(end + 1).is_some_and(|next| next.is_ascii_digit() || matches!(next, b'+' | b'-'));
+        let sign = matches!(bytes[end], b'+' | b'-') && (end == 0 || matches!(bytes[end - 1], b'e' | b'E'));
         if !(bytes[end].is_ascii_digit() || bytes[end] == b'.' || exponent || sign) {
             break;
         }
@@ -204,10 +173,7 @@ fn example(number: &str, wanted: Dimension) -> String {
 }
 
 fn near_unit(symbol: &str, wanted: Dimension, number: &str) -> Option<String> {
-    let same = wanted
-        .symbols()
-        .into_iter()
-        .find(|known| known.eq_ignore_ascii_case(symbol));
+    let same = wanted.symbols().into_iter().find(|known| known.eq_ignore_ascii_case(symbol));
     let near = same.or_else(|| crate::problem::nearest(symbol, wanted.symbols()));
     Some(match near {
         Some(near) => format!("did you mean `{number} {near}`? Units are case-sensitive"),
@@ -223,14 +189,8 @@ mod tests {
     #[test]
     fn every_unit_reads_as_its_si_value() {
         for (symbol, dimension, factor) in UNITS {
-            assert_relative_eq!(
-                parse(&format!("2 {symbol}"), *dimension).unwrap(),
-                2.0 * factor
-            );
-            assert_relative_eq!(
-                parse(&format!("2{symbol}"), *dimension).unwrap(),
-                2.0 * factor
-            );
+            assert_relative_eq!(parse(&format!("2 {symbol}"), *dimension).unwrap(), 2.0 * factor);
+            assert_relative_eq!(parse(&format!("2{symbol}"), *dimension).unwrap(), 2.0 * factor);
         }
     }
 
@@ -238,43 +198,18 @@ mod tests {
     fn reads_what_engineers_type() {
         assert_relative_eq!(parse("1350 kg/m³", Dimension::Density).unwrap(), 1350.0);
         assert_relative_eq!(parse("1.35e3 kg/m^3", Dimension::Density).unwrap(), 1350.0);
-        assert_relative_eq!(
-            parse(" 40° ", Dimension::Angle).unwrap(),
-            40_f64.to_radians()
-        );
-        assert_relative_eq!(
-            parse("-20 deg", Dimension::Angle).unwrap(),
-            -20_f64.to_radians()
-        );
+        assert_relative_eq!(parse(" 40° ", Dimension::Angle).unwrap(), 40_f64.to_radians());
+        assert_relative_eq!(parse("-20 deg", Dimension::Angle).unwrap(), -20_f64.to_radians());
     }
 
     #[test]
     fn says_what_it_took_a_wrong_text_for() {
         let error = |text, dimension| parse(text, dimension).unwrap_err();
-        assert_eq!(
-            error("15.2", Dimension::Length).hint.unwrap(),
-            "write for example `15.2 m`"
-        );
-        assert_eq!(
-            error("25 t", Dimension::Force).found,
-            "`25 t`, which is a mass"
-        );
-        assert!(
-            error("250 kn", Dimension::Force)
-                .hint
-                .unwrap()
-                .contains("`250 kN`")
-        );
+        assert_eq!(error("15.2", Dimension::Length).hint.unwrap(), "write for example `15.2 m`");
+        assert_eq!(error("25 t", Dimension::Force).found, "`25 t`, which is a mass");
+        assert!(error("250 kn", Dimension::Force).hint.unwrap().contains("`250 kN`"));
         assert!(error("4,5 m", Dimension::Length).hint.is_some());
-        assert!(
-            error("nan m", Dimension::Length)
-                .found
-                .contains("does not start with a number")
-        );
-        assert!(
-            error("1e999 m", Dimension::Length)
-                .found
-                .contains("not a finite")
-        );
+        assert!(error("nan m", Dimension::Length).found.contains("does not start with a number"));
+        assert!(error("1e999 m", Dimension::Length).found.contains("not a finite"));
     }
 }

@@ -16,12 +16,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let rope = index + 1;
             let title = format!("Load of the anchors of main rope {rope}");
             let name = CheckName::new(format!("anchor_{rope}_load"), title, "N", ANCHOR_FACTOR);
-            Outcome::at_most(
-                name,
-                demand.times(design.factors.load),
-                capacity,
-                design.limits.anchor_utilisation,
-            )
+            Outcome::at_most(name, demand.times(design.factors.load), capacity, design.limits.anchor_utilisation)
         })
         .collect()
 }

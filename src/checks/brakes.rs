@@ -25,12 +25,7 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let rope = index + 1;
             let title = format!("Stroke of the dissipators of main rope {rope}");
             let name = CheckName::new(format!("brake_{rope}_stroke"), title, "m", BRAKE_DATA);
-            Outcome::at_most(
-                name,
-                *demand,
-                dissipator.stroke,
-                design.limits.brake_utilisation,
-            )
+            Outcome::at_most(name, *demand, dissipator.stroke, design.limits.brake_utilisation)
         })
         .collect()
 }
@@ -43,27 +38,11 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
     };
     let largest = |values: Vec<f64>| values.into_iter().reduce(f64::max);
     let demand = Demand {
-        guideline: largest(
-            demands
-                .anchor_force
-                .iter()
-                .filter_map(|demand| demand.guideline)
-                .collect(),
-        ),
-        simulation: largest(
-            demands
-                .anchor_force
-                .iter()
-                .filter_map(|demand| demand.simulation)
-                .collect(),
-        ),
+        guideline: largest(demands.anchor_force.iter().filter_map(|demand| demand.guideline).collect()),
+        simulation: largest(demands.anchor_force.iter().filter_map(|demand| demand.simulation).collect()),
     };
-    let name = CheckName::new(
-        "brake_plateau",
-        "Largest anchor load against the dissipators' plateau",
-        "N",
-        PLATEAU_DATA,
-    );
+    let name =
+        CheckName::new("brake_plateau", "Largest anchor load against the dissipators' plateau", "N", PLATEAU_DATA);
     // At the plateau the dissipator works as it should: utilisation 1 is a pass, not a warning.
     let mut outcome = Outcome::at_most(name, demand, dissipator.plateau, PLATEAU_TOLERANCE);
     if outcome.verdict == crate::checks::outcome::CheckVerdict::Warn {

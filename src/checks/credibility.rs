@@ -23,37 +23,18 @@ pub struct Numerics {
 /// Reasons why the run cannot be relied on; none if it can.
 pub fn doubts(numerics: &Numerics) -> Vec<String> {
     let mut doubts = Vec::new();
-    doubts.extend(
-        numerics
-            .broke_down
-            .iter()
-            .map(|reason| format!("the simulation broke down: {reason}")),
-    );
+    doubts.extend(numerics.broke_down.iter().map(|reason| format!("the simulation broke down: {reason}")));
     let mut hold = |what: &str, value: f64, limit: f64| {
         // Asked as "within", so that a NaN raises a doubt.
         if !(value.abs() <= limit) {
             doubts.push(format!("{what} is {value:.3e}, beyond the limit {limit}"));
         }
     };
-    hold(
-        "the energy imbalance over the energy put in",
-        numerics.energy_error,
-        ENERGY_LIMIT,
-    );
-    hold(
-        "the largest overlap over the smaller radius",
-        numerics.overlap,
-        OVERLAP_LIMIT,
-    );
-    hold(
-        "the time step over the critical step",
-        numerics.step_ratio,
-        STEP_LIMIT,
-    );
+    hold("the energy imbalance over the energy put in", numerics.energy_error, ENERGY_LIMIT);
+    hold("the largest overlap over the smaller radius", numerics.overlap, OVERLAP_LIMIT);
+    hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT);
     if numerics.unfinished {
-        doubts.push(
-            "the flow had not come to rest when the longest simulated time was reached".to_string(),
-        );
+        doubts.push("the flow had not come to rest when the longest simulated time was reached".to_string());
     }
     doubts
 }
@@ -66,30 +47,12 @@ mod tests {
     fn every_limit_and_nan_raise_a_doubt() {
         assert!(doubts(&Numerics::default()).is_empty());
         for broken in [
-            Numerics {
-                energy_error: -0.02,
-                ..Numerics::default()
-            },
-            Numerics {
-                energy_error: f64::NAN,
-                ..Numerics::default()
-            },
-            Numerics {
-                overlap: 0.21,
-                ..Numerics::default()
-            },
-            Numerics {
-                step_ratio: 2.0,
-                ..Numerics::default()
-            },
-            Numerics {
-                unfinished: true,
-                ..Numerics::default()
-            },
-            Numerics {
-                broke_down: Some("x".into()),
-                ..Numerics::default()
-            },
+            Numerics { energy_error: -0.02, ..Numerics::default() },
+            Numerics { energy_error: f64::NAN, ..Numerics::default() },
+            Numerics { overlap: 0.21, ..Numerics::default() },
+            Numerics { step_ratio: 2.0, ..Numerics::default() },
+            Numerics { unfinished: true, ..Numerics::default() },
+            Numerics { broke_down: Some("x".into()), ..Numerics::default() },
         ] {
             assert_eq!(doubts(&broken).len(), 1, "{broken:?}");
         }

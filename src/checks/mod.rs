@@ -29,8 +29,5 @@ const CHECKS: &[Check] = &[
 
 /// Holds the demands against all limits.
 pub fn check_all(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    CHECKS
-        .iter()
-        .flat_map(|check| check(design, demands))
-        .collect()
+    CHECKS.iter().flat_map(|check| check(design, demands)).collect()
 }

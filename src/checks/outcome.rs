@@ -52,18 +52,8 @@ pub struct CheckName {
 }
 
 impl CheckName {
-    pub fn new(
-        id: impl Into<String>,
-        title: impl Into<String>,
-        unit: &'static str,
-        source: &'static str,
-    ) -> Self {
-        Self {
-            id: id.into(),
-            title: title.into(),
-            unit,
-            source,
-        }
+    pub fn new(id: impl Into<String>, title: impl Into<String>, unit: &'static str, source: &'static str) -> Self {
+        Self { id: id.into(), title: title.into(), unit, source }
     }
 }
 
@@ -76,13 +66,7 @@ impl Outcome {
 
     /// The simulated value must reach `least`.
     pub fn at_least(name: CheckName, demand: Demand, least: f64) -> Self {
-        let utilisation = demand.simulation.map(|value| {
-            if least <= 0.0 {
-                0.0
-            } else {
-                least / value.max(1e-300)
-            }
-        });
+        let utilisation = demand.simulation.map(|value| if least <= 0.0 { 0.0 } else { least / value.max(1e-300) });
         Self::judged(name, demand, Some(least), utilisation, 1.0)
     }
 
@@ -91,13 +75,7 @@ impl Outcome {
         Self::judged(name, demand, None, None, 1.0)
     }
 
-    fn judged(
-        name: CheckName,
-        demand: Demand,
-        capacity: Option<f64>,
-        utilisation: Option<f64>,
-        limit: f64,
-    ) -> Self {
+    fn judged(name: CheckName, demand: Demand, capacity: Option<f64>, utilisation: Option<f64>, limit: f64) -> Self {
         let verdict = match utilisation {
             None => CheckVerdict::Info,
             // Asked as "within", so that a NaN fails.
@@ -105,22 +83,8 @@ impl Outcome {
             Some(value) if value <= limit => CheckVerdict::Warn,
             Some(_) => CheckVerdict::Fail,
         };
-        let CheckName {
-            id,
-            title,
-            unit,
-            source,
-        } = name;
-        Self {
-            id,
-            title,
-            demand,
-            capacity,
-            utilisation,
-            unit,
-            verdict,
-            source,
-        }
+        let CheckName { id, title, unit, source } = name;
+        Self { id, title, demand, capacity, utilisation, unit, verdict, source }
     }
 }
 
@@ -129,10 +93,7 @@ mod tests {
     use super::*;
 
     fn verdict(value: f64) -> CheckVerdict {
-        let demand = Demand {
-            guideline: Some(1.0),
-            simulation: Some(value),
-        };
+        let demand = Demand { guideline: Some(1.0), simulation: Some(value) };
         Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, 100.0, 1.0).verdict
     }
 

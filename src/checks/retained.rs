@@ -6,15 +6,6 @@ use crate::design::Design;
 use crate::sources::DESIGN_LIMIT;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = CheckName::new(
-        "retained_mass",
-        "Mass held by the barrier",
-        "-",
-        DESIGN_LIMIT,
-    );
-    vec![Outcome::at_least(
-        name,
-        demands.retained,
-        design.limits.retained_mass,
-    )]
+    let name = CheckName::new("retained_mass", "Mass held by the barrier", "-", DESIGN_LIMIT);
+    vec![Outcome::at_least(name, demands.retained, design.limits.retained_mass)]
 }

@@ -20,12 +20,7 @@ pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
                 "N",
                 ROPE_FACTOR,
             );
-            Outcome::at_most(
-                name,
-                demand.times(design.factors.load),
-                capacity,
-                design.limits.rope_utilisation,
-            )
+            Outcome::at_most(name, demand.times(design.factors.load), capacity, design.limits.rope_utilisation)
         })
         .collect()
 }
@@ -35,17 +30,7 @@ pub fn check_net(design: &Design, demands: &Demands) -> Vec<Outcome> {
         return Vec::new();
     };
     let capacity = net.net_rope.breaking_load / design.factors.rope;
-    let name = CheckName::new(
-        "net_tension",
-        "Tension of the net's ropes",
-        "N",
-        ROPE_FACTOR,
-    );
+    let name = CheckName::new("net_tension", "Tension of the net's ropes", "N", ROPE_FACTOR);
     let demand = demands.net_tension.times(design.factors.load);
-    vec![Outcome::at_most(
-        name,
-        demand,
-        capacity,
-        design.limits.rope_utilisation,
-    )]
+    vec![Outcome::at_most(name, demand, capacity, design.limits.rope_utilisation)]
 }

@@ -6,12 +6,7 @@ use crate::design::{BarrierDesign, Design};
 use crate::sources::DESIGN_LIMIT;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = CheckName::new(
-        "total_force",
-        "Total force on the barrier",
-        "N",
-        DESIGN_LIMIT,
-    );
+    let name = CheckName::new("total_force", "Total force on the barrier", "N", DESIGN_LIMIT);
     let demand = demands.total_force.times(design.factors.load);
     let resistance = match &design.barrier {
         BarrierDesign::RigidWall(wall) => wall.resistance,

@@ -38,10 +38,7 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
         }
     };
     if let Err(error) = write(&result, &folder) {
-        eprintln!(
-            "error: the report could not be written to {}: {error}",
-            folder.display()
-        );
+        eprintln!("error: the report could not be written to {}: {error}", folder.display());
         return ExitCode::Undecided;
     }
     summarise(&result, &folder);
@@ -56,28 +53,17 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
 pub fn load(path: &Path) -> Result<DesignFile, Problems> {
     let name = path.display().to_string();
     let mut bytes = Vec::new();
-    let opened =
-        std::fs::File::open(path).and_then(|file| file.take(MOST_READ).read_to_end(&mut bytes));
+    let opened = std::fs::File::open(path).and_then(|file| file.take(MOST_READ).read_to_end(&mut bytes));
     if let Err(error) = opened {
-        let problem = Problem::new(
-            "",
-            format!("a file that cannot be read: {error}"),
-            "a design file in YAML",
-        )
-        .hint("the examples are in the folder `designs`");
-        return Err(Problems {
-            file: name,
-            list: vec![problem],
-        });
+        let problem = Problem::new("", format!("a file that cannot be read: {error}"), "a design file in YAML")
+            .hint("the examples are in the folder `designs`");
+        return Err(Problems { file: name, list: vec![problem] });
     }
     read_design(&name, &bytes)
 }
 
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
-fn simulate(
-    file: DesignFile,
-    threads: Option<usize>,
-) -> Result<Run, Box<dyn std::error::Error + Send + Sync>> {
+fn simulate(file: DesignFile, threads: Option<usize>) -> Result<Run, Box<dyn std::error::Error + Send + Sync>> {
     let stop = Arc::new(AtomicBool::new(false));
     let heard = stop.clone();
     // A second handler cannot be set; then Ctrl-C simply ends the program, which writes nothing either.
@@ -86,25 +72,11 @@ fn simulate(
     let show = |report: ProgressReport| {
         if let Ok(bar) = bar.lock() {
             bar.set_position((1000.0 * report.share) as u64);
-            bar.set_message(format!(
-                "t = {:.2} s, force {:.4} kN",
-                report.time,
-                report.force / 1e3
-            ));
+            bar.set_message(format!("t = {:.2} s, force {:.4} kN", report.time, report.force / 1e3));
         }
     };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
-        .build()?;
-    let result = pool.install(|| {
-        run(
-            file,
-            &Watch {
-                progress: &show,
-                stop: &stop,
-            },
-        )
-    });
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
+    let result = pool.install(|| run(file, &Watch { progress: &show, stop: &stop }));
     if let Ok(bar) = bar.lock() {
         bar.finish_and_clear();
     }
@@ -125,22 +97,10 @@ fn progress_bar() -> ProgressBar {
 fn write(run: &Run, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let rendered = render(&View::of(run))?;
     let files = [
-        ReportFile {
-            name: "report.html",
-            text: rendered.html,
-        },
-        ReportFile {
-            name: "report.md",
-            text: rendered.markdown,
-        },
-        ReportFile {
-            name: "histories.csv",
-            text: crate::report::csv::text(&run.histories),
-        },
-        ReportFile {
-            name: "result.json",
-            text: serde_json::to_string_pretty(&ResultFile::of(run))? + "\n",
-        },
+        ReportFile { name: "report.html", text: rendered.html },
+        ReportFile { name: "report.md", text: rendered.markdown },
+        ReportFile { name: "histories.csv", text: crate::report::csv::text(&run.histories) },
+        ReportFile { name: "result.json", text: serde_json::to_string_pretty(&ResultFile::of(run))? + "\n" },
     ];
     write_all(folder, &files)?;
     Ok(())
@@ -154,18 +114,9 @@ fn summarise(run: &Run, folder: &Path) {
         let _ = writeln!(out, "{line}");
     };
     for check in &view.checks {
-        say(format!(
-            "{:<5} {:>6}  {}",
-            check.verdict.to_uppercase(),
-            check.utilisation,
-            check.title
-        ));
+        say(format!("{:<5} {:>6}  {}", check.verdict.to_uppercase(), check.utilisation, check.title));
     }
-    say(format!(
-        "{}: {}",
-        view.verdict.to_uppercase(),
-        view.verdict_line
-    ));
+    say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
     for doubt in &view.doubts {
         say(format!("  {doubt}"));
     }

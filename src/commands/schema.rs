@@ -20,11 +20,7 @@ pub fn design_schema() -> Value {
 }
 
 fn section(keys: &[Key]) -> Value {
-    let required: Vec<&str> = keys
-        .iter()
-        .filter(|key| key.need == Need::Required)
-        .map(|key| key.name)
-        .collect();
+    let required: Vec<&str> = keys.iter().filter(|key| key.need == Need::Required).map(|key| key.name).collect();
     json!({ "type": "object", "additionalProperties": false, "properties": properties(keys), "required": required })
 }
 
@@ -46,11 +42,7 @@ fn kind(kind: &Kind) -> Value {
             let units = dimension.symbols().join("|");
             json!({ "type": "string", "pattern": format!("^[-+0-9.eE]+ ?({units})$") })
         }
-        Kind::Quantities {
-            dimension,
-            low,
-            high,
-        } => {
+        Kind::Quantities { dimension, low, high } => {
             json!({ "type": "array", "minItems": 1, "items": self::kind(&Kind::Quantity { dimension, low, high }) })
         }
         Kind::Number { low, high } => json!({ "type": "number", "minimum": low, "maximum": high }),

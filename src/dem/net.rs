@@ -59,16 +59,8 @@ pub fn pull_all(barrier: &Barrier, time_step: f64) -> NetForces {
 
 /// Lets ropes slide through their rings at the present places; returns the energy lost (J).
 pub fn slide_all(barrier: &mut Barrier) -> f64 {
-    let Barrier {
-        nodes,
-        segments,
-        chains,
-        ..
-    } = barrier;
-    chains
-        .iter()
-        .map(|chain| chain.slide(segments, nodes))
-        .sum()
+    let Barrier { nodes, segments, chains, .. } = barrier;
+    chains.iter().map(|chain| chain.slide(segments, nodes)).sum()
 }
 
 impl NetForces {

@@ -219,35 +219,13 @@ impl Simulation {
     fn load(&mut self) {
         let law = self.law();
         let step = self.steps as u32;
-        let Self {
-            model,
-            members,
-            loads,
-            neighbours,
-            sums,
-            ..
-        } = self;
-        let forces = BlockForces {
-            model,
-            members,
-            law,
-            step,
-        };
-        let block_rows = neighbours
-            .blocks
-            .first()
-            .map_or(1, |block| block.members.len().max(1));
+        let Self { model, members, loads, neighbours, sums, .. } = self;
+        let forces = BlockForces { model, members, law, step };
+        let block_rows = neighbours.blocks.first().map_or(1, |block| block.members.len().max(1));
         let (net, ()) = rayon::join(
+            || model.barrier.as_ref().map(|barrier| pull_all(barrier, law.time_step)),
             || {
-                model
-                    .barrier
-                    .as_ref()
-                    .map(|barrier| pull_all(barrier, law.time_step))
-            },
-            || {
-                let rows = loads
-                    .par_chunks_mut(block_rows)
-                    .zip(neighbours.blocks.par_iter_mut());
+                let rows = loads.par_chunks_mut(block_rows).zip(neighbours.blocks.par_iter_mut());
                 rows.for_each(|(loads, block)| forces.load_block(block, loads));
             },
         );
@@ -292,41 +270,27 @@ impl Simulation {
         };
         let ratio = audit.ratio();
         let worst = &mut self.extremes.step_ratio;
-        *worst = StepRatio {
-            grains: worst.grains.max(ratio.grains),
-            nodes: worst.nodes.max(ratio.nodes),
-        };
+        *worst = StepRatio { grains: worst.grains.max(ratio.grains), nodes: worst.nodes.max(ratio.nodes) };
         if ratio.largest() > 1.0 {
             self.time_step *= STEP_AFTER_CUT / ratio.largest();
             self.step_cuts += 1;
         }
         if self.time_step < SHORTEST_STEP * self.first_time_step || !ratio.largest().is_finite() {
-            return Err(Unstable::Step {
-                time: self.time,
-                step: self.time_step,
-            });
+            return Err(Unstable::Step { time: self.time, step: self.time_step });
         }
         Ok(())
     }
 
     /// Moves everything through the step and closes the account of the instant the forces belong to.
     fn advance(&mut self) {
-        let time = Stretch {
-            step: self.time_step,
-            drag: self.drag,
-        };
+        let time = Stretch { step: self.time_step, drag: self.drag };
         let gravity = self.model.gravity;
         let per_grain = self.model.shape.members();
         let mut motion = MotionSums::default();
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_dissipators += self.sums.net.slip_dissipators(barrier);
             self.ledger.lost_friction += slide_all(barrier);
-            motion.add(&move_nodes(
-                &mut barrier.nodes,
-                &self.sums.net.forces,
-                &gravity,
-                self.time_step,
-            ));
+            motion.add(&move_nodes(&mut barrier.nodes, &self.sums.net.forces, &gravity, self.time_step));
         }
         let Neighbours { blocks, .. } = &mut self.neighbours;
         let rows = blocks.first().map_or(1, |block| block.members.len().max(1));
@@ -340,10 +304,7 @@ impl Simulation {
             .zip(reference.par_chunks(rows))
             .map(|(((grains, members), loads), reference)| {
                 let sums = move_grains(grains, members, loads, &gravity, time);
-                (
-                    sums,
-                    crate::dem::neighbours::renew::moved_squared(reference, members),
-                )
+                (sums, crate::dem::neighbours::renew::moved_squared(reference, members))
             })
             .collect();
         for (block, (sums, moved_squared)) in self.neighbours.blocks.iter_mut().zip(&moved) {
@@ -364,13 +325,7 @@ impl Simulation {
             sums.kinetic += 0.5 * grain.body.mass * grain.velocity.norm_squared() + rotational;
             sums.potential -= grain.body.mass * self.model.gravity.dot(&grain.position);
         }
-        for node in self
-            .model
-            .barrier
-            .iter()
-            .flat_map(|barrier| &barrier.nodes)
-            .filter(|node| !node.fixed)
-        {
+        for node in self.model.barrier.iter().flat_map(|barrier| &barrier.nodes).filter(|node| !node.fixed) {
             sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
             sums.potential -= node.mass * self.model.gravity.dot(&node.position);
         }
@@ -383,30 +338,13 @@ impl Simulation {
         let honest = |position: &Vec3, velocity: &Vec3| {
             position.iter().all(|value| value.is_finite()) && velocity.norm() <= limit
         };
-        if let Some(grain) = self
-            .model
-            .grains
-            .iter()
-            .find(|grain| !honest(&grain.position, &grain.velocity))
-        {
-            return Err(Unstable::Grain {
-                id: grain.id,
-                time: self.time,
-                speed: grain.velocity.norm(),
-            });
+        if let Some(grain) = self.model.grains.iter().find(|grain| !honest(&grain.position, &grain.velocity)) {
+            return Err(Unstable::Grain { id: grain.id, time: self.time, speed: grain.velocity.norm() });
         }
-        let nodes = self
-            .model
-            .barrier
-            .iter()
-            .flat_map(|barrier| barrier.nodes.iter().enumerate());
+        let nodes = self.model.barrier.iter().flat_map(|barrier| barrier.nodes.iter().enumerate());
         for (index, node) in nodes {
             if !honest(&node.position, &node.velocity) {
-                return Err(Unstable::Node {
-                    node: index,
-                    time: self.time,
-                    speed: node.velocity.norm(),
-                });
+                return Err(Unstable::Node { node: index, time: self.time, speed: node.velocity.norm() });
             }
         }
         Ok(())
@@ -423,31 +361,13 @@ struct BlockForces<'a> {
 
 impl BlockForces<'_> {
     fn load_block(&self, block: &mut Block, loads: &mut [MemberLoad]) {
-        let Self {
-            model,
-            members,
-            law,
-            step,
-        } = *self;
+        let Self { model, members, law, step } = *self;
         let material = &model.material;
         loads.fill(MemberLoad::default());
-        let constants = PairConstants {
-            law,
-            modulus: material.modulus,
-            friction: material.friction,
-        };
-        let pairs = PairContext {
-            members,
-            constants,
-            step,
-        };
+        let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
+        let pairs = PairContext { members, constants, step };
         let mut sums = load_inner(&mut block.inner, &pairs, &block.members, loads);
-        sums.add(&load_border(
-            &mut block.border,
-            &pairs,
-            &block.members,
-            loads,
-        ));
+        sums.add(&load_border(&mut block.border, &pairs, &block.members, loads));
         let surfaces = SurfaceContext {
             members,
             surfaces: &model.surfaces,
@@ -458,13 +378,7 @@ impl BlockForces<'_> {
             wall_levels: &model.wall_levels,
         };
         block.surface_forces.reset(model.wall_levels.len());
-        sums.add(&load_surfaces(
-            &mut block.surfaces,
-            &surfaces,
-            &block.members,
-            loads,
-            &mut block.surface_forces,
-        ));
+        sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.members, loads, &mut block.surface_forces));
         if let Some(barrier) = &model.barrier {
             let context = RopeContext {
                 members,

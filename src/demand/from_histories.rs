@@ -1,6 +1,6 @@
 //! What the simulation showed, as numbers.
 
-use crate::dem::recorders::histories::{Histories, peak, smoothed, tail_mean};
+use crate::dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
 use crate::demand::from_loads::Guideline;
 use crate::design::Design;
 
@@ -31,9 +31,11 @@ pub struct Observed {
     pub segment_residual: Vec<f64>,
     /// Largest moment about the toe (N m/m).
     pub moment_peak: f64,
-    /// Depth (m) and velocity (m/s) of the incoming flow where its momentum flux was largest.
-    pub incoming: [f64; 2],
-    /// Depth of the deposit at the barrier at the end (m).
+    /// The incoming flow when its momentum flux was largest.
+    pub incoming: Gauge,
+    /// The same window when the total force peaked: thickness and velocity as the laboratory measured them.
+    pub incoming_at_peak: Gauge,
+    /// Depth of the deposit at the barrier at the end, at bulk density (m).
     pub deposit_depth: f64,
     /// K that the residual force means, where there is a deposit.
     pub k_effective: Option<f64>,
@@ -51,19 +53,10 @@ pub struct Reading {
 }
 
 impl Observed {
-    pub fn read(
-        histories: &Histories,
-        design: &Design,
-        guideline: &Guideline,
-        reading: Reading,
-    ) -> Self {
+    pub fn read(histories: &Histories, design: &Design, guideline: &Guideline, reading: Reading) -> Self {
         let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
         let (at_peak, force_peak) = peak(&smoothed(&force, reading.window));
-        let velocity: Vec<f64> = histories
-            .velocity
-            .iter()
-            .map(|velocity| velocity[0])
-            .collect();
+        let velocity: Vec<f64> = histories.velocity.iter().map(|velocity| velocity[0]).collect();
         let (at_fastest, velocity_peak) = peak(&velocity);
         let lost = histories.lost.last().copied().unwrap_or_default();
         let time = |index: usize| histories.time.get(index).copied().unwrap_or(0.0);
@@ -80,27 +73,16 @@ impl Observed {
             residual_height: residual_height(histories),
             rope_tension_peak: raw_peaks(&histories.rope_largest),
             rope_mean_peak: raw_peaks(&histories.rope_mean),
-            rope_mean_residual: histories
-                .rope_mean
-                .iter()
-                .map(|row| tail_mean(row, reading.tail))
-                .collect(),
+            rope_mean_residual: histories.rope_mean.iter().map(|row| tail_mean(row, reading.tail)).collect(),
             anchor_force_peak: raw_peaks(&histories.anchors),
             brake_stroke: raw_peaks(&histories.strokes),
             net_tension_peak: peak(&histories.net_largest).1,
-            segment_peak: histories
-                .segments
-                .iter()
-                .map(|row| peak(&smoothed(row, reading.window)).1 / width)
-                .collect(),
-            segment_residual: histories
-                .segments
-                .iter()
-                .map(|row| tail_mean(row, reading.tail) / width)
-                .collect(),
+            segment_peak: histories.segments.iter().map(|row| peak(&smoothed(row, reading.window)).1 / width).collect(),
+            segment_residual: histories.segments.iter().map(|row| tail_mean(row, reading.tail) / width).collect(),
             moment_peak: peak(&smoothed(&histories.moment, reading.window)).1 / width,
             incoming: incoming(histories, at_peak),
-            deposit_depth: histories.barrier_depth.last().copied().unwrap_or(0.0),
+            incoming_at_peak: histories.incoming.get(at_peak).copied().unwrap_or_default(),
+            deposit_depth: histories.at_barrier.last().map_or(0.0, |gauge| gauge.depth),
             ..Self::default()
         };
         observed.measure_coefficients(histories, at_peak, width, guideline);
@@ -108,46 +90,29 @@ impl Observed {
     }
 
     /// K from the force at rest, λ from the peak with the design's K for the static part.
-    fn measure_coefficients(
-        &mut self,
-        histories: &Histories,
-        at_peak: usize,
-        width: f64,
-        guideline: &Guideline,
-    ) {
+    fn measure_coefficients(&mut self, histories: &Histories, at_peak: usize, width: f64, guideline: &Guideline) {
         let unit = guideline.input.density * guideline.input.gravity_normal;
         if self.deposit_depth > 0.0 {
-            self.k_effective =
-                Some(2.0 * self.force_residual / width / (unit * self.deposit_depth.powi(2)));
+            self.k_effective = Some(2.0 * self.force_residual / width / (unit * self.deposit_depth.powi(2)));
         }
-        let [depth, velocity] = self.incoming;
-        if depth > 0.0 && velocity > 0.0 {
-            let standing = histories.barrier_depth.get(at_peak).copied().unwrap_or(0.0);
+        if self.incoming.flux > 0.0 {
+            let standing = histories.at_barrier.get(at_peak).map_or(0.0, |gauge| gauge.depth);
             let fixed = 0.5 * guideline.input.earth_pressure * unit * standing.powi(2);
-            let flux = guideline.input.density * velocity * velocity * depth;
-            self.lambda_effective = Some((self.force_peak / width - fixed) / flux);
+            self.lambda_effective =
+                Some((self.force_peak / width - fixed) / (guideline.input.density * self.incoming.flux));
         }
     }
 }
 
 fn residual_height(histories: &Histories) -> f64 {
-    match (
-        histories.top_rope_height.first(),
-        histories.top_rope_height.last(),
-    ) {
+    match (histories.top_rope_height.first(), histories.top_rope_height.last()) {
         (Some(first), Some(last)) if *first > 0.0 => last / first,
         _ => 1.0,
     }
 }
 
-/// Depth and velocity at the gauge when the momentum flux there was largest, before the force peaked.
-fn incoming(histories: &Histories, until: usize) -> [f64; 2] {
-    let flux = |gauge: &&[f64; 2]| gauge[0] * gauge[1] * gauge[1].abs();
-    histories
-        .gauge
-        .iter()
-        .take(until + 1)
-        .max_by(|a, b| flux(a).total_cmp(&flux(b)))
-        .copied()
-        .unwrap_or_default()
+/// The gauge upstream when the momentum flux there was largest, before the force peaked.
+fn incoming(histories: &Histories, until: usize) -> Gauge {
+    let before = histories.incoming.iter().take(until + 1);
+    before.max_by(|a, b| a.flux.total_cmp(&b.flux)).copied().unwrap_or_default()
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use crate::design::{Arrival, BarrierDesign, Bottom, Design, FlexibleNet};
+use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet};
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::loads::volkwein::{GuidelineInput, LoadCase, level_deposit_height};
 use crate::units::GRAVITY;
@@ -24,20 +24,12 @@ const RITTER: f64 = 4.0 / 9.0;
 pub fn guideline(design: &Design) -> Guideline {
     let input = input(design);
     let cases = input.cases();
-    let largest = cases
-        .iter()
-        .map(|case| case.force_per_width)
-        .fold(0.0, f64::max);
+    let largest = cases.iter().map(|case| case.force_per_width).fold(0.0, f64::max);
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
         BarrierDesign::FlexibleNet(net) => rope_states(net, design, &input, &cases),
     };
-    Guideline {
-        input,
-        cases,
-        largest_force: largest * design.channel.width,
-        ropes,
-    }
+    Guideline { input, cases, largest_force: largest * design.channel.width, ropes }
 }
 
 fn input(design: &Design) -> GuidelineInput {
@@ -69,40 +61,32 @@ pub fn height_over_bed(design: &Design) -> f64 {
     }
 }
 
-/// Depth and velocity with which the flow reaches the barrier. A surge has them; for a dam break the depth is
-/// Ritter's and the velocity that of a block sliding on the bed with its friction.
+/// Depth and velocity with which the flow reaches the barrier. A surge has them; for a dam break the designer
+/// may give them, else the depth is Ritter's and the velocity that of a block sliding on the bed with its friction.
 fn incoming(design: &Design) -> (f64, f64) {
     match design.flow.arrival {
-        Arrival::Surge {
-            depth, velocity, ..
-        } => (depth, velocity),
-        Arrival::DamBreak {
-            length,
-            height,
-            distance,
-        } => {
-            let slope = design.channel.slope;
-            let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
-            let way = distance + 0.5 * length;
-            (RITTER * height, (2.0 * acceleration.max(0.0) * way).sqrt())
-        }
+        Arrival::Surge { depth, velocity, .. } => (depth, velocity),
+        Arrival::DamBreak(block) => (
+            block.depth_at_barrier.unwrap_or(RITTER * block.height),
+            block.velocity_at_barrier.unwrap_or_else(|| sliding_velocity(design, &block)),
+        ),
     }
 }
 
+/// √(2 a s) with a = g (sin α − tan φ cos α), s from the block's centre to the barrier.
+fn sliding_velocity(design: &Design, block: &DamBreak) -> f64 {
+    let slope = design.channel.slope;
+    let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
+    (2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length)).sqrt()
+}
+
 /// Each rope under the pressure on its tributary height, worst over the stages.
-fn rope_states(
-    net: &FlexibleNet,
-    design: &Design,
-    input: &GuidelineInput,
-    cases: &[LoadCase],
-) -> Vec<RopeState> {
+fn rope_states(net: &FlexibleNet, design: &Design, input: &GuidelineInput, cases: &[LoadCase]) -> Vec<RopeState> {
     let rope = net.main_ropes.rope;
     let span = RopeInput {
         span: design.channel.width,
         axial_stiffness: rope.modulus * FRAC_PI_4 * rope.diameter.powi(2),
-        dissipator: net
-            .dissipators
-            .map(|dissipator| [dissipator.plateau, dissipator.stroke]),
+        dissipator: net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke]),
     };
     let to_bed_normal = height_over_bed(design) / net.height;
     let heights = &net.main_ropes.heights;
@@ -112,16 +96,8 @@ fn rope_states(
             if index == 0 && net.bottom == Bottom::Fixed {
                 return RopeState::default();
             }
-            let low = if index == 0 {
-                0.0
-            } else {
-                middle(index - 1, index)
-            };
-            let high = if index + 1 == heights.len() {
-                f64::INFINITY
-            } else {
-                middle(index, index + 1)
-            };
+            let low = if index == 0 { 0.0 } else { middle(index - 1, index) };
+            let high = if index + 1 == heights.len() { f64::INFINITY } else { middle(index, index + 1) };
             let loads = cases.iter().map(|case| input.strip_force(case, low, high));
             span.under(loads.fold(0.0, f64::max))
         })

@@ -16,18 +16,12 @@ pub struct Demand {
 impl Demand {
     /// The larger of the two.
     pub fn largest(&self) -> Option<f64> {
-        self.guideline
-            .into_iter()
-            .chain(self.simulation)
-            .max_by(f64::total_cmp)
+        self.guideline.into_iter().chain(self.simulation).max_by(f64::total_cmp)
     }
 
     /// Both multiplied by a partial factor.
     pub fn times(&self, factor: f64) -> Self {
-        Self {
-            guideline: self.guideline.map(|v| v * factor),
-            simulation: self.simulation.map(|v| v * factor),
-        }
+        Self { guideline: self.guideline.map(|v| v * factor), simulation: self.simulation.map(|v| v * factor) }
     }
 }
 
@@ -54,23 +48,14 @@ impl Demands {
     pub fn meet(guideline: &Guideline, observed: &Observed) -> Self {
         let both = |guideline: &[f64], simulation: &[f64]| -> Vec<Demand> {
             (0..simulation.len())
-                .map(|rope| Demand {
-                    guideline: guideline.get(rope).copied(),
-                    simulation: Some(simulation[rope]),
-                })
+                .map(|rope| Demand { guideline: guideline.get(rope).copied(), simulation: Some(simulation[rope]) })
                 .collect()
         };
         let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.tension).collect();
         let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.stroke).collect();
-        let simulated = |value: f64| Demand {
-            guideline: None,
-            simulation: Some(value),
-        };
+        let simulated = |value: f64| Demand { guideline: None, simulation: Some(value) };
         Self {
-            total_force: Demand {
-                guideline: Some(guideline.largest_force),
-                simulation: Some(observed.force_peak),
-            },
+            total_force: Demand { guideline: Some(guideline.largest_force), simulation: Some(observed.force_peak) },
             rope_tension: both(&tensions, &observed.rope_tension_peak),
             anchor_force: both(&tensions, &observed.anchor_force_peak),
             brake_stroke: both(&strokes, &observed.brake_stroke),

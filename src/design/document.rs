@@ -58,29 +58,21 @@ impl Document {
             ));
         }
         let Ok(text) = std::str::from_utf8(bytes) else {
-            return Err(whole("bytes that are not UTF-8 text", "a YAML text file")
-                .hint("is this a binary file?"));
+            return Err(whole("bytes that are not UTF-8 text", "a YAML text file").hint("is this a binary file?"));
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
         if let Some(line) = text.lines().position(|line| line.starts_with('\t')) {
-            let position = Position {
-                line: line + 1,
-                column: 1,
-            };
+            let position = Position { line: line + 1, column: 1 };
             return Err(whole("a tab at the beginning of the line", "spaces").at(Some(position)));
         }
         BUDGET.set(MOST_VALUES);
         let parsed = serde_yaml::Deserializer::from_str(&text);
         match NodeSeed.deserialize(parsed) {
-            Ok(Node::Nothing) => Err(whole(
-                "an empty file",
-                "a design with the sections project, channel, flow, barrier",
-            )),
+            Ok(Node::Nothing) => {
+                Err(whole("an empty file", "a design with the sections project, channel, flow, barrier"))
+            }
             Ok(root @ Node::Map(_)) => Ok(Self { text, root }),
-            Ok(other) => Err(whole(
-                &other.describe(),
-                "a group of keys: project, channel, flow, barrier, …",
-            )),
+            Ok(other) => Err(whole(&other.describe(), "a group of keys: project, channel, flow, barrier, …")),
             Err(error) => Err(unreadable(&error)),
         }
     }
@@ -88,41 +80,21 @@ impl Document {
     /// Position of the value (or of the key itself) at `path`, a dotted path with list indices as numbers.
     pub fn position(&self, path: &str) -> Option<Position> {
         BUDGET.set(MOST_VALUES);
-        let steps: Vec<&str> = if path.is_empty() {
-            Vec::new()
-        } else {
-            path.split('.').collect()
-        };
-        let located =
-            Locate { steps: &steps }.deserialize(serde_yaml::Deserializer::from_str(&self.text));
+        let steps: Vec<&str> = if path.is_empty() { Vec::new() } else { path.split('.').collect() };
+        let located = Locate { steps: &steps }.deserialize(serde_yaml::Deserializer::from_str(&self.text));
         let location = located.err()?.location()?;
-        Some(Position {
-            line: location.line(),
-            column: location.column(),
-        })
+        Some(Position { line: location.line(), column: location.column() })
     }
 }
 
 fn unreadable(error: &serde_yaml::Error) -> Problem {
     let message = error.to_string();
-    let position = error.location().map(|place| Position {
-        line: place.line(),
-        column: place.column(),
-    });
+    let position = error.location().map(|place| Position { line: place.line(), column: place.column() });
     let problem = if message.contains(TOO_MANY) {
-        Problem::new("", TOO_MANY, "a design of some hundred values")
-            .hint("does an alias (`*name`) repeat itself?")
+        Problem::new("", TOO_MANY, "a design of some hundred values").hint("does an alias (`*name`) repeat itself?")
     } else {
-        let said = message
-            .split(" at line ")
-            .next()
-            .unwrap_or(&message)
-            .to_string();
-        Problem::new(
-            "",
-            format!("text that is not YAML: {said}"),
-            "YAML: `key: value` lines, indented with spaces",
-        )
+        let said = message.split(" at line ").next().unwrap_or(&message).to_string();
+        Problem::new("", format!("text that is not YAML: {said}"), "YAML: `key: value` lines, indented with spaces")
     };
     problem.at(position)
 }
@@ -270,10 +242,7 @@ impl<'de> Visitor<'de> for Locate<'_> {
             return Err(A::Error::custom("here"));
         };
         let stop_at_key = if rest.is_empty() { Some(*first) } else { None };
-        while let Some(found) = entries.next_key_seed(KeySeed {
-            wanted: first,
-            stop: stop_at_key.is_some(),
-        })? {
+        while let Some(found) = entries.next_key_seed(KeySeed { wanted: first, stop: stop_at_key.is_some() })? {
             if found {
                 return entries.next_value_seed(Locate { steps: rest });
             }

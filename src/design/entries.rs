@@ -74,10 +74,7 @@ impl Entries {
 
 /// Reads a whole design by its table of keys; problems go to `problems`.
 pub fn read(root: &Node, keys: &'static [Key], problems: &mut Vec<Problem>) -> Entries {
-    let mut reader = Reader {
-        entries: Entries::default(),
-        problems,
-    };
+    let mut reader = Reader { entries: Entries::default(), problems };
     reader.section(root, keys, "");
     reader.entries
 }
@@ -91,11 +88,9 @@ impl Reader<'_> {
     fn section(&mut self, node: &Node, keys: &'static [Key], path: &str) {
         self.entries.sections.push(path.to_string());
         let Node::Map(map) = node else {
-            if !(matches!(node, Node::Nothing) && keys.iter().all(|key| key.need != Need::Required))
-            {
+            if !(matches!(node, Node::Nothing) && keys.iter().all(|key| key.need != Need::Required)) {
                 let allowed = Kind::Section(keys).allowed();
-                self.problems
-                    .push(Problem::new(path, node.describe(), allowed));
+                self.problems.push(Problem::new(path, node.describe(), allowed));
                 return;
             }
             return self.fields(&[], keys, path);
@@ -118,18 +113,11 @@ impl Reader<'_> {
         for (index, (name, _)) in map.iter().enumerate() {
             let here = join(path, name);
             if map[..index].iter().any(|(earlier, _)| earlier == name) {
-                self.problems.push(Problem::new(
-                    &here,
-                    format!("the key `{name}` a second time"),
-                    "each key once",
-                ));
+                self.problems.push(Problem::new(&here, format!("the key `{name}` a second time"), "each key once"));
             }
             if !keys.iter().any(|key| key.name == name) {
-                let mut problem = Problem::new(
-                    &here,
-                    format!("the unknown key `{name}`"),
-                    format!("the keys {}", names(keys)),
-                );
+                let mut problem =
+                    Problem::new(&here, format!("the unknown key `{name}`"), format!("the keys {}", names(keys)));
                 if let Some(near) = nearest(name, keys.iter().map(|key| key.name)) {
                     problem = problem.hint(format!("did you mean `{near}`?"));
                 }
@@ -141,19 +129,14 @@ impl Reader<'_> {
     fn absent(&mut self, key: &'static Key, path: &str, here: &str) {
         match (key.need, key.kind) {
             (Need::Optional, _) => {}
-            (Need::Default(_), Kind::Section(keys)) => {
-                self.section(&Node::Map(Vec::new()), keys, here)
-            }
+            (Need::Default(_), Kind::Section(keys)) => self.section(&Node::Map(Vec::new()), keys, here),
             (Need::Default(typed), _) => {
-                let node = typed
-                    .parse()
-                    .map_or_else(|_| Node::Text(typed.to_string()), Node::Number);
+                let node = typed.parse().map_or_else(|_| Node::Text(typed.to_string()), Node::Number);
                 self.value(&node, key, here, Origin::Default);
             }
             (Need::Required, kind) => {
                 let problem = Problem::new(path, format!("no key `{}`", key.name), kind.allowed());
-                self.problems
-                    .push(problem.hint(format!("`{}` is {}", key.name, key.meaning)));
+                self.problems.push(problem.hint(format!("`{}` is {}", key.name, key.meaning)));
             }
         }
     }
@@ -166,12 +149,7 @@ impl Reader<'_> {
         }
         match understand(node, &key.kind) {
             Ok(value) => {
-                let entry = Entry {
-                    value,
-                    typed: typed(node),
-                    origin,
-                    meaning: key.meaning,
-                };
+                let entry = Entry { value, typed: typed(node), origin, meaning: key.meaning };
                 self.entries.order.push(path.to_string());
                 self.entries.values.insert(path.to_string(), entry);
             }
@@ -187,23 +165,15 @@ impl Reader<'_> {
         self.entries.sections.push(path.to_string());
         let allowed = Kind::OneOf(keys).allowed();
         let Node::Map(map) = node else {
-            self.problems
-                .push(Problem::new(path, node.describe(), allowed));
+            self.problems.push(Problem::new(path, node.describe(), allowed));
             return;
         };
         self.report_unknown(map, keys, path);
-        let known: Vec<_> = map
-            .iter()
-            .filter(|(name, _)| keys.iter().any(|key| key.name == name))
-            .collect();
+        let known: Vec<_> = map.iter().filter(|(name, _)| keys.iter().any(|key| key.name == name)).collect();
         if known.len() != 1 {
             let found = match known.len() {
                 0 => "none of them".to_string(),
-                _ => known
-                    .iter()
-                    .map(|(name, _)| format!("`{name}`"))
-                    .collect::<Vec<_>>()
-                    .join(" and "),
+                _ => known.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(" and "),
             };
             self.problems.push(Problem::new(path, found, allowed));
         }
@@ -216,11 +186,7 @@ impl Reader<'_> {
 }
 
 fn join(path: &str, name: &str) -> String {
-    if path.is_empty() {
-        name.to_string()
-    } else {
-        format!("{path}.{name}")
-    }
+    if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
 }
 
 fn typed(node: &Node) -> String {
@@ -237,16 +203,8 @@ type Misunderstood = (String, Option<String>);
 
 fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
     match *kind {
-        Kind::Quantity {
-            dimension,
-            low,
-            high,
-        } => quantity(node, dimension, low, high).map(Value::Number),
-        Kind::Quantities {
-            dimension,
-            low,
-            high,
-        } => match node {
+        Kind::Quantity { dimension, low, high } => quantity(node, dimension, low, high).map(Value::Number),
+        Kind::Quantities { dimension, low, high } => match node {
             Node::List(items) if !items.is_empty() => items
                 .iter()
                 .map(|item| quantity(item, dimension, low, high))
@@ -258,15 +216,10 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
         Kind::Number { low, high } => match *node {
             Node::Number(number) if (low..=high).contains(&number) => Ok(Value::Number(number)),
             Node::Number(number) => Err((format!("`{number}`"), None)),
-            _ => Err((
-                node.describe(),
-                Some("this is a plain number without a unit".into()),
-            )),
+            _ => Err((node.describe(), Some("this is a plain number without a unit".into()))),
         },
         Kind::Count { low, high } => match *node {
-            Node::Number(number)
-                if number.fract() == 0.0 && number >= low as f64 && number <= high as f64 =>
-            {
+            Node::Number(number) if number.fract() == 0.0 && number >= low as f64 && number <= high as f64 => {
                 Ok(Value::Number(number))
             }
             Node::Number(number) => Err((format!("`{number}`"), None)),
@@ -279,8 +232,7 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
         Kind::Choice(words) => match node {
             Node::Text(text) if words.contains(&text.as_str()) => Ok(Value::Text(text.clone())),
             Node::Text(text) => {
-                let near = nearest(text, words.iter().copied())
-                    .map(|near| format!("did you mean `{near}`?"));
+                let near = nearest(text, words.iter().copied()).map(|near| format!("did you mean `{near}`?"));
                 Err((node.describe(), near))
             }
             _ => Err((node.describe(), None)),
@@ -294,23 +246,14 @@ fn quantity(node: &Node, dimension: Dimension, low: f64, high: f64) -> Result<f6
         Node::Text(text) => text.clone(),
         Node::Number(number) => number.to_string(),
         other => {
-            return Err((
-                other.describe(),
-                Some(format!(
-                    "write for example `1 {}`",
-                    dimension.display_symbol()
-                )),
-            ));
+            return Err((other.describe(), Some(format!("write for example `1 {}`", dimension.display_symbol()))));
         }
     };
     let value = units::parse(&text, dimension).map_err(|error| (error.found, error.hint))?;
     // Bounds are inclusive up to rounding of the unit's factor.
     let slack = 1e-12 * low.abs().max(high.abs());
     if value < low - slack || value > high + slack {
-        return Err((
-            format!("`{}`", text.trim()),
-            Some("the value is out of range; is the unit right?".into()),
-        ));
+        return Err((format!("`{}`", text.trim()), Some("the value is out of range; is the unit right?".into())));
     }
     Ok(value)
 }

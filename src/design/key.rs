@@ -57,78 +57,33 @@ pub enum Need {
 
 impl Key {
     pub const fn required(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
-        Self {
-            name,
-            kind,
-            need: Need::Required,
-            meaning,
-        }
+        Self { name, kind, need: Need::Required, meaning }
     }
 
     pub const fn optional(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
-        Self {
-            name,
-            kind,
-            need: Need::Optional,
-            meaning,
-        }
+        Self { name, kind, need: Need::Optional, meaning }
     }
 
-    pub const fn default(
-        name: &'static str,
-        kind: Kind,
-        typed: &'static str,
-        meaning: &'static str,
-    ) -> Self {
-        Self {
-            name,
-            kind,
-            need: Need::Default(typed),
-            meaning,
-        }
+    pub const fn default(name: &'static str, kind: Kind, typed: &'static str, meaning: &'static str) -> Self {
+        Self { name, kind, need: Need::Default(typed), meaning }
     }
 }
 
 /// A quantity within bounds given in SI.
 pub const fn quantity(dimension: Dimension, low: f64, high: f64) -> Kind {
-    Kind::Quantity {
-        dimension,
-        low,
-        high,
-    }
+    Kind::Quantity { dimension, low, high }
 }
 
 impl Kind {
     /// What is allowed, in words.
     pub fn allowed(&self) -> String {
         match *self {
-            Self::Quantity {
-                dimension,
-                low,
-                high,
-            } => {
+            Self::Quantity { dimension, low, high } => {
                 let units = dimension.symbols().join(", ");
-                format!(
-                    "{} with unit ({units}), {} to {}",
-                    dimension.name(),
-                    dimension.show(low),
-                    dimension.show(high)
-                )
+                format!("{} with unit ({units}), {} to {}", dimension.name(), dimension.show(low), dimension.show(high))
             }
-            Self::Quantities {
-                dimension,
-                low,
-                high,
-            } => {
-                format!(
-                    "a list of values, each {}",
-                    Self::Quantity {
-                        dimension,
-                        low,
-                        high
-                    }
-                    .allowed()
-                )
+            Self::Quantities { dimension, low, high } => {
+                format!("a list of values, each {}", Self::Quantity { dimension, low, high }.allowed())
             }
             Self::Number { low, high } => format!("a number from {low} to {high}"),
             Self::Count { low, high } => format!("a whole number from {low} to {high}"),
@@ -142,8 +97,5 @@ impl Kind {
 
 /// The keys' names, for messages.
 pub fn names(keys: &[Key]) -> String {
-    keys.iter()
-        .map(|key| key.name)
-        .collect::<Vec<_>>()
-        .join(", ")
+    keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", ")
 }

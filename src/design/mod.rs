@@ -74,18 +74,25 @@ impl Flow {
 /// How the flow comes to the barrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
-    /// A block at rest behind a gate; `distance` is from the gate to the barrier's foot.
-    DamBreak {
-        length: f64,
-        height: f64,
-        distance: f64,
-    },
+    DamBreak(DamBreak),
     /// A block just upstream, already moving down the channel.
     Surge {
         length: f64,
         depth: f64,
         velocity: f64,
     },
+}
+
+/// A block at rest behind a gate that opens at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DamBreak {
+    pub length: f64,
+    pub height: f64,
+    /// From the gate to the barrier's foot.
+    pub distance: f64,
+    /// Depth and velocity on arrival, for the guideline loads, where the designer knows them.
+    pub depth_at_barrier: Option<f64>,
+    pub velocity_at_barrier: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -21,33 +21,19 @@ pub struct DesignFile {
 
 /// Reads the bytes of the file called `file`.
 pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
-    let refuse = |list: Vec<Problem>| Problems {
-        file: file.to_string(),
-        list,
-    };
+    let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
     let document = Document::parse(bytes).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
     let entries = read(&document.root, DESIGN, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
     if problems.is_empty() {
         if let Some(design) = resolve(&entries) {
-            return Ok(DesignFile {
-                name: stem(file),
-                sha256: sha256(bytes),
-                design,
-                entries,
-            });
+            return Ok(DesignFile { name: stem(file), sha256: sha256(bytes), design, entries });
         }
-        problems.push(Problem::new(
-            "",
-            "a design that cannot be put together",
-            "all required keys",
-        ));
+        problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
     }
     for problem in &mut problems {
-        problem.position = problem
-            .position
-            .or_else(|| nearest_position(&document, &problem.path));
+        problem.position = problem.position.or_else(|| nearest_position(&document, &problem.path));
     }
     problems.sort_by_key(|problem| problem.position);
     Err(refuse(problems))
@@ -65,16 +51,12 @@ fn nearest_position(document: &Document, path: &str) -> Option<crate::problem::P
 }
 
 fn stem(file: &str) -> String {
-    std::path::Path::new(file).file_stem().map_or_else(
-        || "design".to_string(),
-        |stem| stem.to_string_lossy().into_owned(),
-    )
+    std::path::Path::new(file)
+        .file_stem()
+        .map_or_else(|| "design".to_string(), |stem| stem.to_string_lossy().into_owned())
 }
 
 fn sha256(bytes: &[u8]) -> String {
     use sha2::Digest;
-    sha2::Sha256::digest(bytes)
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    sha2::Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

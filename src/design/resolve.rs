@@ -4,9 +4,8 @@ use crate::design::entries::Entries;
 use crate::design::rules::{flow_volume, quantiles, rope_heights};
 use crate::design::sizes::SizeCurve;
 use crate::design::{
-    Arrival, BarrierDesign, BarrierModel, Bottom, Channel, Design, DissipatorDesign, Factors,
-    FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, Project, RigidWall, Rope,
-    SimulationWishes,
+    Arrival, BarrierDesign, BarrierModel, Bottom, Channel, DamBreak, Design, DissipatorDesign, Factors, FidelityWish,
+    FlexibleNet, Flow, LateralTo, Limits, MainRopes, Project, RigidWall, Rope, SimulationWishes,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -23,11 +22,7 @@ pub fn resolve(e: &Entries) -> Option<Design> {
 }
 
 fn project(e: &Entries) -> Project {
-    let text = |key: &str| {
-        e.text(&format!("project.{key}"))
-            .unwrap_or_default()
-            .to_string()
-    };
+    let text = |key: &str| e.text(&format!("project.{key}")).unwrap_or_default().to_string();
     Project {
         name: text("name"),
         barrier: text("barrier"),
@@ -79,18 +74,16 @@ fn arrival(e: &Entries) -> Option<Arrival> {
     let area = |length: f64| Some(flow_volume(e)? / (length * e.number("channel.width")?));
     if e.has_section("flow.arrival.dam_break") {
         let length = value("dam_break.length")?;
-        return Some(Arrival::DamBreak {
+        return Some(Arrival::DamBreak(DamBreak {
             length,
             height: area(length)?,
             distance: value("dam_break.distance")?,
-        });
+            depth_at_barrier: value("dam_break.depth_at_barrier"),
+            velocity_at_barrier: value("dam_break.velocity_at_barrier"),
+        }));
     }
     let depth = value("surge.depth")?;
-    Some(Arrival::Surge {
-        length: area(depth)?,
-        depth,
-        velocity: value("surge.velocity")?,
-    })
+    Some(Arrival::Surge { length: area(depth)?, depth, velocity: value("surge.velocity")? })
 }
 
 fn barrier(e: &Entries) -> Option<BarrierDesign> {
@@ -106,9 +99,7 @@ const DEFAULT_SEGMENTS: usize = 6;
 fn rigid_wall(e: &Entries) -> Option<RigidWall> {
     let height = e.number("barrier.rigid_wall.height")?;
     let even = vec![height / DEFAULT_SEGMENTS as f64; DEFAULT_SEGMENTS];
-    let parts = e
-        .numbers("barrier.rigid_wall.segments")
-        .map_or(even, <[f64]>::to_vec);
+    let parts = e.numbers("barrier.rigid_wall.segments").map_or(even, <[f64]>::to_vec);
     let segment_tops = parts.iter().scan(0.0, |top, part| {
         *top += part;
         Some(*top)
@@ -142,11 +133,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             ring_friction: value("main_ropes.rings.friction")?.tan(),
         },
         lateral_rope: rope(e, "lateral_ropes")?,
-        lateral_to: if tied_to == "anchors" {
-            LateralTo::Anchors
-        } else {
-            LateralTo::Dissipators
-        },
+        lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::Dissipators },
         dissipators: match dissipators {
             Some(dissipators) => Some(dissipators?),
             None => None,
@@ -158,11 +145,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
 
 fn rope(e: &Entries, part: &str) -> Option<Rope> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{part}.{key}"));
-    Some(Rope {
-        diameter: value("diameter")?,
-        modulus: value("modulus")?,
-        breaking_load: value("breaking_load")?,
-    })
+    Some(Rope { diameter: value("diameter")?, modulus: value("modulus")?, breaking_load: value("breaking_load")? })
 }
 
 fn limits(e: &Entries) -> Option<Limits> {
@@ -198,10 +181,5 @@ fn simulation(e: &Entries) -> Option<SimulationWishes> {
         _ => BarrierModel::SlidingRopes,
     };
     let seed = e.number("simulation.seed")? as u64;
-    Some(SimulationWishes {
-        fidelity,
-        barrier_model,
-        seed,
-        longest: e.number("simulation.longest")?,
-    })
+    Some(SimulationWishes { fidelity, barrier_model, seed, longest: e.number("simulation.longest")? })
 }

@@ -45,35 +45,20 @@ fn length(value: f64) -> String {
 
 /// Volume of the flow with pores, from whichever of mass and volume was given.
 pub fn flow_volume(entries: &Entries) -> Option<f64> {
-    entries
-        .number("flow.volume")
-        .or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
+    entries.number("flow.volume").or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
 }
 
 fn mass_or_volume(e: &Entries) -> Option<Problem> {
-    let found = match (
-        e.values.contains_key("flow.mass"),
-        e.values.contains_key("flow.volume"),
-    ) {
-        (true, true) => format!(
-            "mass `{}` and volume `{}`",
-            e.typed("flow.mass"),
-            e.typed("flow.volume")
-        ),
+    let found = match (e.values.contains_key("flow.mass"), e.values.contains_key("flow.volume")) {
+        (true, true) => format!("mass `{}` and volume `{}`", e.typed("flow.mass"), e.typed("flow.volume")),
         (false, false) if e.has_section("flow") => "neither mass nor volume".to_string(),
         _ => return None,
     };
-    Some(
-        Problem::new("flow", found, "either mass or volume")
-            .hint("the bulk density gives the other"),
-    )
+    Some(Problem::new("flow", found, "either mass or volume").hint("the bulk density gives the other"))
 }
 
 fn solid_is_denser_than_bulk(e: &Entries) -> Option<Problem> {
-    let (bulk, solid) = (
-        e.number("flow.bulk_density")?,
-        e.number("flow.solid_density")?,
-    );
+    let (bulk, solid) = (e.number("flow.bulk_density")?, e.number("flow.solid_density")?);
     (bulk >= solid).then(|| {
         let found = format!(
             "`{}`, not below the solid density `{}`",
@@ -95,10 +80,7 @@ fn packing_is_possible(e: &Entries) -> Option<Problem> {
 }
 
 fn sizes_have_an_order(e: &Entries) -> Option<Problem> {
-    let (low, high) = (
-        "flow.grain_sizes.uniform.min",
-        "flow.grain_sizes.uniform.max",
-    );
+    let (low, high) = ("flow.grain_sizes.uniform.min", "flow.grain_sizes.uniform.max");
     (e.number(low)? > e.number(high)?).then(|| {
         Problem::new(
             low,
@@ -111,37 +93,22 @@ fn sizes_have_an_order(e: &Entries) -> Option<Problem> {
 /// (share of the mass, diameter) of the quantiles that were typed.
 pub fn quantiles(e: &Entries) -> Vec<(f64, f64)> {
     (1..=9)
-        .filter_map(|tenth| {
-            Some((
-                f64::from(tenth) / 10.0,
-                e.number(&format!("flow.grain_sizes.curve.d{tenth}0"))?,
-            ))
-        })
+        .filter_map(|tenth| Some((f64::from(tenth) / 10.0, e.number(&format!("flow.grain_sizes.curve.d{tenth}0"))?)))
         .collect()
 }
 
 fn curve_has_two_quantiles(e: &Entries) -> Option<Problem> {
     let path = "flow.grain_sizes.curve";
-    (e.has_section(path) && quantiles(e).len() < 2).then(|| {
-        Problem::new(
-            path,
-            format!("{} quantile(s)", quantiles(e).len()),
-            "two or more of d10 … d90",
-        )
-    })
+    (e.has_section(path) && quantiles(e).len() < 2)
+        .then(|| Problem::new(path, format!("{} quantile(s)", quantiles(e).len()), "two or more of d10 … d90"))
 }
 
 fn curve_increases(e: &Entries) -> Option<Problem> {
     let points = quantiles(e);
     let pair = points.windows(2).find(|pair| pair[1].1 <= pair[0].1)?;
     let name = |share: f64| format!("d{:.0}", 100.0 * share);
-    let found = format!(
-        "{} = {}, not above {} = {}",
-        name(pair[1].0),
-        length(pair[1].1),
-        name(pair[0].0),
-        length(pair[0].1)
-    );
+    let found =
+        format!("{} = {}, not above {} = {}", name(pair[1].0), length(pair[1].1), name(pair[0].0), length(pair[0].1));
     Some(Problem::new(
         format!("flow.grain_sizes.curve.{}", name(pair[1].0)),
         found,
@@ -151,10 +118,9 @@ fn curve_increases(e: &Entries) -> Option<Problem> {
 
 /// Largest and smallest diameter of the design, roughly.
 fn size_range(e: &Entries) -> Option<(f64, f64)> {
-    if let (Some(low), Some(high)) = (
-        e.number("flow.grain_sizes.uniform.min"),
-        e.number("flow.grain_sizes.uniform.max"),
-    ) {
+    if let (Some(low), Some(high)) =
+        (e.number("flow.grain_sizes.uniform.min"), e.number("flow.grain_sizes.uniform.max"))
+    {
         return Some((low, high));
     }
     let points = quantiles(e);
@@ -164,16 +130,8 @@ fn size_range(e: &Entries) -> Option<(f64, f64)> {
 fn grains_fit_the_channel(e: &Entries) -> Option<Problem> {
     let (largest, width) = (size_range(e)?.1, e.number("channel.width")?);
     (3.0 * largest > width).then(|| {
-        let found = format!(
-            "grains of {} in a channel {} wide",
-            length(largest),
-            length(width)
-        );
-        Problem::new(
-            "flow.grain_sizes",
-            found,
-            "grains of at most a third of the channel's width",
-        )
+        let found = format!("grains of {} in a channel {} wide", length(largest), length(width));
+        Problem::new("flow.grain_sizes", found, "grains of at most a third of the channel's width")
     })
 }
 
@@ -182,8 +140,7 @@ const MOST_GRAINS: f64 = 400_000.0;
 
 fn grain_count_is_bearable(e: &Entries) -> Option<Problem> {
     let (low, high) = size_range(e)?;
-    let solid =
-        flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
+    let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
     let mean_cube = 0.25 * (low + high) * (low * low + high * high);
     let count = solid / (std::f64::consts::PI / 6.0 * mean_cube);
     (count > MOST_GRAINS).then(|| {
@@ -197,75 +154,36 @@ fn dam_break_height_agrees(e: &Entries) -> Option<Problem> {
     let length_m = e.number(&format!("{path}.length"))?;
     let needed = flow_volume(e)? / (length_m * e.number("channel.width")?);
     let wall = e.number("channel.wall_height")?;
-    if let Some(height) = e
-        .number(&format!("{path}.height"))
-        .filter(|height| (height / needed - 1.0).abs() > 0.05)
-    {
-        let found = format!(
-            "{}, while the volume needs {}",
-            length(height),
-            length(needed)
-        );
+    if let Some(height) = e.number(&format!("{path}.height")).filter(|height| (height / needed - 1.0).abs() > 0.05) {
+        let found = format!("{}, while the volume needs {}", length(height), length(needed));
         return Some(
-            Problem::new(
-                format!("{path}.height"),
-                found,
-                "the height that fits the volume to 5 %",
-            )
-            .hint("leave the height out"),
+            Problem::new(format!("{path}.height"), found, "the height that fits the volume to 5 %")
+                .hint("leave the height out"),
         );
     }
     (needed > wall).then(|| {
-        let found = format!(
-            "a block {} high between walls of {}",
-            length(needed),
-            length(wall)
-        );
-        Problem::new(
-            format!("{path}.length"),
-            found,
-            "a block lower than channel.wall_height",
-        )
-        .hint("make the block longer")
+        let found = format!("a block {} high between walls of {}", length(needed), length(wall));
+        Problem::new(format!("{path}.length"), found, "a block lower than channel.wall_height")
+            .hint("make the block longer")
     })
 }
 
 fn surge_length_agrees(e: &Entries) -> Option<Problem> {
     let path = "flow.arrival.surge";
-    let needed =
-        flow_volume(e)? / (e.number(&format!("{path}.depth"))? * e.number("channel.width")?);
+    let needed = flow_volume(e)? / (e.number(&format!("{path}.depth"))? * e.number("channel.width")?);
     let typed = e.number(&format!("{path}.length"))?;
     ((typed / needed - 1.0).abs() > 0.05).then(|| {
-        let found = format!(
-            "{}, while the volume needs {}",
-            length(typed),
-            length(needed)
-        );
-        Problem::new(
-            format!("{path}.length"),
-            found,
-            "the length that fits the volume to 5 %",
-        )
-        .hint("leave the length out")
+        let found = format!("{}, while the volume needs {}", length(typed), length(needed));
+        Problem::new(format!("{path}.length"), found, "the length that fits the volume to 5 %")
+            .hint("leave the length out")
     })
 }
 
 fn flow_within_side_walls(e: &Entries) -> Option<Problem> {
-    let (depth, wall) = (
-        e.number("flow.arrival.surge.depth")?,
-        e.number("channel.wall_height")?,
-    );
+    let (depth, wall) = (e.number("flow.arrival.surge.depth")?, e.number("channel.wall_height")?);
     (depth > wall).then(|| {
-        let found = format!(
-            "a flow {} deep between walls of {}",
-            length(depth),
-            length(wall)
-        );
-        Problem::new(
-            "flow.arrival.surge.depth",
-            found,
-            "at most channel.wall_height",
-        )
+        let found = format!("a flow {} deep between walls of {}", length(depth), length(wall));
+        Problem::new("flow.arrival.surge.depth", found, "at most channel.wall_height")
     })
 }
 
@@ -285,26 +203,15 @@ fn wall_segments_fill_the_wall(e: &Entries) -> Option<Problem> {
 fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
     let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
     (mesh * std::f64::consts::SQRT_2 > height).then(|| {
-        let found = format!(
-            "a mesh of {} in a barrier {} high",
-            length(mesh),
-            length(height)
-        );
-        Problem::new(
-            at("mesh_opening"),
-            found,
-            "a mesh whose diagonal fits the barrier's height",
-        )
+        let found = format!("a mesh of {} in a barrier {} high", length(mesh), length(height));
+        Problem::new(at("mesh_opening"), found, "a mesh whose diagonal fits the barrier's height")
     })
 }
 
 fn main_ropes_counted_once(e: &Entries) -> Option<Problem> {
     let path = at("main_ropes");
     let (count, heights) = (at("main_ropes.count"), at("main_ropes.heights"));
-    let found = match (
-        e.values.contains_key(&count),
-        e.values.contains_key(&heights),
-    ) {
+    let found = match (e.values.contains_key(&count), e.values.contains_key(&heights)) {
         (true, true) => "both count and heights",
         (false, false) if e.has_section(&path) => "neither count nor heights",
         _ => return None,
@@ -317,26 +224,15 @@ pub fn rope_heights(e: &Entries) -> Option<Vec<f64>> {
     if let Some(heights) = e.numbers(&at("main_ropes.heights")) {
         return Some(heights.to_vec());
     }
-    let (count, height) = (
-        e.number(&at("main_ropes.count"))? as usize,
-        e.number(&at("height"))?,
-    );
-    Some(
-        (0..count)
-            .map(|rope| height * rope as f64 / (count - 1) as f64)
-            .collect(),
-    )
+    let (count, height) = (e.number(&at("main_ropes.count"))? as usize, e.number(&at("height"))?);
+    Some((0..count).map(|rope| height * rope as f64 / (count - 1) as f64).collect())
 }
 
 fn rope_heights_increase(e: &Entries) -> Option<Problem> {
     let path = at("main_ropes.heights");
     let heights = e.numbers(&path)?;
     let pair = heights.windows(2).find(|pair| pair[1] <= pair[0])?;
-    Some(Problem::new(
-        path,
-        format!("{} after {}", length(pair[1]), length(pair[0])),
-        "heights that increase",
-    ))
+    Some(Problem::new(path, format!("{} after {}", length(pair[1]), length(pair[0])), "heights that increase"))
 }
 
 fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
@@ -344,72 +240,34 @@ fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
     let (heights, height) = (e.numbers(&path)?, e.number(&at("height"))?);
     let (first, last) = (heights[0], heights[heights.len() - 1]);
     (heights.len() < 2 || first != 0.0 || (last - height).abs() > 1e-6 * height).then(|| {
-        let found = format!(
-            "{} rope(s) from {} to {}",
-            heights.len(),
-            length(first),
-            length(last)
-        );
-        Problem::new(
-            path,
-            found,
-            format!(
-                "two ropes or more, from 0 m to the barrier's height {}",
-                length(height)
-            ),
-        )
+        let found = format!("{} rope(s) from {} to {}", heights.len(), length(first), length(last));
+        Problem::new(path, found, format!("two ropes or more, from 0 m to the barrier's height {}", length(height)))
     })
 }
 
 fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
     let (mesh, heights) = (e.number(&at("mesh_opening"))?, rope_heights(e)?);
     let diagonal = mesh * std::f64::consts::SQRT_2;
-    let bay = heights
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .fold(f64::INFINITY, f64::min);
+    let bay = heights.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     (bay > 0.0 && bay < 0.6 * diagonal).then(|| {
-        let found = format!(
-            "ropes {} apart with a mesh diagonal of {}",
-            length(bay),
-            length(diagonal)
-        );
-        Problem::new(
-            at("main_ropes"),
-            found,
-            "at least one mesh diagonal between two main ropes",
-        )
+        let found = format!("ropes {} apart with a mesh diagonal of {}", length(bay), length(diagonal));
+        Problem::new(at("main_ropes"), found, "at least one mesh diagonal between two main ropes")
     })
 }
 
 fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
     let (mesh, width) = (e.number(&at("mesh_opening"))?, e.number("channel.width")?);
     (3.0 * mesh * std::f64::consts::SQRT_2 > width).then(|| {
-        let found = format!(
-            "a mesh of {} across a channel of {}",
-            length(mesh),
-            length(width)
-        );
-        Problem::new(
-            at("mesh_opening"),
-            found,
-            "at least three mesh diagonals across the channel",
-        )
+        let found = format!("a mesh of {} across a channel of {}", length(mesh), length(width));
+        Problem::new(at("mesh_opening"), found, "at least three mesh diagonals across the channel")
     })
 }
 
 fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
-    let (spacing, mesh) = (
-        e.number(&at("main_ropes.rings.spacing"))?,
-        e.number(&at("mesh_opening"))?,
-    );
+    let (spacing, mesh) = (e.number(&at("main_ropes.rings.spacing"))?, e.number(&at("mesh_opening"))?);
     let diagonal = mesh * std::f64::consts::SQRT_2;
     ((spacing / diagonal - 1.0).abs() > 0.1).then(|| {
-        let found = format!(
-            "rings every {} with a mesh diagonal of {}",
-            length(spacing),
-            length(diagonal)
-        );
+        let found = format!("rings every {} with a mesh diagonal of {}", length(spacing), length(diagonal));
         Problem::new(
             at("main_ropes.rings.spacing"),
             found,
@@ -421,16 +279,8 @@ fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
 fn opening_below_the_barrier(e: &Entries) -> Option<Problem> {
     let (opening, height) = (e.number(&at("bottom.opening"))?, e.number(&at("height"))?);
     (opening >= height).then(|| {
-        let found = format!(
-            "an opening of {} below a barrier of {}",
-            length(opening),
-            length(height)
-        );
-        Problem::new(
-            at("bottom.opening"),
-            found,
-            "less than the barrier's height",
-        )
+        let found = format!("an opening of {} below a barrier of {}", length(opening), length(height));
+        Problem::new(at("bottom.opening"), found, "less than the barrier's height")
     })
 }
 
@@ -448,21 +298,14 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
     if !e.has_section("flow.arrival.dam_break") {
         return None;
     }
-    let (slope, friction) = (
-        e.number("channel.slope")?,
-        e.number("channel.base_friction")?,
-    );
+    let (slope, friction) = (e.number("channel.slope")?, e.number("channel.base_friction")?);
     (slope <= friction).then(|| {
         let found = format!(
             "a slope of {} and a base friction of {}",
             Dimension::Angle.show(slope),
             Dimension::Angle.show(friction)
         );
-        Problem::new(
-            "channel.slope",
-            found,
-            "a slope steeper than the base friction, or the block stops on its way",
-        )
-        .hint("give the flow as a surge with its velocity instead of a dam break")
+        Problem::new("channel.slope", found, "a slope steeper than the base friction, or the block stops on its way")
+            .hint("give the flow as a surge with its velocity instead of a dam break")
     })
 }

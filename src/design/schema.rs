@@ -9,36 +9,13 @@ const NOTE: Kind = Kind::Text;
 
 /// The whole file.
 pub const DESIGN: &[Key] = &[
-    Key::required(
-        "project",
-        Kind::Section(PROJECT),
-        "what the report is about",
-    ),
-    Key::required(
-        "channel",
-        Kind::Section(CHANNEL),
-        "a straight channel of rectangular section",
-    ),
+    Key::required("project", Kind::Section(PROJECT), "what the report is about"),
+    Key::required("channel", Kind::Section(CHANNEL), "a straight channel of rectangular section"),
     Key::required("flow", Kind::Section(FLOW), "the design flow"),
     Key::required("barrier", Kind::OneOf(BARRIER), "the barrier"),
-    Key::default(
-        "limits",
-        Kind::Section(LIMITS),
-        "",
-        "what the design must keep",
-    ),
-    Key::default(
-        "factors",
-        Kind::Section(FACTORS),
-        "",
-        "guideline coefficients and partial factors",
-    ),
-    Key::default(
-        "simulation",
-        Kind::Section(SIMULATION),
-        "",
-        "how to simulate",
-    ),
+    Key::default("limits", Kind::Section(LIMITS), "", "what the design must keep"),
+    Key::default("factors", Kind::Section(FACTORS), "", "guideline coefficients and partial factors"),
+    Key::default("simulation", Kind::Section(SIMULATION), "", "how to simulate"),
 ];
 
 const PROJECT: &[Key] = &[
@@ -46,92 +23,32 @@ const PROJECT: &[Key] = &[
     Key::required("barrier", NOTE, "name of the barrier"),
     Key::default("revision", NOTE, "-", "revision of the design"),
     Key::default("author", NOTE, "-", "who made the design"),
-    Key::default(
-        "notes",
-        NOTE,
-        "",
-        "anything the reader of the report should know",
-    ),
+    Key::default("notes", NOTE, "", "anything the reader of the report should know"),
 ];
 
 const CHANNEL: &[Key] = &[
-    Key::required(
-        "width",
-        quantity(D::Length, 0.01, 200.0),
-        "width between the side walls",
-    ),
-    Key::required(
-        "slope",
-        quantity(D::Angle, 0.0, 1.40),
-        "slope of the bed against the horizontal",
-    ),
-    Key::required(
-        "wall_height",
-        quantity(D::Length, 0.01, 500.0),
-        "height of the side walls, normal to the bed",
-    ),
-    Key::required(
-        "base_friction",
-        FRICTION,
-        "friction angle between grains and bed",
-    ),
-    Key::required(
-        "side_friction",
-        FRICTION,
-        "friction angle between grains and side walls",
-    ),
-    Key::required(
-        "barrier_friction",
-        FRICTION,
-        "friction angle between grains and barrier",
-    ),
+    Key::required("width", quantity(D::Length, 0.01, 200.0), "width between the side walls"),
+    Key::required("slope", quantity(D::Angle, 0.0, 1.40), "slope of the bed against the horizontal"),
+    Key::required("wall_height", quantity(D::Length, 0.01, 500.0), "height of the side walls, normal to the bed"),
+    Key::required("base_friction", FRICTION, "friction angle between grains and bed"),
+    Key::required("side_friction", FRICTION, "friction angle between grains and side walls"),
+    Key::required("barrier_friction", FRICTION, "friction angle between grains and barrier"),
 ];
 
 const FLOW: &[Key] = &[
-    Key::optional(
-        "mass",
-        quantity(D::Mass, 1e-3, 1e9),
-        "mass of the flow; give this or the volume",
-    ),
-    Key::optional(
-        "volume",
-        quantity(D::Volume, 1e-6, 1e6),
-        "volume with pores; give this or the mass",
-    ),
-    Key::required(
-        "bulk_density",
-        quantity(D::Density, 300.0, 3500.0),
-        "density of the flow, grains with pores",
-    ),
-    Key::required(
-        "solid_density",
-        quantity(D::Density, 500.0, 8000.0),
-        "density of the grains alone",
-    ),
-    Key::required(
-        "grain_sizes",
-        Kind::OneOf(GRAIN_SIZES),
-        "how large the grains are",
-    ),
+    Key::optional("mass", quantity(D::Mass, 1e-3, 1e9), "mass of the flow; give this or the volume"),
+    Key::optional("volume", quantity(D::Volume, 1e-6, 1e6), "volume with pores; give this or the mass"),
+    Key::required("bulk_density", quantity(D::Density, 300.0, 3500.0), "density of the flow, grains with pores"),
+    Key::required("solid_density", quantity(D::Density, 500.0, 8000.0), "density of the grains alone"),
+    Key::required("grain_sizes", Kind::OneOf(GRAIN_SIZES), "how large the grains are"),
     Key::default(
         "grain_aspect",
-        Kind::Number {
-            low: 1.0,
-            high: 2.0,
-        },
+        Kind::Number { low: 1.0, high: 2.0 },
         "1.5",
         "length over width of a grain; 1 is a sphere",
     ),
     Key::required("grain_friction", FRICTION, "friction angle between grains"),
-    Key::default(
-        "restitution",
-        Kind::Number {
-            low: 0.05,
-            high: 1.0,
-        },
-        "0.3",
-        "normal restitution of grain contacts",
-    ),
+    Key::default("restitution", Kind::Number { low: 0.05, high: 1.0 }, "0.3", "normal restitution of grain contacts"),
     Key::default(
         "contact_modulus",
         quantity(D::Pressure, 1e4, 1e11),
@@ -142,22 +59,12 @@ const FLOW: &[Key] = &[
 ];
 
 const GRAIN_SIZES: &[Key] = &[
-    Key::optional(
-        "uniform",
-        Kind::Section(UNIFORM),
-        "uniform in number between two diameters",
-    ),
-    Key::optional(
-        "curve",
-        Kind::Section(CURVE),
-        "quantiles of the grain-size curve by mass, two or more",
-    ),
+    Key::optional("uniform", Kind::Section(UNIFORM), "uniform in number between two diameters"),
+    Key::optional("curve", Kind::Section(CURVE), "quantiles of the grain-size curve by mass, two or more"),
 ];
 
-const UNIFORM: &[Key] = &[
-    Key::required("min", GRAIN, "smallest diameter"),
-    Key::required("max", GRAIN, "largest diameter"),
-];
+const UNIFORM: &[Key] =
+    &[Key::required("min", GRAIN, "smallest diameter"), Key::required("max", GRAIN, "largest diameter")];
 
 const CURVE: &[Key] = &[
     Key::optional("d10", GRAIN, "10 % of the mass is finer"),
@@ -172,364 +79,145 @@ const CURVE: &[Key] = &[
 ];
 
 const ARRIVAL: &[Key] = &[
-    Key::optional(
-        "dam_break",
-        Kind::Section(DAM_BREAK),
-        "a block at rest behind a gate that opens at once",
-    ),
-    Key::optional(
-        "surge",
-        Kind::Section(SURGE),
-        "a block just upstream of the barrier, already moving",
-    ),
+    Key::optional("dam_break", Kind::Section(DAM_BREAK), "a block at rest behind a gate that opens at once"),
+    Key::optional("surge", Kind::Section(SURGE), "a block just upstream of the barrier, already moving"),
 ];
 
 const DAM_BREAK: &[Key] = &[
-    Key::required(
-        "length",
-        quantity(D::Length, 0.01, 1e3),
-        "length of the block along the channel",
+    Key::required("length", quantity(D::Length, 0.01, 1e3), "length of the block along the channel"),
+    Key::optional("height", quantity(D::Length, 0.01, 100.0), "height of the block; by default what the volume needs"),
+    Key::required("distance", quantity(D::Length, 0.0, 1e4), "from the gate to the foot of the barrier"),
+    Key::optional(
+        "depth_at_barrier",
+        quantity(D::Length, 0.001, 50.0),
+        "depth for the guideline loads; by default 4/9 of the block's height",
     ),
     Key::optional(
-        "height",
-        quantity(D::Length, 0.01, 100.0),
-        "height of the block; by default what the volume needs",
-    ),
-    Key::required(
-        "distance",
-        quantity(D::Length, 0.0, 1e4),
-        "from the gate to the foot of the barrier",
+        "velocity_at_barrier",
+        quantity(D::Velocity, 0.05, 60.0),
+        "velocity for the guideline loads; by default that of a block sliding on the bed",
     ),
 ];
 
 const SURGE: &[Key] = &[
-    Key::required(
-        "depth",
-        quantity(D::Length, 0.005, 50.0),
-        "depth of the flow, normal to the bed",
-    ),
-    Key::required(
-        "velocity",
-        quantity(D::Velocity, 0.05, 40.0),
-        "velocity of the flow along the bed",
-    ),
-    Key::optional(
-        "length",
-        quantity(D::Length, 0.01, 1e4),
-        "length of the surge; by default what the volume needs",
-    ),
+    Key::required("depth", quantity(D::Length, 0.005, 50.0), "depth of the flow, normal to the bed"),
+    Key::required("velocity", quantity(D::Velocity, 0.05, 40.0), "velocity of the flow along the bed"),
+    Key::optional("length", quantity(D::Length, 0.01, 1e4), "length of the surge; by default what the volume needs"),
 ];
 
 const BARRIER: &[Key] = &[
-    Key::optional(
-        "rigid_wall",
-        Kind::Section(RIGID_WALL),
-        "a wall across the channel, normal to the bed",
-    ),
-    Key::optional(
-        "flexible_net",
-        Kind::Section(FLEXIBLE_NET),
-        "a rope net on main ropes",
-    ),
+    Key::optional("rigid_wall", Kind::Section(RIGID_WALL), "a wall across the channel, normal to the bed"),
+    Key::optional("flexible_net", Kind::Section(FLEXIBLE_NET), "a rope net on main ropes"),
 ];
 
 const RIGID_WALL: &[Key] = &[
-    Key::required(
-        "height",
-        quantity(D::Length, 0.01, 50.0),
-        "height normal to the bed",
-    ),
+    Key::required("height", quantity(D::Length, 0.01, 50.0), "height normal to the bed"),
     Key::optional(
         "segments",
-        Kind::Quantities {
-            dimension: D::Length,
-            low: 0.001,
-            high: 50.0,
-        },
+        Kind::Quantities { dimension: D::Length, low: 0.001, high: 50.0 },
         "heights of the parts whose force is reported, from the bottom; by default six equal parts",
     ),
-    Key::optional(
-        "resistance",
-        quantity(D::Force, 1.0, 1e12),
-        "resistance of the whole wall to the total force",
-    ),
+    Key::optional("resistance", quantity(D::Force, 1.0, 1e12), "resistance of the whole wall to the total force"),
 ];
 
 const FLEXIBLE_NET: &[Key] = &[
-    Key::required(
-        "height",
-        quantity(D::Length, 0.05, 30.0),
-        "height along the barrier's plane",
-    ),
-    Key::default(
-        "tilt",
-        quantity(D::Angle, -1.30, 1.30),
-        "0 deg",
-        "angle against plumb, positive leans upstream",
-    ),
-    Key::required(
-        "mesh_opening",
-        quantity(D::Length, 0.005, 3.0),
-        "side of the square mesh",
-    ),
+    Key::required("height", quantity(D::Length, 0.05, 30.0), "height along the barrier's plane"),
+    Key::default("tilt", quantity(D::Angle, -1.30, 1.30), "0 deg", "angle against plumb, positive leans upstream"),
+    Key::required("mesh_opening", quantity(D::Length, 0.005, 3.0), "side of the square mesh"),
     Key::required("net_rope", Kind::Section(ROPE), "rope of the net"),
-    Key::required(
-        "main_ropes",
-        Kind::Section(MAIN_ROPES),
-        "horizontal ropes that carry the net",
-    ),
-    Key::required(
-        "lateral_ropes",
-        Kind::Section(LATERAL_ROPES),
-        "ropes along the sides of the net",
-    ),
-    Key::optional(
-        "dissipators",
-        Kind::Section(DISSIPATORS),
-        "one at each end of every main rope that is free to move",
-    ),
-    Key::required(
-        "anchors",
-        Kind::Section(ANCHORS),
-        "one at each end of every main rope that is free to move",
-    ),
-    Key::required(
-        "bottom",
-        Kind::OneOf(BOTTOM),
-        "what holds the lowest main rope",
-    ),
+    Key::required("main_ropes", Kind::Section(MAIN_ROPES), "horizontal ropes that carry the net"),
+    Key::required("lateral_ropes", Kind::Section(LATERAL_ROPES), "ropes along the sides of the net"),
+    Key::optional("dissipators", Kind::Section(DISSIPATORS), "one at each end of every main rope that is free to move"),
+    Key::required("anchors", Kind::Section(ANCHORS), "one at each end of every main rope that is free to move"),
+    Key::required("bottom", Kind::OneOf(BOTTOM), "what holds the lowest main rope"),
 ];
 
 const ROPE: &[Key] = &[
-    Key::required(
-        "diameter",
-        quantity(D::Length, 1e-4, 0.3),
-        "nominal diameter",
-    ),
+    Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
     Key::required(
         "modulus",
         quantity(D::Pressure, 1e7, 4e11),
         "modulus with the full circle of the diameter: EA = E pi d2/4",
     ),
-    Key::required(
-        "breaking_load",
-        quantity(D::Force, 1.0, 1e9),
-        "minimum breaking load",
-    ),
+    Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
 ];
 
 const MAIN_ROPES: &[Key] = &[
-    Key::optional(
-        "count",
-        Kind::Count { low: 2, high: 30 },
-        "number of ropes, evenly spaced; give this or heights",
-    ),
+    Key::optional("count", Kind::Count { low: 2, high: 30 }, "number of ropes, evenly spaced; give this or heights"),
     Key::optional(
         "heights",
-        Kind::Quantities {
-            dimension: D::Length,
-            low: 0.0,
-            high: 30.0,
-        },
+        Kind::Quantities { dimension: D::Length, low: 0.0, high: 30.0 },
         "heights along the barrier from its foot; the first is 0 and the last its height",
     ),
-    Key::required(
-        "diameter",
-        quantity(D::Length, 1e-4, 0.3),
-        "nominal diameter",
-    ),
-    Key::required(
-        "modulus",
-        quantity(D::Pressure, 1e7, 4e11),
-        "modulus with the full circle of the diameter",
-    ),
-    Key::required(
-        "breaking_load",
-        quantity(D::Force, 1.0, 1e9),
-        "minimum breaking load",
-    ),
-    Key::required(
-        "rings",
-        Kind::Section(RINGS),
-        "rings that hang the net on the rope",
-    ),
+    Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
+    Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
+    Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
+    Key::required("rings", Kind::Section(RINGS), "rings that hang the net on the rope"),
 ];
 
 const RINGS: &[Key] = &[
-    Key::required(
-        "spacing",
-        quantity(D::Length, 0.005, 5.0),
-        "spacing along the rope",
-    ),
+    Key::required("spacing", quantity(D::Length, 0.005, 5.0), "spacing along the rope"),
     Key::required("friction", FRICTION, "friction angle between ring and rope"),
 ];
 
 const LATERAL_ROPES: &[Key] = &[
-    Key::required(
-        "diameter",
-        quantity(D::Length, 1e-4, 0.3),
-        "nominal diameter",
-    ),
-    Key::required(
-        "modulus",
-        quantity(D::Pressure, 1e7, 4e11),
-        "modulus with the full circle of the diameter",
-    ),
-    Key::required(
-        "breaking_load",
-        quantity(D::Force, 1.0, 1e9),
-        "minimum breaking load",
-    ),
-    Key::default(
-        "tied_to",
-        Kind::Choice(&["dissipators", "anchors"]),
-        "dissipators",
-        "where the lateral ropes end",
-    ),
+    Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
+    Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
+    Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
+    Key::default("tied_to", Kind::Choice(&["dissipators", "anchors"]), "dissipators", "where the lateral ropes end"),
 ];
 
 const DISSIPATORS: &[Key] = &[
-    Key::required(
-        "plateau_force",
-        quantity(D::Force, 1.0, 1e8),
-        "force at which the dissipator yields",
-    ),
-    Key::required(
-        "stroke",
-        quantity(D::Length, 0.001, 20.0),
-        "way it can yield",
-    ),
-    Key::required(
-        "stiffness",
-        quantity(D::Stiffness, 1e2, 1e10),
-        "elastic stiffness before it yields",
-    ),
+    Key::required("plateau_force", quantity(D::Force, 1.0, 1e8), "force at which the dissipator yields"),
+    Key::required("stroke", quantity(D::Length, 0.001, 20.0), "way it can yield"),
+    Key::required("stiffness", quantity(D::Stiffness, 1e2, 1e10), "elastic stiffness before it yields"),
 ];
 
-const ANCHORS: &[Key] = &[Key::required(
-    "resistance",
-    quantity(D::Force, 1.0, 1e9),
-    "characteristic resistance of one anchor",
-)];
+const ANCHORS: &[Key] =
+    &[Key::required("resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one anchor")];
 
 const BOTTOM: &[Key] = &[
-    Key::optional(
-        "fixed",
-        Kind::Choice(&["to_bed"]),
-        "the lowest rope is bolted to the bed along its length",
-    ),
-    Key::optional(
-        "opening",
-        quantity(D::Length, 0.0, 10.0),
-        "the lowest rope is free, this far above the bed",
-    ),
+    Key::optional("fixed", Kind::Choice(&["to_bed"]), "the lowest rope is bolted to the bed along its length"),
+    Key::optional("opening", quantity(D::Length, 0.0, 10.0), "the lowest rope is free, this far above the bed"),
 ];
 
 const UTILISATION: Kind = quantity(D::Share, 0.01, 10.0);
 
 const LIMITS: &[Key] = &[
-    Key::default(
-        "retained_mass",
-        quantity(D::Share, 0.0, 1.0),
-        "90 %",
-        "least share of the mass that must be held",
-    ),
-    Key::default(
-        "residual_height",
-        quantity(D::Share, 0.0, 1.0),
-        "50 %",
-        "least height left over initial height",
-    ),
-    Key::default(
-        "rope_utilisation",
-        UTILISATION,
-        "100 %",
-        "greatest tension over design resistance of ropes and net",
-    ),
-    Key::default(
-        "anchor_utilisation",
-        UTILISATION,
-        "100 %",
-        "greatest load over design resistance of anchors",
-    ),
-    Key::default(
-        "brake_utilisation",
-        UTILISATION,
-        "90 %",
-        "greatest share of the stroke that may be used",
-    ),
+    Key::default("retained_mass", quantity(D::Share, 0.0, 1.0), "90 %", "least share of the mass that must be held"),
+    Key::default("residual_height", quantity(D::Share, 0.0, 1.0), "50 %", "least height left over initial height"),
+    Key::default("rope_utilisation", UTILISATION, "100 %", "greatest tension over design resistance of ropes and net"),
+    Key::default("anchor_utilisation", UTILISATION, "100 %", "greatest load over design resistance of anchors"),
+    Key::default("brake_utilisation", UTILISATION, "90 %", "greatest share of the stroke that may be used"),
 ];
 
 const FACTORS: &[Key] = &[
     Key::default(
         "earth_pressure_k",
-        Kind::Number {
-            low: 0.01,
-            high: 20.0,
-        },
+        Kind::Number { low: 0.01, high: 20.0 },
         "1",
         "K of the static pressure K rho g H cos(slope)",
     ),
     Key::default(
         "dynamic_lambda",
-        Kind::Number {
-            low: 0.01,
-            high: 20.0,
-        },
+        Kind::Number { low: 0.01, high: 20.0 },
         "2",
         "lambda of the dynamic pressure lambda rho v2",
     ),
-    Key::default(
-        "load",
-        Kind::Number {
-            low: 0.5,
-            high: 5.0,
-        },
-        "1",
-        "partial factor on loads",
-    ),
-    Key::default(
-        "rope",
-        Kind::Number {
-            low: 0.5,
-            high: 5.0,
-        },
-        "1.5",
-        "partial factor on rope resistance",
-    ),
-    Key::default(
-        "anchor",
-        Kind::Number {
-            low: 0.5,
-            high: 5.0,
-        },
-        "1.1",
-        "partial factor on anchor resistance",
-    ),
+    Key::default("load", Kind::Number { low: 0.5, high: 5.0 }, "1", "partial factor on loads"),
+    Key::default("rope", Kind::Number { low: 0.5, high: 5.0 }, "1.5", "partial factor on rope resistance"),
+    Key::default("anchor", Kind::Number { low: 0.5, high: 5.0 }, "1.1", "partial factor on anchor resistance"),
 ];
 
 const SIMULATION: &[Key] = &[
-    Key::default(
-        "fidelity",
-        Kind::Choice(&["fast", "standard", "fine"]),
-        "standard",
-        "how small a time step",
-    ),
+    Key::default("fidelity", Kind::Choice(&["fast", "standard", "fine"]), "standard", "how small a time step"),
     Key::default(
         "barrier_model",
         Kind::Choice(&["pinned_ropes", "sliding_ropes"]),
         "sliding_ropes",
         "whether main ropes are fixed to the rings of the net or run through them with friction",
     ),
-    Key::default(
-        "seed",
-        Kind::Count {
-            low: 0,
-            high: u32::MAX as u64,
-        },
-        "1",
-        "seed of the packing",
-    ),
+    Key::default("seed", Kind::Count { low: 0, high: u32::MAX as u64 }, "1", "seed of the packing"),
     Key::default(
         "longest",
         quantity(D::Time, 0.01, 1e4),

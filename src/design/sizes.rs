@@ -37,11 +37,7 @@ impl SizeCurve {
                 (low + share * (high - low)).powf(0.25)
             }
             Self::ByMass(points) => {
-                let upper = points
-                    .iter()
-                    .position(|point| point.0 >= share)
-                    .unwrap_or(points.len() - 1)
-                    .max(1);
+                let upper = points.iter().position(|point| point.0 >= share).unwrap_or(points.len() - 1).max(1);
                 let ((s0, d0), (s1, d1)) = (points[upper - 1], points[upper]);
                 d0 * (d1 / d0).powf(((share - s0) / (s1 - s0)).clamp(0.0, 1.0))
             }
@@ -81,27 +77,15 @@ mod tests {
         assert_relative_eq!(total, 340e3, max_relative = 1e-9);
         for (share, diameter) in [(0.3, 0.30), (0.5, 0.45), (0.7, 0.60), (0.9, 0.80)] {
             let finer: f64 = grains.iter().filter(|d| **d <= diameter).map(mass).sum();
-            assert!(
-                (finer / total - share).abs() < 0.01,
-                "{share}: {}",
-                finer / total
-            );
+            assert!((finer / total - share).abs() < 0.01, "{share}: {}", finer / total);
         }
     }
 
     #[test]
     fn uniform_in_number_is_uniform_in_number() {
-        let grains = SizeCurve::ByNumber {
-            smallest: 9.82e-3,
-            largest: 19.64e-3,
-        }
-        .grains(27.25, 2701.0);
+        let grains = SizeCurve::ByNumber { smallest: 9.82e-3, largest: 19.64e-3 }.grains(27.25, 2701.0);
         let middle = grains.iter().filter(|d| **d < 14.73e-3).count() as f64;
         assert!((middle / grains.len() as f64 - 0.5).abs() < 0.01);
-        assert!(
-            (grains.len() as f64 - 5406.0).abs() < 10.0,
-            "{}",
-            grains.len()
-        );
+        assert!((grains.len() as f64 - 5406.0).abs() < 10.0, "{}", grains.len());
     }
 }

@@ -36,22 +36,14 @@ pub fn choose(design: &Design) -> Fidelity {
         BarrierDesign::RigidWall(_) => f64::INFINITY,
         BarrierDesign::FlexibleNet(net) => critical_step_of_net(net, design),
     };
-    let governing = if net < grains {
-        "a knot of the net with a grain pressed on it"
-    } else {
-        "a pair of the smallest grains"
-    };
+    let governing =
+        if net < grains { "a knot of the net with a grain pressed on it" } else { "a pair of the smallest grains" };
     let time_step = round_down(share * grains.min(net));
     let reason = format!(
         "{share} of the critical step of {governing} ({:.2e} s); what is really connected is audited during the run",
         grains.min(net)
     );
-    Fidelity {
-        name,
-        time_step,
-        skin_share: 0.3,
-        reason,
-    }
+    Fidelity { name, time_step, skin_share: 0.3, reason }
 }
 
 fn critical_step_of_grains(design: &Design) -> f64 {

@@ -33,9 +33,7 @@ impl RopeInput {
         }
         let elastic = self.with_stroke(load, 0.0);
         match self.dissipator {
-            Some([plateau, stroke]) if elastic.tension > plateau => {
-                self.yielding(load, plateau, stroke)
-            }
+            Some([plateau, stroke]) if elastic.tension > plateau => self.yielding(load, plateau, stroke),
             _ => elastic,
         }
     }
@@ -48,11 +46,7 @@ impl RopeInput {
             let sag = load * self.span * self.span / (8.0 * horizontal);
             let used = 0.5 * (self.arc(sag) - self.span * (1.0 + plateau / self.axial_stiffness));
             if used <= stroke {
-                return RopeState {
-                    sag,
-                    tension: plateau,
-                    stroke: used.max(0.0),
-                };
+                return RopeState { sag, tension: plateau, stroke: used.max(0.0) };
             }
         }
         self.with_stroke(load, stroke)
@@ -60,13 +54,9 @@ impl RopeInput {
 
     /// Equilibrium with a given stroke at both ends, by bisection on the sag.
     fn with_stroke(&self, load: f64, stroke: f64) -> RopeState {
-        let tension_at =
-            |sag: f64| (load * self.span * self.span / (8.0 * sag)).hypot(0.5 * load * self.span);
-        let excess = |sag: f64| {
-            self.arc(sag)
-                - self.span * (1.0 + tension_at(sag) / self.axial_stiffness)
-                - 2.0 * stroke
-        };
+        let tension_at = |sag: f64| (load * self.span * self.span / (8.0 * sag)).hypot(0.5 * load * self.span);
+        let excess =
+            |sag: f64| self.arc(sag) - self.span * (1.0 + tension_at(sag) / self.axial_stiffness) - 2.0 * stroke;
         let (mut low, mut high) = (1e-9 * self.span, self.span);
         while excess(high) < 0.0 && high < 1e6 * self.span {
             high *= 2.0;
@@ -80,11 +70,7 @@ impl RopeInput {
             }
         }
         let sag = 0.5 * (low + high);
-        RopeState {
-            sag,
-            tension: tension_at(sag),
-            stroke,
-        }
+        RopeState { sag, tension: tension_at(sag), stroke }
     }
 
     /// Arc length of a parabola of the given sag.
@@ -105,11 +91,7 @@ mod tests {
     #[test]
     fn matches_the_worked_example_on_the_plateau() {
         // q 20 kN/m, L 15 m, plateau 250 kN: f = 2.8125 m, arc 16.306 m, ΔS = 1.306 m (inextensible rope).
-        let rope = RopeInput {
-            span: 15.0,
-            axial_stiffness: 1e15,
-            dissipator: Some([250e3, 2.5]),
-        };
+        let rope = RopeInput { span: 15.0, axial_stiffness: 1e15, dissipator: Some([250e3, 2.5]) };
         let state = rope.under(20e3);
         assert_relative_eq!(state.sag, 2.8125, max_relative = 1e-9);
         assert_relative_eq!(rope.arc(state.sag), 16.306, max_relative = 1e-4);
@@ -119,11 +101,7 @@ mod tests {
 
     #[test]
     fn exhausted_stroke_lets_the_tension_grow() {
-        let rope = RopeInput {
-            span: 15.0,
-            axial_stiffness: 3.2e6,
-            dissipator: Some([250e3, 0.2]),
-        };
+        let rope = RopeInput { span: 15.0, axial_stiffness: 3.2e6, dissipator: Some([250e3, 0.2]) };
         let state = rope.under(20e3);
         assert_eq!(state.stroke, 0.2);
         assert!(state.tension > 250e3);

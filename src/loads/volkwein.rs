@@ -49,18 +49,8 @@ impl GuidelineInput {
     pub fn cases(&self) -> Vec<LoadCase> {
         let depth = self.depth.min(self.fill_height);
         vec![
-            self.case(
-                "first_surge",
-                "First surge on the empty barrier",
-                0.0,
-                depth,
-            ),
-            self.case(
-                "last_surge",
-                "Last surge over the deposit",
-                self.fill_height - depth,
-                depth,
-            ),
+            self.case("first_surge", "First surge on the empty barrier", 0.0, depth),
+            self.case("last_surge", "Last surge over the deposit", self.fill_height - depth, depth),
             self.case("full", "Full, at rest", self.fill_height, 0.0),
         ]
     }
@@ -69,11 +59,7 @@ impl GuidelineInput {
     fn case(&self, id: &'static str, title: &'static str, deposit: f64, moving: f64) -> LoadCase {
         let unit = self.earth_pressure * self.density * self.gravity_normal;
         let total = deposit + moving;
-        let dynamic = if moving > 0.0 {
-            self.dynamic_pressure * self.density * self.velocity.powi(2)
-        } else {
-            0.0
-        };
+        let dynamic = if moving > 0.0 { self.dynamic_pressure * self.density * self.velocity.powi(2) } else { 0.0 };
         LoadCase {
             id,
             title,
@@ -101,10 +87,7 @@ impl GuidelineInput {
 pub fn split(input: &GuidelineInput, case: &LoadCase) -> (f64, f64) {
     let unit = input.earth_pressure * input.density * input.gravity_normal;
     let deposit = unit * case.deposit * (0.5 * case.deposit + case.moving);
-    (
-        deposit,
-        0.5 * unit * case.moving.powi(2) + case.pressure_dynamic * case.moving,
-    )
+    (deposit, 0.5 * unit * case.moving.powi(2) + case.pressure_dynamic * case.moving)
 }
 
 /// Height of a deposit whose surface is level, for a volume per width V behind a barrier normal to the bed of

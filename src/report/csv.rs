@@ -10,10 +10,7 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     let mut add = |name: String, values: Vec<f64>| columns.push((name, values));
     add("time_s".into(), histories.time.clone());
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        add(
-            format!("force_{name}_n"),
-            histories.force.iter().map(|force| force[axis]).collect(),
-        );
+        add(format!("force_{name}_n"), histories.force.iter().map(|force| force[axis]).collect());
     }
     add("wall_moment_n_m".into(), histories.moment.clone());
     let groups = [
@@ -29,78 +26,24 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
         }
     }
     add("net_largest_n".into(), histories.net_largest.clone());
-    add(
-        "top_rope_height_m".into(),
-        histories.top_rope_height.clone(),
-    );
-    add(
-        "velocity_mean_x_m_s".into(),
-        histories
-            .velocity
-            .iter()
-            .map(|velocity| velocity[0])
-            .collect(),
-    );
-    add(
-        "velocity_mean_z_m_s".into(),
-        histories
-            .velocity
-            .iter()
-            .map(|velocity| velocity[1])
-            .collect(),
-    );
+    add("top_rope_height_m".into(), histories.top_rope_height.clone());
+    add("velocity_mean_x_m_s".into(), histories.velocity.iter().map(|velocity| velocity[0]).collect());
+    add("velocity_mean_z_m_s".into(), histories.velocity.iter().map(|velocity| velocity[1]).collect());
     add("dead_share".into(), histories.dead.clone());
     add("moving_share".into(), histories.moving.clone());
-    for (index, way) in ["through", "under", "beside", "over"]
-        .into_iter()
-        .enumerate()
-    {
-        add(
-            format!("lost_{way}_share"),
-            histories.lost.iter().map(|lost| lost[index]).collect(),
-        );
+    for (index, way) in ["through", "under", "beside", "over"].into_iter().enumerate() {
+        add(format!("lost_{way}_share"), histories.lost.iter().map(|lost| lost[index]).collect());
     }
-    add(
-        "gauge_depth_m".into(),
-        histories.gauge.iter().map(|gauge| gauge[0]).collect(),
-    );
-    add(
-        "gauge_velocity_m_s".into(),
-        histories.gauge.iter().map(|gauge| gauge[1]).collect(),
-    );
-    add("barrier_depth_m".into(), histories.barrier_depth.clone());
-    add(
-        "kinetic_j".into(),
-        histories
-            .ledger
-            .iter()
-            .map(|ledger| ledger.kinetic)
-            .collect(),
-    );
-    add(
-        "potential_j".into(),
-        histories
-            .ledger
-            .iter()
-            .map(|ledger| ledger.potential)
-            .collect(),
-    );
-    add(
-        "dissipated_j".into(),
-        histories
-            .ledger
-            .iter()
-            .map(|ledger| ledger.dissipated())
-            .collect(),
-    );
-    add(
-        "total_j".into(),
-        histories
-            .ledger
-            .iter()
-            .map(|ledger| ledger.total())
-            .collect(),
-    );
+    let gauges = [("incoming", &histories.incoming), ("at_barrier", &histories.at_barrier)];
+    for (name, gauge) in gauges {
+        add(format!("{name}_thickness_m"), gauge.iter().map(|gauge| gauge.thickness).collect());
+        add(format!("{name}_depth_m"), gauge.iter().map(|gauge| gauge.depth).collect());
+        add(format!("{name}_velocity_m_s"), gauge.iter().map(|gauge| gauge.velocity).collect());
+    }
+    add("kinetic_j".into(), histories.ledger.iter().map(|ledger| ledger.kinetic).collect());
+    add("potential_j".into(), histories.ledger.iter().map(|ledger| ledger.potential).collect());
+    add("dissipated_j".into(), histories.ledger.iter().map(|ledger| ledger.dissipated()).collect());
+    add("total_j".into(), histories.ledger.iter().map(|ledger| ledger.total()).collect());
     columns.retain(|(_, values)| !values.is_empty());
     columns
 }
@@ -108,11 +51,7 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
 /// The file's text.
 pub fn text(histories: &Histories) -> String {
     let columns = columns(histories);
-    let mut out = columns
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .collect::<Vec<_>>()
-        .join(",");
+    let mut out = columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(",");
     out.push('\n');
     for row in 0..histories.time.len() {
         for (index, (_, values)) in columns.iter().enumerate() {

@@ -5,11 +5,7 @@ use crate::pipeline::Run;
 use crate::report::view::{Row, with_unit};
 
 fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) -> Row {
-    Row {
-        name: name.into(),
-        value: value.into(),
-        remark: remark.into(),
-    }
+    Row { name: name.into(), value: value.into(), remark: remark.into() }
 }
 
 /// What the simulation showed.
@@ -20,11 +16,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
-            format!(
-                "at {:.2} s; {} of width",
-                seen.force_peak_time,
-                with_unit(seen.force_peak / width, "N/m")
-            ),
+            format!("at {:.2} s; {} of width", seen.force_peak_time, with_unit(seen.force_peak / width, "N/m")),
         ),
         row(
             "Total force at rest",
@@ -38,31 +30,27 @@ pub fn rows(run: &Run) -> Vec<Row> {
         ),
         row(
             "Incoming flow",
-            format!(
-                "{} deep, {}",
-                with_unit(seen.incoming[0], "m"),
-                with_unit(seen.incoming[1], "m/s")
-            ),
+            format!("{} deep, {}", with_unit(seen.incoming.depth, "m"), with_unit(seen.incoming.velocity, "m/s")),
             "at the gauge upstream, when its momentum flux was largest",
         ),
-        row(
-            "Depth of the deposit at the barrier",
-            with_unit(seen.deposit_depth, "m"),
-            "at the end",
-        ),
+        row("Depth of the deposit at the barrier", with_unit(seen.deposit_depth, "m"), "at the end"),
     ];
     if let Some(k) = seen.k_effective {
         rows.push(row(
             "K that the simulation shows",
             format!("{k:.2}"),
-            format!(
-                "from the force at rest; the design takes {}",
-                run.guideline.input.earth_pressure
-            ),
+            format!("from the force at rest; the design takes {}", run.guideline.input.earth_pressure),
         ));
     }
     if let Some(lambda) = seen.lambda_effective {
-        rows.push(row("λ that the simulation shows", format!("{lambda:.2}"), format!("from the largest force less the static part with the design's K; the design takes {}", run.guideline.input.dynamic_pressure)));
+        rows.push(row(
+            "λ that the simulation shows",
+            format!("{lambda:.2}"),
+            format!(
+                "from the largest force less the static part with the design's K; the design takes {}",
+                run.guideline.input.dynamic_pressure
+            ),
+        ));
     }
     let [through, under, beside, over] = seen.lost.map(|share| with_unit(share, "-"));
     rows.push(row(
@@ -71,28 +59,10 @@ pub fn rows(run: &Run) -> Vec<Row> {
         format!("through {through}, under {under}, beside {beside}, over {over}"),
     ));
     if !seen.segment_peak.is_empty() {
-        let list = |values: &[f64]| {
-            values
-                .iter()
-                .map(|value| with_unit(*value, "N/m"))
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
-        rows.push(row(
-            "Wall segments, largest",
-            list(&seen.segment_peak),
-            "from the bottom up",
-        ));
-        rows.push(row(
-            "Wall segments, at rest",
-            list(&seen.segment_residual),
-            "from the bottom up",
-        ));
-        rows.push(row(
-            "Moment about the toe, largest",
-            with_unit(seen.moment_peak, "N m/m"),
-            "",
-        ));
+        let list = |values: &[f64]| values.iter().map(|value| with_unit(*value, "N/m")).collect::<Vec<_>>().join(", ");
+        rows.push(row("Wall segments, largest", list(&seen.segment_peak), "from the bottom up"));
+        rows.push(row("Wall segments, at rest", list(&seen.segment_residual), "from the bottom up"));
+        rows.push(row("Moment about the toe, largest", with_unit(seen.moment_peak, "N m/m"), ""));
     }
     rows
 }
@@ -100,11 +70,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
 /// How the numbers were obtained, and the limits of credibility.
 pub fn numerics_rows(run: &Run) -> Vec<Row> {
     let (facts, numerics) = (&run.facts, &run.numerics);
-    let ending = if facts.steady {
-        "force and masses no longer changed"
-    } else {
-        "stopped before it was steady"
-    };
+    let ending = if facts.steady { "force and masses no longer changed" } else { "stopped before it was steady" };
     vec![
         row(
             "Energy imbalance",
@@ -133,31 +99,18 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
         row(
             "Model",
             format!("{} grains of {} spheres", facts.grains, facts.spheres),
-            format!(
-                "{} nodes and {} elements of the barrier",
-                facts.barrier_nodes, facts.barrier_elements
-            ),
+            format!("{} nodes and {} elements of the barrier", facts.barrier_nodes, facts.barrier_elements),
         ),
-        row(
-            "Seed",
-            run.file.design.simulation.seed.to_string(),
-            "of the packing; one run, so no scatter is known",
-        ),
+        row("Seed", run.file.design.simulation.seed.to_string(), "of the packing; one run, so no scatter is known"),
         row(
             "Smoothing",
             format!("{:.0} ms", 1e3 * facts.smoothing),
-            format!(
-                "of total and wall forces; ropes and anchors are means over {:.1} ms",
-                1e3 * facts.sampling
-            ),
+            format!("of total and wall forces; ropes and anchors are means over {:.1} ms", 1e3 * facts.sampling),
         ),
         row(
             "Cost",
             format!("{:.1} s", facts.wall_clock),
-            format!(
-                "{} steps on {} threads, {} neighbour lists",
-                facts.steps, facts.threads, facts.renewals
-            ),
+            format!("{} steps on {} threads, {} neighbour lists", facts.steps, facts.threads, facts.renewals),
         ),
     ]
 }

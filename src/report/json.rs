@@ -95,8 +95,12 @@ pub struct SimulationPart {
     pub brake_stroke_m: Vec<f64>,
     pub net_tension_peak_n: f64,
     pub wall: Option<WallPart>,
+    /// Of the incoming flow when its momentum flux was largest; depth at bulk density.
     pub incoming_depth_m: f64,
     pub incoming_velocity_m_s: f64,
+    /// Of the incoming flow when the total force peaked; 90 % of the centres and half a grain.
+    pub incoming_thickness_at_peak_m: f64,
+    pub incoming_velocity_at_peak_m_s: f64,
     pub deposit_depth_m: f64,
     /// K that the residual force means for the depth of the deposit.
     pub k_effective: Option<f64>,
@@ -140,10 +144,7 @@ impl ResultFile {
     pub fn of(run: &Run) -> Self {
         Self {
             schema_version: SCHEMA_VERSION,
-            design: DesignPart {
-                name: run.file.name.clone(),
-                sha256: run.file.sha256.clone(),
-            },
+            design: DesignPart { name: run.file.name.clone(), sha256: run.file.sha256.clone() },
             verdict: run.verdict.word().to_string(),
             doubts: run.doubts.clone(),
             checks: run.outcomes.iter().map(check_part).collect(),
@@ -211,12 +212,7 @@ fn simulation_part(run: &Run) -> SimulationPart {
         velocity_mean_peak_m_s: seen.velocity_peak,
         velocity_mean_peak_time_s: seen.velocity_peak_time,
         retained_fraction: seen.retained,
-        lost: LostPart {
-            through,
-            under,
-            beside,
-            over,
-        },
+        lost: LostPart { through, under, beside, over },
         residual_height_m: run.histories.top_rope_height.last().copied(),
         rope_tension_peak_n: seen.rope_tension_peak.clone(),
         rope_tension_mean_peak_n: seen.rope_mean_peak.clone(),
@@ -225,8 +221,10 @@ fn simulation_part(run: &Run) -> SimulationPart {
         brake_stroke_m: seen.brake_stroke.clone(),
         net_tension_peak_n: seen.net_tension_peak,
         wall,
-        incoming_depth_m: seen.incoming[0],
-        incoming_velocity_m_s: seen.incoming[1],
+        incoming_depth_m: seen.incoming.depth,
+        incoming_velocity_m_s: seen.incoming.velocity,
+        incoming_thickness_at_peak_m: seen.incoming_at_peak.thickness,
+        incoming_velocity_at_peak_m_s: seen.incoming_at_peak.velocity,
         deposit_depth_m: seen.deposit_depth,
         k_effective: seen.k_effective,
         lambda_effective: seen.lambda_effective,

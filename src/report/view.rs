@@ -93,17 +93,9 @@ const NOT_CHECKED: &[&str] = &[
 impl View {
     pub fn of(run: &Run) -> Self {
         let project = &run.file.design.project;
-        let row = |name: &str, value: &str| Row {
-            name: name.into(),
-            value: value.into(),
-            remark: String::new(),
-        };
+        let row = |name: &str, value: &str| Row { name: name.into(), value: value.into(), remark: String::new() };
         let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
-        outcomes.sort_by(|a, b| {
-            b.utilisation
-                .unwrap_or(-1.0)
-                .total_cmp(&a.utilisation.unwrap_or(-1.0))
-        });
+        outcomes.sort_by(|a, b| b.utilisation.unwrap_or(-1.0).total_cmp(&a.utilisation.unwrap_or(-1.0)));
         Self {
             title: format!("{}: {}", project.name, project.barrier),
             project: vec![
@@ -133,31 +125,19 @@ impl View {
 }
 
 fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
-    let failed = run
-        .outcomes
-        .iter()
-        .filter(|outcome| outcome.verdict == CheckVerdict::Fail)
-        .count();
+    let failed = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail).count();
     let governing = sorted.first().map_or(String::new(), |outcome| {
-        format!(
-            " Governing: {} ({}).",
-            outcome.title.to_lowercase(),
-            percent(outcome.utilisation)
-        )
+        format!(" Governing: {} ({}).", outcome.title.to_lowercase(), percent(outcome.utilisation))
     });
     match run.verdict {
-        Verdict::Undecided => {
-            "The simulation cannot be relied on; see the reasons below.".to_string()
-        }
+        Verdict::Undecided => "The simulation cannot be relied on; see the reasons below.".to_string(),
         Verdict::Fail => format!("{failed} of {} checks fail.{governing}", run.outcomes.len()),
         Verdict::Pass => format!("All {} checks hold.{governing}", run.outcomes.len()),
     }
 }
 
 fn check_row(outcome: &Outcome) -> CheckRow {
-    let show = |value: Option<f64>| {
-        value.map_or("–".to_string(), |value| with_unit(value, outcome.unit))
-    };
+    let show = |value: Option<f64>| value.map_or("–".to_string(), |value| with_unit(value, outcome.unit));
     CheckRow {
         title: outcome.title.clone(),
         guideline: show(outcome.demand.guideline),
@@ -199,39 +179,15 @@ fn figures(value: f64) -> String {
 
 fn guideline_rows(run: &Run) -> Vec<Row> {
     let input = &run.guideline.input;
-    let row = |name: &str, value: String, remark: &str| Row {
-        name: name.into(),
-        value,
-        remark: remark.into(),
-    };
+    let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
     vec![
-        row(
-            "K",
-            figures(input.earth_pressure),
-            "static pressure K ρ g H cos α",
-        ),
-        row(
-            "λ",
-            figures(input.dynamic_pressure),
-            "dynamic pressure λ ρ v²",
-        ),
-        row(
-            "Density ρ",
-            with_unit(input.density, "kg/m³"),
-            "bulk density of the flow",
-        ),
+        row("K", figures(input.earth_pressure), "static pressure K ρ g H cos α"),
+        row("λ", figures(input.dynamic_pressure), "dynamic pressure λ ρ v²"),
+        row("Density ρ", with_unit(input.density, "kg/m³"), "bulk density of the flow"),
         row("Depth h", with_unit(input.depth, "m"), "of the moving flow"),
-        row(
-            "Velocity v",
-            with_unit(input.velocity, "m/s"),
-            "of the moving flow",
-        ),
+        row("Velocity v", with_unit(input.velocity, "m/s"), "of the moving flow"),
         row("Froude number", figures(input.froude()), "v/√(g h cos α)"),
-        row(
-            "Height of filling",
-            with_unit(input.fill_height, "m"),
-            "normal to the bed",
-        ),
+        row("Height of filling", with_unit(input.fill_height, "m"), "normal to the bed"),
     ]
 }
 
@@ -256,11 +212,7 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
         InputRow {
             path: path.clone(),
             typed: entry.typed.clone(),
-            origin: if entry.origin == Origin::File {
-                "file"
-            } else {
-                "default"
-            },
+            origin: if entry.origin == Origin::File { "file" } else { "default" },
             meaning: entry.meaning,
         }
     };
@@ -269,13 +221,7 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
 
 fn charts(run: &Run) -> Vec<Chart> {
     let mut charts = vec![force_chart(run), mass_chart(run)];
-    if run
-        .histories
-        .strokes
-        .iter()
-        .flatten()
-        .any(|stroke| *stroke > 0.0)
-    {
+    if run.histories.strokes.iter().flatten().any(|stroke| *stroke > 0.0) {
         charts.push(stroke_chart(run));
     }
     if !run.histories.rope_mean.is_empty() {
@@ -288,73 +234,37 @@ fn charts(run: &Run) -> Vec<Chart> {
 fn force_chart(run: &Run) -> Chart {
     let histories = &run.histories;
     let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
-    let force = crate::dem::recorders::histories::smoothed(
-        &force,
-        crate::scene::build::SAMPLES_PER_WINDOW as usize,
-    );
+    let force = crate::dem::recorders::histories::smoothed(&force, crate::scene::build::SAMPLES_PER_WINDOW as usize);
     let width = run.file.design.channel.width;
     let levels = run.guideline.cases.iter();
-    let (unit, factor) = if run.observed.force_peak < 2000.0 {
-        ("N", 1.0)
-    } else {
-        ("kN", 1e-3)
-    };
+    let (unit, factor) = if run.observed.force_peak < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
     let chart = LineChart {
         title: "total force",
         unit,
         factor,
         time: &histories.time,
-        series: vec![Series {
-            label: "simulation".into(),
-            values: &force,
-            colour: 0,
-        }],
+        series: vec![Series { label: "simulation".into(), values: &force, colour: 0 }],
         levels: levels
-            .map(|case| Level {
-                label: case.title.to_string(),
-                value: case.force_per_width * width,
-            })
+            .map(|case| Level { label: case.id.replace('_', " "), value: case.force_per_width * width })
             .collect(),
     };
-    let note = format!(
-        "Mean over {:.0} ms. Dashed: guideline.",
-        1e3 * run.facts.smoothing
-    );
-    Chart {
-        title: "Force on the barrier",
-        svg: chart.svg(),
-        note,
-    }
+    let note = format!("Mean over {:.0} ms. Dashed: guideline.", 1e3 * run.facts.smoothing);
+    Chart { title: "Force on the barrier", svg: chart.svg(), note }
 }
 
 fn mass_chart(run: &Run) -> Chart {
     let histories = &run.histories;
-    let retained: Vec<f64> = histories
-        .lost
-        .iter()
-        .map(|lost| 1.0 - lost.iter().sum::<f64>())
-        .collect();
+    let retained: Vec<f64> = histories.lost.iter().map(|lost| 1.0 - lost.iter().sum::<f64>()).collect();
     let chart = LineChart {
         title: "share of the mass",
         unit: "%",
         factor: 100.0,
         time: &histories.time,
         series: vec![
-            Series {
-                label: "not past the barrier".into(),
-                values: &retained,
-                colour: 0,
-            },
-            Series {
-                label: "at rest".into(),
-                values: &histories.dead,
-                colour: 1,
-            },
+            Series { label: "not past the barrier".into(), values: &retained, colour: 0 },
+            Series { label: "at rest".into(), values: &histories.dead, colour: 1 },
         ],
-        levels: vec![Level {
-            label: "limit".into(),
-            value: run.file.design.limits.retained_mass,
-        }],
+        levels: vec![Level { label: "limit".into(), value: run.file.design.limits.retained_mass }],
     };
     Chart {
         title: "Retained mass",
@@ -365,9 +275,7 @@ fn mass_chart(run: &Run) -> Chart {
 
 fn stroke_chart(run: &Run) -> Chart {
     let limit = match &run.file.design.barrier {
-        crate::design::BarrierDesign::FlexibleNet(net) => {
-            net.dissipators.map(|dissipator| dissipator.stroke)
-        }
+        crate::design::BarrierDesign::FlexibleNet(net) => net.dissipators.map(|dissipator| dissipator.stroke),
         crate::design::BarrierDesign::RigidWall(_) => None,
     };
     let chart = LineChart {
@@ -376,19 +284,9 @@ fn stroke_chart(run: &Run) -> Chart {
         factor: 1.0,
         time: &run.histories.time,
         series: rope_series(&run.histories.strokes),
-        levels: limit
-            .map(|value| Level {
-                label: "available".into(),
-                value,
-            })
-            .into_iter()
-            .collect(),
+        levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
     };
-    Chart {
-        title: "Dissipators",
-        svg: chart.svg(),
-        note: "The longer of the two strokes of each main rope.".into(),
-    }
+    Chart { title: "Dissipators", svg: chart.svg(), note: "The longer of the two strokes of each main rope.".into() }
 }
 
 fn rope_chart(run: &Run) -> Chart {
@@ -400,30 +298,17 @@ fn rope_chart(run: &Run) -> Chart {
         series: rope_series(&run.histories.rope_mean),
         levels: Vec::new(),
     };
-    Chart {
-        title: "Main ropes",
-        svg: chart.svg(),
-        note: "Mean along each rope, numbered from the bottom.".into(),
-    }
+    Chart { title: "Main ropes", svg: chart.svg(), note: "Mean along each rope, numbered from the bottom.".into() }
 }
 
 fn velocity_chart(run: &Run) -> Chart {
-    let velocity: Vec<f64> = run
-        .histories
-        .velocity
-        .iter()
-        .map(|velocity| velocity[0])
-        .collect();
+    let velocity: Vec<f64> = run.histories.velocity.iter().map(|velocity| velocity[0]).collect();
     let chart = LineChart {
         title: "mean velocity",
         unit: "m/s",
         factor: 1.0,
         time: &run.histories.time,
-        series: vec![Series {
-            label: "along the channel".into(),
-            values: &velocity,
-            colour: 0,
-        }],
+        series: vec![Series { label: "along the channel".into(), values: &velocity, colour: 0 }],
         levels: Vec::new(),
     };
     Chart {
@@ -434,15 +319,6 @@ fn velocity_chart(run: &Run) -> Chart {
 }
 
 fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {
-    let moving = rows
-        .iter()
-        .enumerate()
-        .filter(|(_, row)| row.iter().any(|value| *value > 0.0));
-    moving
-        .map(|(index, row)| Series {
-            label: format!("rope {}", index + 1),
-            values: row,
-            colour: index % 6,
-        })
-        .collect()
+    let moving = rows.iter().enumerate().filter(|(_, row)| row.iter().any(|value| *value > 0.0));
+    moving.map(|(index, row)| Series { label: format!("rope {}", index + 1), values: row, colour: index % 6 }).collect()
 }

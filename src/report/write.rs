@@ -14,16 +14,10 @@ pub struct ReportFile {
 /// one, `result.json` last, so that a reader who finds that file finds the others complete.
 pub fn write_all(folder: &Path, files: &[ReportFile]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    let temporary =
-        |name: &str| -> PathBuf { folder.join(format!(".{name}.{}.tmp", std::process::id())) };
-    let written = files
-        .iter()
-        .try_for_each(|file| fs::write(temporary(file.name), &file.text));
-    let renamed = written.and_then(|()| {
-        files
-            .iter()
-            .try_for_each(|file| fs::rename(temporary(file.name), folder.join(file.name)))
-    });
+    let temporary = |name: &str| -> PathBuf { folder.join(format!(".{name}.{}.tmp", std::process::id())) };
+    let written = files.iter().try_for_each(|file| fs::write(temporary(file.name), &file.text));
+    let renamed = written
+        .and_then(|()| files.iter().try_for_each(|file| fs::rename(temporary(file.name), folder.join(file.name))));
     if renamed.is_err() {
         for file in files {
             let _ = fs::remove_file(temporary(file.name));

@@ -1,10 +1,10 @@
 //! `Design` + `Fidelity` → a simulation ready to be released, and what its recorder must know.
 
 use crate::dem::Vec3;
-use crate::dem::recorders::recorder::RecorderSetup;
+use crate::dem::recorders::recorder::{GaugeWindow, RecorderSetup};
 use crate::dem::simulation::{Material, Model, Simulation, Unstable};
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
-use crate::design::{Arrival, BarrierDesign, Design};
+use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::Fidelity;
 use crate::scene::flow::packing::PackingError;
 use crate::scene::flow::release::{Block, packed_block, shape};
@@ -64,11 +64,7 @@ fn gravity(slope: f64) -> Vec3 {
 /// Builds the scene: packs the flow, lets it settle behind the gate, puts the barrier up.
 pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
     let net = match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => Some(build_net(
-            net,
-            &design.channel,
-            design.simulation.barrier_model,
-        )),
+        BarrierDesign::FlexibleNet(net) => Some(build_net(net, &design.channel, design.simulation.barrier_model)),
         BarrierDesign::RigidWall(_) => None,
     };
     let block = Block::of(&design.flow, upstream_reach(design, net.as_ref()));
@@ -93,13 +89,9 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
         outlet: outlet(design),
     };
     let mean_radius = 0.42 * flow.sizes.quantile(0.5);
-    let mut simulation = Simulation::new(
-        model,
-        fidelity.time_step,
-        fidelity.skin_share * mean_radius,
-        speed_limit(design, &block),
-    );
-    if matches!(flow.arrival, Arrival::DamBreak { .. }) {
+    let mut simulation =
+        Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, &block));
+    if matches!(flow.arrival, Arrival::DamBreak(_)) {
         settle(&mut simulation, &block)?;
     }
     simulation.remove_surfaces(SurfaceRole::Gate);
@@ -119,12 +111,8 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
 fn expected_time(design: &Design) -> f64 {
     let rest = 4.0 * (barrier_height(design) / GRAVITY).sqrt();
     rest + match design.flow.arrival {
-        Arrival::Surge {
-            length, velocity, ..
-        } => length / velocity,
-        Arrival::DamBreak {
-            length, distance, ..
-        } => {
+        Arrival::Surge { length, velocity, .. } => length / velocity,
+        Arrival::DamBreak(DamBreak { length, distance, .. }) => {
             let slope = design.channel.slope;
             let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
             (2.0 * (distance + length) / acceleration.max(0.1)).sqrt()
@@ -134,13 +122,7 @@ fn expected_time(design: &Design) -> f64 {
 
 /// How far upstream of its foot the barrier reaches (m), with room for the largest grain.
 fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
-    let lean = net.map_or(0.0, |net| {
-        net.barrier
-            .nodes
-            .iter()
-            .map(|node| -node.position.x)
-            .fold(0.0, f64::max)
-    });
+    let lean = net.map_or(0.0, |net| net.barrier.nodes.iter().map(|node| -node.position.x).fold(0.0, f64::max));
     lean + 0.5 * design.flow.sizes.quantile(1.0)
 }
 
@@ -182,77 +164,42 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     let channel = &design.channel;
     let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
     let up_to = |height: f64| Span::bounded(z, f64::NEG_INFINITY, height);
-    let surface = |role, origin, normal, spans, friction| Surface {
-        role,
-        origin,
-        normal,
-        spans,
-        friction,
-    };
+    let surface = |role, origin, normal, spans, friction| Surface { role, origin, normal, spans, friction };
     let across = Span::unbounded(y);
     let along = Span::unbounded(x);
     let walls = up_to(channel.wall_height);
     let back = x * (block.front - block.length);
     let mut all = vec![
-        surface(
-            SurfaceRole::Base,
-            Vec3::zeros(),
-            z,
-            [along, across],
-            channel.base_friction,
-        ),
-        surface(
-            SurfaceRole::Side,
-            Vec3::zeros(),
-            y,
-            [along, walls],
-            channel.side_friction,
-        ),
-        surface(
-            SurfaceRole::Side,
-            y * channel.width,
-            -y,
-            [along, walls],
-            channel.side_friction,
-        ),
+        surface(SurfaceRole::Base, Vec3::zeros(), z, [along, across], channel.base_friction),
+        surface(SurfaceRole::Side, Vec3::zeros(), y, [along, walls], channel.side_friction),
+        surface(SurfaceRole::Side, y * channel.width, -y, [along, walls], channel.side_friction),
     ];
-    if matches!(design.flow.arrival, Arrival::DamBreak { .. }) {
-        all.push(surface(
-            SurfaceRole::Side,
-            back,
-            x,
-            [Span::unbounded(z), across],
-            channel.side_friction,
-        ));
-        all.push(surface(
-            SurfaceRole::Gate,
-            x * block.front,
-            -x,
-            [Span::unbounded(z), across],
-            channel.side_friction,
-        ));
+    if matches!(design.flow.arrival, Arrival::DamBreak(_)) {
+        all.push(surface(SurfaceRole::Side, back, x, [Span::unbounded(z), across], channel.side_friction));
+        all.push(surface(SurfaceRole::Gate, x * block.front, -x, [Span::unbounded(z), across], channel.side_friction));
     }
     if let BarrierDesign::RigidWall(wall) = &design.barrier {
         let spans = [Span::bounded(z, 0.0, wall.height), across];
-        all.push(surface(
-            SurfaceRole::Wall,
-            Vec3::zeros(),
-            -x,
-            spans,
-            channel.barrier_friction,
-        ));
+        all.push(surface(SurfaceRole::Wall, Vec3::zeros(), -x, spans, channel.barrier_friction));
     }
     all
 }
 
 /// Distance of the gauge window upstream, over the barrier's height: 40 to 50 cm at the 40 cm laboratory wall.
-const GAUGE: [f64; 2] = [1.0, 1.25];
+const INCOMING: [f64; 2] = [1.0, 1.25];
 
 /// Distance of the window in which the deposit's depth at the barrier is measured, over the barrier's height.
-const BARRIER_GAUGE: [f64; 2] = [0.0, 0.25];
+const AT_BARRIER: [f64; 2] = [0.0, 0.25];
 
 fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
     let height = barrier_height(design);
+    let window = |[near, far]: [f64; 2]| GaugeWindow {
+        near: near * height,
+        far: far * height,
+        width: design.channel.width,
+        bulk_density: design.flow.bulk_density,
+        mean_diameter: design.flow.sizes.quantile(0.5),
+    };
     RecorderSetup {
         interval: smoothing(design) / SAMPLES_PER_WINDOW,
         passage_interval: PASSAGE * time_scale(design),
@@ -262,9 +209,8 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
             BarrierDesign::RigidWall(wall) => Some([wall.height, design.channel.width]),
             BarrierDesign::FlexibleNet(_) => None,
         },
-        gauge: GAUGE.map(|share| share * height),
-        barrier_gauge: BARRIER_GAUGE.map(|share| share * height),
+        incoming: window(INCOMING),
+        at_barrier: window(AT_BARRIER),
         mass: design.flow.mass,
-        mean_diameter: design.flow.sizes.quantile(0.5),
     }
 }

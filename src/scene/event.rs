@@ -53,12 +53,7 @@ pub struct Event {
 /// Runs `scene`; stops when steady, at `longest` (s), on breakdown or when asked to.
 pub fn run(scene: Scene, longest: f64, watch: &Watch) -> Event {
     let stretch = scene.samples_of_rest();
-    let Scene {
-        mut simulation,
-        recorder,
-        expected_time,
-        ..
-    } = scene;
+    let Scene { mut simulation, recorder, expected_time, .. } = scene;
     let mut recorder = Recorder::new(recorder);
     let mut energy_error: f64 = 0.0;
     let ending = loop {
@@ -70,18 +65,10 @@ pub fn run(scene: Scene, longest: f64, watch: &Watch) -> Event {
         }
         let histories = &recorder.histories;
         let error = simulation.ledger.relative_error(&histories.ledger[0]);
-        energy_error = if error.abs() > energy_error.abs() || error.is_nan() {
-            error
-        } else {
-            energy_error
-        };
+        energy_error = if error.abs() > energy_error.abs() || error.is_nan() { error } else { energy_error };
         let force = histories.force.last().map_or(0.0, |force| force.norm());
         let time = simulation.time;
-        (watch.progress)(ProgressReport {
-            time,
-            share: (time / expected_time).min(0.99),
-            force,
-        });
+        (watch.progress)(ProgressReport { time, share: (time / expected_time).min(0.99), force });
         if watch.stop.load(Ordering::Relaxed) {
             break Ending::Interrupted;
         }
@@ -92,33 +79,17 @@ pub fn run(scene: Scene, longest: f64, watch: &Watch) -> Event {
             break Ending::OutOfTime;
         }
     };
-    Event {
-        histories: recorder.histories,
-        ending,
-        simulation,
-        energy_error,
-    }
+    Event { histories: recorder.histories, ending, simulation, energy_error }
 }
 
 /// Whether the last two stretches tell the same.
 fn steady(histories: &Histories, stretch: usize) -> bool {
     let count = histories.time.len();
-    if count < 2 * stretch
-        || !histories
-            .moving
-            .last()
-            .is_some_and(|moving| *moving < STEADY_MOVING)
-    {
+    if count < 2 * stretch || !histories.moving.last().is_some_and(|moving| *moving < STEADY_MOVING) {
         return false;
     }
-    let force: Vec<f64> = histories.force[count - 2 * stretch..]
-        .iter()
-        .map(|force| force.norm())
-        .collect();
-    let (before, after) = (
-        tail_mean(&force[..stretch], stretch),
-        tail_mean(&force, stretch),
-    );
+    let force: Vec<f64> = histories.force[count - 2 * stretch..].iter().map(|force| force.norm()).collect();
+    let (before, after) = (tail_mean(&force[..stretch], stretch), tail_mean(&force, stretch));
     let dead = (histories.dead[count - 1] - histories.dead[count - stretch]).abs();
     let lost = |index: usize| histories.lost[index].iter().sum::<f64>();
     (after - before).abs() <= STEADY_FORCE * after.max(before)

@@ -22,11 +22,7 @@ impl CandidateList {
     /// Memory of a slot as it stands at the beginning of `step`.
     #[inline(always)]
     pub fn memory_at(&self, slot: usize, step: u32) -> Memory {
-        if self.touched[slot] + 1 == step {
-            self.memory[slot]
-        } else {
-            Memory::default()
-        }
+        if self.touched[slot] + 1 == step { self.memory[slot] } else { Memory::default() }
     }
 
     #[inline(always)]
@@ -43,17 +39,12 @@ impl CandidateList {
         step: u32,
         rename: impl Fn(u32) -> u32 + 'a,
     ) -> impl Iterator<Item = Remembered> + 'a {
-        (0..self.pairs.len())
-            .filter(move |&slot| self.touched[slot] == step)
-            .filter_map(move |slot| {
-                let [member, other] = self.pairs[slot];
-                let contact = Remembered {
-                    member: new_rows[member as usize],
-                    other: rename(other),
-                    memory: self.memory[slot],
-                };
-                (contact.member != u32::MAX && contact.other != u32::MAX).then_some(contact)
-            })
+        (0..self.pairs.len()).filter(move |&slot| self.touched[slot] == step).filter_map(move |slot| {
+            let [member, other] = self.pairs[slot];
+            let contact =
+                Remembered { member: new_rows[member as usize], other: rename(other), memory: self.memory[slot] };
+            (contact.member != u32::MAX && contact.other != u32::MAX).then_some(contact)
+        })
     }
 
     /// Puts freshly found pairs in order and gives back the memory of those in force after `step`.

@@ -7,9 +7,7 @@
 use std::ops::Range;
 
 use crate::dem::contact::candidates::CandidateList;
-use crate::dem::contact::law::{
-    ContactPoint, LawConstants, Memory, Response, add_scaled, cross, dot, respond,
-};
+use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Response, add_scaled, cross, dot, respond};
 use crate::dem::ledger::ContactSums;
 use crate::dem::tables::grains::{Member, MemberLoad};
 
@@ -86,23 +84,14 @@ fn load<const SIDES: u8>(
     list.find_touching(context.members);
     let mut batch = Batch::default();
     let mut sums = ContactSums::default();
-    let CandidateList {
-        pairs,
-        memory,
-        touched,
-        active,
-    } = list;
+    let CandidateList { pairs, memory, touched, active } = list;
     for slots in active.chunks(LANES) {
         for (lane, &slot) in slots.iter().enumerate() {
             let slot = slot as usize;
             let [first, second] = pairs[slot];
             let keep = f64::from(touched[slot] + 1 == context.step);
             touched[slot] = context.step;
-            batch.gather(
-                lane,
-                &context.members[first as usize],
-                &context.members[second as usize],
-            );
+            batch.gather(lane, &context.members[first as usize], &context.members[second as usize]);
             batch.remember(lane, &memory[slot], keep);
         }
         batch.evaluate(&context.constants);
@@ -192,10 +181,7 @@ impl Batch {
 
     #[inline(always)]
     fn memory(&self, lane: usize) -> Memory {
-        Memory {
-            tangential: [self.new[0][lane], self.new[1][lane], self.new[2][lane]],
-            dashpot: self.new[3][lane],
-        }
+        Memory { tangential: [self.new[0][lane], self.new[1][lane], self.new[2][lane]], dashpot: self.new[3][lane] }
     }
 
     #[inline(always)]
@@ -251,10 +237,7 @@ impl Batch {
     fn evaluate_lanes(&mut self, constants: &PairConstants) {
         for lane in 0..LANES {
             let (point, arms) = self.touch(lane, constants);
-            let memory = Memory {
-                tangential: column(&self.old, lane),
-                dashpot: self.old[3][lane],
-            };
+            let memory = Memory { tangential: column(&self.old, lane), dashpot: self.old[3][lane] };
             let response = respond(&point, &memory, &constants.law);
             self.store(lane, &point, arms, &response);
         }
@@ -267,11 +250,7 @@ impl Batch {
         let (r1, r2) = (self.radius[0][lane], self.radius[1][lane]);
         let distance = dot(between, between).sqrt();
         let inverse = 1.0 / distance;
-        let normal = [
-            between[0] * inverse,
-            between[1] * inverse,
-            between[2] * inverse,
-        ];
+        let normal = [between[0] * inverse, between[1] * inverse, between[2] * inverse];
         let overlap = r1 + r2 - distance;
         let spin = column(&self.spin, lane);
         let rim = add_scaled(column(&self.rim_spin, lane), -0.5 * overlap, spin);

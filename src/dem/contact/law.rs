@@ -70,20 +70,12 @@ pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 #[inline(always)]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
 pub fn add_scaled(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
-    [
-        a[0] + factor * b[0],
-        a[1] + factor * b[1],
-        a[2] + factor * b[2],
-    ]
+    [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
 }
 
 #[inline(always)]
@@ -112,11 +104,7 @@ pub fn respond(point: &ContactPoint, memory: &Memory, constants: &LawConstants) 
     let trial = add_scaled(old, tangential_stiffness * step, slip);
     let trial_squared = dot(trial, trial);
     let limit = point.friction * normal_force;
-    let scale = if trial_squared > limit * limit {
-        limit / trial_squared.sqrt()
-    } else {
-        1.0
-    };
+    let scale = if trial_squared > limit * limit { limit / trial_squared.sqrt() } else { 1.0 };
     let tangential = [trial[0] * scale, trial[1] * scale, trial[2] * scale];
 
     let now_squared = trial_squared * scale * scale;
@@ -126,10 +114,7 @@ pub fn respond(point: &ContactPoint, memory: &Memory, constants: &LawConstants) 
     Response {
         force: add_scaled(tangential, -normal_force, n),
         normal_force,
-        memory: Memory {
-            tangential,
-            dashpot,
-        },
+        memory: Memory { tangential, dashpot },
         stored: 0.5 * spring * point.overlap + now_squared * half_compliance,
         lost_damping,
         lost_friction: work - change,
@@ -144,10 +129,6 @@ fn carried(force: [f64; 3], n: [f64; 3], angle: f64) -> [f64; 3] {
     let flat = add_scaled(turned, -dot(turned, n), n);
     let before = dot(force, force);
     let after = dot(flat, flat);
-    let scale = if after > 1e-300 {
-        (before / after).sqrt()
-    } else {
-        0.0
-    };
+    let scale = if after > 1e-300 { (before / after).sqrt() } else { 0.0 };
     [flat[0] * scale, flat[1] * scale, flat[2] * scale]
 }

@@ -47,13 +47,7 @@ mod tests {
     #[test]
     fn matches_the_tabulated_damping_ratios() {
         // Table 1 of the verification cases: ε against ζ (truncated).
-        let table = [
-            (0.1, 1.243188),
-            (0.2, 0.731247),
-            (0.3, 0.497239),
-            (0.5, 0.255276),
-            (0.9, 0.034265),
-        ];
+        let table = [(0.1, 1.243188), (0.2, 0.731247), (0.3, 0.497239), (0.5, 0.255276), (0.9, 0.034265)];
         for (restitution, zeta) in table {
             assert_abs_diff_eq!(damping_ratio_for(restitution), zeta, epsilon = 1e-6);
         }

@@ -48,12 +48,7 @@ pub struct RopeTouch {
 
 impl RopeContacts {
     /// Loads the members of the block that touch ropes and lists the pushes on the nodes.
-    pub fn load(
-        &mut self,
-        context: &RopeContext,
-        range: &Range<usize>,
-        loads: &mut [MemberLoad],
-    ) -> ContactSums {
+    pub fn load(&mut self, context: &RopeContext, range: &Range<usize>, loads: &mut [MemberLoad]) -> ContactSums {
         let mut sums = ContactSums::default();
         self.pushes.clear();
         for slot in 0..self.list.pairs.len() {
@@ -66,14 +61,9 @@ impl RopeContacts {
             let response = respond(&contact.point, &memory, &context.law);
             self.list.remember_at(slot, context.step, response.memory);
             let force = Vec3::from(response.force);
-            loads[member_index as usize - range.start]
-                .add(&force, &(contact.foot - member.centre()));
+            loads[member_index as usize - range.start].add(&force, &(contact.foot - member.centre()));
             let nodes = context.barrier.segments[segment_index as usize].nodes;
-            self.pushes.push(Push {
-                nodes,
-                share: contact.share,
-                force: -force,
-            });
+            self.pushes.push(Push { nodes, share: contact.share, force: -force });
             sums.count(&response, contact.point.overlap / member.radius());
         }
         sums
@@ -118,11 +108,7 @@ pub fn touch(member: &Member, segment_index: u32, context: &RopeContext) -> Opti
         inverse_mass: member.motion[3] + inverse_mass_at(a, b, along.share),
         friction: barrier.friction.min(context.grain_friction),
     };
-    Some(RopeTouch {
-        point,
-        foot,
-        share: along.share,
-    })
+    Some(RopeTouch { point, foot, share: along.share })
 }
 
 /// 1/m felt at the point that divides a segment as (1−share):share; a fixed node counts as infinitely heavy.

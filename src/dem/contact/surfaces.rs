@@ -56,14 +56,7 @@ impl SurfaceForces {
         }
     }
 
-    fn record(
-        &mut self,
-        role: SurfaceRole,
-        force: Vec3,
-        normal_force: f64,
-        height: f64,
-        levels: &[f64],
-    ) {
+    fn record(&mut self, role: SurfaceRole, force: Vec3, normal_force: f64, height: f64, levels: &[f64]) {
         match role {
             SurfaceRole::Base => self.base += force,
             SurfaceRole::Side | SurfaceRole::Gate => self.side += force,
@@ -71,10 +64,7 @@ impl SurfaceForces {
                 self.wall += force;
                 self.wall_moment += normal_force * height;
                 let segment = levels.iter().take_while(|&&top| height > top).count();
-                if let Some(sum) = self
-                    .wall_segments
-                    .get_mut(segment.min(levels.len().saturating_sub(1)))
-                {
+                if let Some(sum) = self.wall_segments.get_mut(segment.min(levels.len().saturating_sub(1))) {
                     *sum += normal_force;
                 }
             }
@@ -103,13 +93,7 @@ pub fn load_surfaces(
         let force = Vec3::from(response.force);
         loads[member_index as usize - range.start].add(&force, &(foot - member.centre()));
         let height = (foot - surface.origin).dot(&surface.spans[0].direction);
-        forces.record(
-            surface.role,
-            -force,
-            response.normal_force,
-            height,
-            context.wall_levels,
-        );
+        forces.record(surface.role, -force, response.normal_force, height, context.wall_levels);
         sums.count(&response, point.overlap / member.radius());
     }
     sums
@@ -118,11 +102,7 @@ pub fn load_surfaces(
 /// Geometry of sphere against rectangle: the contact is the nearest point of the rectangle. The surface
 /// takes part as an equal sphere of infinite mass, so k = E r and the restitution is the nominal one.
 #[inline]
-fn touch(
-    member: &Member,
-    surface: &Surface,
-    context: &SurfaceContext,
-) -> Option<(ContactPoint, Vec3)> {
+fn touch(member: &Member, surface: &Surface, context: &SurfaceContext) -> Option<(ContactPoint, Vec3)> {
     let centre = member.centre();
     let radius = member.radius();
     if surface.height_above(&centre).abs() >= radius {
@@ -134,11 +114,7 @@ fn touch(
     if distance >= radius {
         return None;
     }
-    let normal = if distance > 0.0 {
-        towards / distance
-    } else {
-        -surface.normal
-    };
+    let normal = if distance > 0.0 { towards / distance } else { -surface.normal };
     let velocity = -(member.velocity() + member.spin().cross(&towards));
     let point = ContactPoint {
         normal: normal.into(),

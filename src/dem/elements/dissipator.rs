@@ -45,11 +45,7 @@ impl Dissipator {
         let line = end.position - anchor.position;
         let length = line.norm();
         let mut brake = self.elongate(length - self.rest_length);
-        brake.direction = if length > 0.0 {
-            line / length
-        } else {
-            Vec3::zeros()
-        };
+        brake.direction = if length > 0.0 { line / length } else { Vec3::zeros() };
         brake
     }
 
@@ -95,27 +91,11 @@ mod tests {
     fn holds_the_plateau_exactly_and_unloads_elastically() {
         // Case D18.
         let mut dissipator = brake();
-        assert_relative_eq!(
-            dissipator.elongate(0.001).tension,
-            45.957e3,
-            max_relative = 1e-12
-        );
-        assert_relative_eq!(
-            dissipator.elongate(1.0).tension,
-            250e3,
-            max_relative = 1e-12
-        );
+        assert_relative_eq!(dissipator.elongate(0.001).tension, 45.957e3, max_relative = 1e-12);
+        assert_relative_eq!(dissipator.elongate(1.0).tension, 250e3, max_relative = 1e-12);
         let back = 1.0 - 100e3 / 45.957e6;
-        assert_relative_eq!(
-            dissipator.elongate(back).tension,
-            150e3,
-            max_relative = 1e-9
-        );
-        assert_relative_eq!(
-            dissipator.used,
-            1.0 - 250e3 / 45.957e6,
-            max_relative = 1e-12
-        );
+        assert_relative_eq!(dissipator.elongate(back).tension, 150e3, max_relative = 1e-9);
+        assert_relative_eq!(dissipator.used, 1.0 - 250e3 / 45.957e6, max_relative = 1e-12);
         assert_eq!(dissipator.elongate(0.5).tension, 0.0);
     }
 

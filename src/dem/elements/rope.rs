@@ -31,10 +31,5 @@ pub fn pull(segment: &Segment, a: &Node, b: &Node) -> Pull {
     let rate = (b.velocity - a.velocity).dot(&direction);
     let spring = segment.stiffness * stretch;
     let tension = (spring + segment.damping * rate).max(0.0);
-    Pull {
-        tension,
-        direction,
-        stored: 0.5 * spring * stretch,
-        power_lost: (tension - spring) * rate,
-    }
+    Pull { tension, direction, stored: 0.5 * spring * stretch, power_lost: (tension - spring) * rate }
 }

@@ -29,9 +29,7 @@ impl Chain {
             if sweep % 2 == 0 {
                 joints.for_each(|joint| lost += self.slide_at(joint, segments, nodes));
             } else {
-                joints
-                    .rev()
-                    .for_each(|joint| lost += self.slide_at(joint, segments, nodes));
+                joints.rev().for_each(|joint| lost += self.slide_at(joint, segments, nodes));
             }
         }
         lost
@@ -39,31 +37,22 @@ impl Chain {
 
     /// Slides the rope through the ring between segments `joint − 1` and `joint`.
     fn slide_at(&self, joint: usize, segments: &mut [Segment], nodes: &[Node]) -> f64 {
-        let [first, second] = [
-            self.segments[joint - 1] as usize,
-            self.segments[joint] as usize,
-        ];
+        let [first, second] = [self.segments[joint - 1] as usize, self.segments[joint] as usize];
         let [a, b] = [first, second].map(|index| Side::of(&segments[index], nodes));
         let cosine = a.direction.dot(&b.direction).clamp(-1.0, 1.0);
         let hold = (self.friction * cosine.acos()).exp();
-        let (taut, slack, taut_index, slack_index) = if a.tension > b.tension {
-            (a, b, first, second)
-        } else {
-            (b, a, second, first)
-        };
+        let (taut, slack, taut_index, slack_index) =
+            if a.tension > b.tension { (a, b, first, second) } else { (b, a, second, first) };
         if taut.tension <= slack.tension * hold {
             return 0.0;
         }
         // Tension falls by EA L/l² per rest length given to the taut side, and rises likewise on the other.
         let softening = taut.slope + hold * slack.slope;
         let wanted = (taut.tension - hold * slack.tension) / softening;
-        let moved = wanted
-            .min(segments[slack_index].rest_length - self.shortest)
-            .max(0.0);
+        let moved = wanted.min(segments[slack_index].rest_length - self.shortest).max(0.0);
         segments[taut_index].set_rest_length(segments[taut_index].rest_length + moved);
         segments[slack_index].set_rest_length(segments[slack_index].rest_length - moved);
-        let [after_taut, after_slack] =
-            [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
+        let [after_taut, after_slack] = [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
         taut.energy + slack.energy - after_taut.energy - after_slack.energy
     }
 }

@@ -50,10 +50,7 @@ pub fn make_blocks(grains: usize, members_per_grain: usize) -> Vec<Block> {
         .step_by(size)
         .map(|first| {
             let last = (first + size).min(grains);
-            Block {
-                members: first * members_per_grain..last * members_per_grain,
-                ..Block::default()
-            }
+            Block { members: first * members_per_grain..last * members_per_grain, ..Block::default() }
         })
         .collect()
 }

@@ -16,24 +16,15 @@ pub struct Box3 {
 impl Box3 {
     pub fn around(centre: &Vec3, half: f64) -> Self {
         let half = Vec3::repeat(half);
-        Self {
-            low: centre - half,
-            high: centre + half,
-        }
+        Self { low: centre - half, high: centre + half }
     }
 
     pub fn joining(a: &Self, b: &Self) -> Self {
-        Self {
-            low: a.low.inf(&b.low),
-            high: a.high.sup(&b.high),
-        }
+        Self { low: a.low.inf(&b.low), high: a.high.sup(&b.high) }
     }
 
     pub fn is_finite(&self) -> bool {
-        self.low
-            .iter()
-            .chain(self.high.iter())
-            .all(|value| value.is_finite())
+        self.low.iter().chain(self.high.iter()).all(|value| value.is_finite())
     }
 
     fn to_aabb(self) -> Aabb {
@@ -53,26 +44,21 @@ impl BoxTree {
     pub fn new(boxes: &[Box3]) -> Self {
         debug_assert!(boxes.iter().all(Box3::is_finite));
         let leaves: Vec<Aabb> = boxes.iter().map(|b| b.to_aabb()).collect();
-        Self {
-            tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves),
-            workspace: BvhWorkspace::default(),
-        }
+        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves), workspace: BvhWorkspace::default() }
     }
 
     /// Moves the boxes without changing the tree's structure; cheaper than a new tree, good while neighbours
     /// stay neighbours.
     pub fn refit(&mut self, boxes: &[Box3]) {
         for (index, b) in boxes.iter().enumerate() {
-            self.tree
-                .insert_or_update_partially(b.to_aabb(), index as u32, 0.0);
+            self.tree.insert_or_update_partially(b.to_aabb(), index as u32, 0.0);
         }
         self.tree.refit(&mut self.workspace);
     }
 
     /// Calls `visit` once for every pair of overlapping boxes of this tree.
     pub fn pairs(&mut self, mut visit: impl FnMut(u32, u32)) {
-        self.tree
-            .traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut visit);
+        self.tree.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut visit);
     }
 
     /// Calls `visit` once for every pair of a box of this tree and a box of the other that overlap.

@@ -11,10 +11,7 @@ use crate::dem::tables::surfaces::Surface;
 pub fn grain_box(members: &[Member], margin: f64) -> Box3 {
     let mut whole = Box3::around(&members[0].centre(), members[0].radius() + margin);
     for member in &members[1..] {
-        whole = Box3::joining(
-            &whole,
-            &Box3::around(&member.centre(), member.radius() + margin),
-        );
+        whole = Box3::joining(&whole, &Box3::around(&member.centre(), member.radius() + margin));
     }
     whole
 }
@@ -34,20 +31,12 @@ pub fn segment_boxes(barrier: &Barrier, skin: f64) -> Vec<Box3> {
 /// Radius with which grains may touch a segment or either of its nodes (m).
 fn thickness(barrier: &Barrier, segment: usize) -> f64 {
     let segment = &barrier.segments[segment];
-    let ends = segment
-        .nodes
-        .map(|node| barrier.nodes[node as usize].radius);
+    let ends = segment.nodes.map(|node| barrier.nodes[node as usize].radius);
     segment.radius.max(ends[0]).max(ends[1])
 }
 
 /// Files every pair of members nearer than `skin` into the block, or the two blocks, that own them.
-pub fn find_grain_pairs(
-    tree: &mut BoxTree,
-    members: &[Member],
-    per_grain: usize,
-    skin: f64,
-    blocks: &mut [Block],
-) {
+pub fn find_grain_pairs(tree: &mut BoxTree, members: &[Member], per_grain: usize, skin: f64, blocks: &mut [Block]) {
     let block_size = blocks.first().map_or(1, |block| block.members.len());
     tree.pairs(|a, b| {
         let (a, b) = (a.min(b) as usize, a.max(b) as usize);
@@ -89,18 +78,13 @@ pub fn find_rope_pairs(
     let (grains, segments) = trees;
     grains.pairs_with(segments, |grain, segment| {
         let rope = thickness(barrier, segment as usize);
-        let [a, b] = barrier.segments[segment as usize]
-            .nodes
-            .map(|node| &barrier.nodes[node as usize].position);
+        let [a, b] = barrier.segments[segment as usize].nodes.map(|node| &barrier.nodes[node as usize].position);
         let first = grain as usize * per_grain;
         for (index, member) in members.iter().enumerate().skip(first).take(per_grain) {
             let centre = member.centre();
             let reach = member.radius() + rope + skin;
             if (nearest_on_segment(&centre, a, b).point - centre).norm_squared() < reach * reach {
-                blocks[index / block_size]
-                    .ropes
-                    .list
-                    .push([index as u32, segment]);
+                blocks[index / block_size].ropes.list.push([index as u32, segment]);
             }
         }
     });

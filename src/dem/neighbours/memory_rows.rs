@@ -40,27 +40,16 @@ impl MemoryRows {
 
     /// Memory of the contact between `member` and `other`, if they touched.
     pub fn recall(&self, [member, other]: [u32; 2]) -> Option<Memory> {
-        let range =
-            self.starts[member as usize] as usize..self.starts[member as usize + 1] as usize;
-        self.rows[range]
-            .iter()
-            .find(|(party, _)| *party == other)
-            .map(|(_, memory)| *memory)
+        let range = self.starts[member as usize] as usize..self.starts[member as usize + 1] as usize;
+        self.rows[range].iter().find(|(party, _)| *party == other).map(|(_, memory)| *memory)
     }
 }
 
 impl Remembered {
     /// The same contact seen from the other member.
     pub fn mirrored(self) -> Self {
-        let memory = Memory {
-            tangential: self.memory.tangential.map(|value| -value),
-            ..self.memory
-        };
-        Self {
-            member: self.other,
-            other: self.member,
-            memory,
-        }
+        let memory = Memory { tangential: self.memory.tangential.map(|value| -value), ..self.memory };
+        Self { member: self.other, other: self.member, memory }
     }
 }
 
@@ -70,16 +59,12 @@ mod tests {
 
     #[test]
     fn finds_each_contact_under_its_member_only() {
-        let memory = |value: f64| Memory {
-            tangential: [value, 0.0, 0.0],
-            dashpot: value,
-        };
-        let contacts =
-            [(2, 7, 1.0), (0, 7, 2.0), (2, 5, 3.0)].map(|(member, other, value)| Remembered {
-                member,
-                other,
-                memory: memory(value),
-            });
+        let memory = |value: f64| Memory { tangential: [value, 0.0, 0.0], dashpot: value };
+        let contacts = [(2, 7, 1.0), (0, 7, 2.0), (2, 5, 3.0)].map(|(member, other, value)| Remembered {
+            member,
+            other,
+            memory: memory(value),
+        });
         let rows = MemoryRows::group(&contacts, 4);
         assert_eq!(rows.recall([2, 7]), Some(memory(1.0)));
         assert_eq!(rows.recall([2, 5]), Some(memory(3.0)));

@@ -68,9 +68,7 @@ impl Neighbours {
         let grains_near = self.blocks.iter().all(|block| block.moved_squared < limit);
         let nodes_near = barrier.is_none_or(|barrier| {
             let pairs = barrier.nodes.iter().zip(&self.node_reference);
-            pairs
-                .clone()
-                .all(|(node, old)| (node.position - old).norm_squared() < limit)
+            pairs.clone().all(|(node, old)| (node.position - old).norm_squared() < limit)
         });
         self.blocks.is_empty() || !grains_near || !nodes_near
     }
@@ -101,42 +99,23 @@ impl Neighbours {
             self.row_ids = bodies.grains.iter().map(|grain| grain.id).collect();
             self.tree = None;
             members.resize(bodies.grains.len() * per_grain, Member::default());
-            for (grain, rows) in bodies
-                .grains
-                .iter()
-                .zip(members.chunks_exact_mut(per_grain))
-            {
+            for (grain, rows) in bodies.grains.iter().zip(members.chunks_exact_mut(per_grain)) {
                 place_members(grain, rows);
             }
         }
         self.fill(bodies, members, &memories);
-        self.member_reference = members
-            .iter()
-            .map(|m| [m.place[0], m.place[1], m.place[2]])
-            .collect();
-        self.node_reference = bodies
-            .barrier
-            .map_or(Vec::new(), |b| b.nodes.iter().map(|n| n.position).collect());
+        self.member_reference = members.iter().map(|m| [m.place[0], m.place[1], m.place[2]]).collect();
+        self.node_reference = bodies.barrier.map_or(Vec::new(), |b| b.nodes.iter().map(|n| n.position).collect());
         self.renewals += 1;
     }
 
     fn rows_changed(&self, grains: &[Grain]) -> bool {
-        self.row_ids.len() != grains.len()
-            || self
-                .row_ids
-                .iter()
-                .zip(grains)
-                .any(|(id, grain)| *id != grain.id)
+        self.row_ids.len() != grains.len() || self.row_ids.iter().zip(grains).any(|(id, grain)| *id != grain.id)
     }
 
     /// For each member row of the old lists, its row now; `u32::MAX` for grains that are gone.
     fn rows_now(&self, grains: &[Grain], per_grain: usize) -> Vec<u32> {
-        let highest = grains
-            .iter()
-            .map(|grain| grain.id)
-            .chain(self.row_ids.iter().copied())
-            .max()
-            .unwrap_or(0);
+        let highest = grains.iter().map(|grain| grain.id).chain(self.row_ids.iter().copied()).max().unwrap_or(0);
         let mut row_of_id = vec![u32::MAX; highest as usize + 1];
         for (row, grain) in grains.iter().enumerate() {
             row_of_id[grain.id as usize] = row as u32;
@@ -145,10 +124,7 @@ impl Neighbours {
             u32::MAX => u32::MAX,
             row => row * per_grain as u32 + side as u32,
         };
-        self.row_ids
-            .iter()
-            .flat_map(|id| (0..per_grain).map(move |side| member_row(id, side)))
-            .collect()
+        self.row_ids.iter().flat_map(|id| (0..per_grain).map(move |side| member_row(id, side))).collect()
     }
 
     /// Memories of the contacts in force. Pairs inside a block stand there once but are wanted from both sides.
@@ -175,10 +151,7 @@ impl Neighbours {
         let per_grain = bodies.shape.members();
         let skin = self.skin;
         let mut blocks = make_blocks(bodies.grains.len(), per_grain);
-        let boxes: Vec<Box3> = members
-            .chunks_exact(per_grain)
-            .map(|rows| grain_box(rows, 0.5 * skin))
-            .collect();
+        let boxes: Vec<Box3> = members.chunks_exact(per_grain).map(|rows| grain_box(rows, 0.5 * skin)).collect();
         let tree = match self.tree.take() {
             Some(mut tree) => {
                 tree.refit(&boxes);
@@ -187,19 +160,9 @@ impl Neighbours {
             None => self.tree.insert(BoxTree::new(&boxes)),
         };
         find_grain_pairs(tree, members, per_grain, skin, &mut blocks);
-        if let Some(barrier) = bodies
-            .barrier
-            .filter(|barrier| !barrier.segments.is_empty())
-        {
+        if let Some(barrier) = bodies.barrier.filter(|barrier| !barrier.segments.is_empty()) {
             let ropes = BoxTree::new(&segment_boxes(barrier, skin));
-            find_rope_pairs(
-                (tree, &ropes),
-                barrier,
-                members,
-                per_grain,
-                skin,
-                &mut blocks,
-            );
+            find_rope_pairs((tree, &ropes), barrier, members, per_grain, skin, &mut blocks);
         }
         blocks.par_iter_mut().for_each(|block| {
             find_surface_pairs(block, members, bodies.surfaces, skin);
@@ -217,32 +180,17 @@ impl Neighbours {
 pub fn moved_squared(reference: &[[f64; 3]], members: &[Member]) -> f64 {
     let (mut largest, mut total) = (0.0, 0.0);
     for (old, member) in reference.iter().zip(members) {
-        let moved = [
-            member.place[0] - old[0],
-            member.place[1] - old[1],
-            member.place[2] - old[2],
-        ];
+        let moved = [member.place[0] - old[0], member.place[1] - old[1], member.place[2] - old[2]];
         let squared = moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2];
         largest = if squared > largest { squared } else { largest };
         total += squared;
     }
-    if total < f64::INFINITY {
-        largest
-    } else {
-        f64::INFINITY
-    }
+    if total < f64::INFINITY { largest } else { f64::INFINITY }
 }
 
 /// Sorts the grains along a space-filling curve with cells of about two grains.
 fn reorder(grains: &mut [Grain]) {
-    let low = grains
-        .iter()
-        .fold(Vec3::repeat(f64::INFINITY), |low, grain| {
-            low.inf(&grain.position)
-        });
-    let widest = grains
-        .iter()
-        .map(|grain| grain.body.radius + grain.body.offset)
-        .fold(0.0, f64::max);
+    let low = grains.iter().fold(Vec3::repeat(f64::INFINITY), |low, grain| low.inf(&grain.position));
+    let widest = grains.iter().map(|grain| grain.body.radius + grain.body.offset).fold(0.0, f64::max);
     grains.sort_by_cached_key(|grain| (morton_code(&grain.position, &low, 2.0 * widest), grain.id));
 }

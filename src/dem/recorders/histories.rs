@@ -34,11 +34,24 @@ pub struct Histories {
     pub moving: Vec<f64>,
     /// Shares of the mass that went through, under, beside and over the barrier.
     pub lost: Vec<[f64; 4]>,
-    /// Flow depth (m) and velocity (m/s) at the gauge upstream; zero while nothing is there.
-    pub gauge: Vec<[f64; 2]>,
-    /// Depth of the grains at the barrier (m).
-    pub barrier_depth: Vec<f64>,
+    /// The incoming flow, upstream of the barrier.
+    pub incoming: Vec<Gauge>,
+    /// The grains next to the barrier.
+    pub at_barrier: Vec<Gauge>,
     pub ledger: Vec<Ledger>,
+}
+
+/// The flow in a window across the channel; zeros where there are no grains.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gauge {
+    /// Height below which 90 % of the grain centres lie, plus half a grain (m).
+    pub thickness: f64,
+    /// Mean velocity along the channel (m/s).
+    pub velocity: f64,
+    /// Depth that the mass in the window has at the flow's bulk density (m).
+    pub depth: f64,
+    /// Σ m v² over the window's area and the bulk density: h v² of an even flow (m³/s²).
+    pub flux: f64,
 }
 
 /// Centred moving average of a series with even spacing; `window` is in samples and is cut at the ends.
@@ -53,10 +66,7 @@ pub fn smoothed(series: &[f64], window: usize) -> Vec<f64> {
     }
     (0..series.len())
         .map(|index| {
-            let (from, to) = (
-                index.saturating_sub(half),
-                (index + half + 1).min(series.len()),
-            );
+            let (from, to) = (index.saturating_sub(half), (index + half + 1).min(series.len()));
             (sums[to] - sums[from]) / (to - from) as f64
         })
         .collect()
@@ -64,26 +74,18 @@ pub fn smoothed(series: &[f64], window: usize) -> Vec<f64> {
 
 /// Largest value and its index; (0, 0.0) for an empty series.
 pub fn peak(series: &[f64]) -> (usize, f64) {
-    series
-        .iter()
-        .copied()
-        .enumerate()
-        .fold(
-            (0, 0.0),
-            |best, (index, value)| {
-                if value > best.1 { (index, value) } else { best }
-            },
-        )
+    series.iter().copied().enumerate().fold(
+        (0, 0.0),
+        |best, (index, value)| {
+            if value > best.1 { (index, value) } else { best }
+        },
+    )
 }
 
 /// Mean of the last `count` values; 0 for an empty series.
 pub fn tail_mean(series: &[f64], count: usize) -> f64 {
     let tail = &series[series.len().saturating_sub(count)..];
-    if tail.is_empty() {
-        0.0
-    } else {
-        tail.iter().sum::<f64>() / tail.len() as f64
-    }
+    if tail.is_empty() { 0.0 } else { tail.iter().sum::<f64>() / tail.len() as f64 }
 }
 
 #[cfg(test)]

@@ -26,29 +26,16 @@ pub struct Screen {
 impl Screen {
     /// The screen that the knots of a net form now.
     pub fn of_net(barrier: &Barrier, rows: &[Vec<u32>]) -> Self {
-        let rows: Vec<Vec<Vec3>> = rows
-            .iter()
-            .map(|row| {
-                row.iter()
-                    .map(|&node| barrier.nodes[node as usize].position)
-                    .collect()
-            })
-            .collect();
-        let nearest_x = rows
-            .iter()
-            .flatten()
-            .map(|point| point.x)
-            .fold(f64::INFINITY, f64::min);
+        let rows: Vec<Vec<Vec3>> =
+            rows.iter().map(|row| row.iter().map(|&node| barrier.nodes[node as usize].position).collect()).collect();
+        let nearest_x = rows.iter().flatten().map(|point| point.x).fold(f64::INFINITY, f64::min);
         Self { rows, nearest_x }
     }
 
     /// A wall at x = 0, normal to the bed.
     pub fn of_wall(height: f64, width: f64) -> Self {
         let row = |z: f64| vec![Vec3::new(0.0, 0.0, z), Vec3::new(0.0, width, z)];
-        Self {
-            rows: vec![row(0.0), row(height)],
-            nearest_x: 0.0,
-        }
+        Self { rows: vec![row(0.0), row(height)], nearest_x: 0.0 }
     }
 
     /// How a grain of the given radius at `point` has passed, if it has.
@@ -58,16 +45,10 @@ impl Screen {
         }
         let behind = |x: f64| point.x > x + radius;
         let (edge, outwards) = self.edge(point.y);
-        if let Some(side) =
-            at_height(&edge, point.z).filter(|side| (point.y - side.y) * outwards > 0.0)
-        {
+        if let Some(side) = at_height(&edge, point.z).filter(|side| (point.y - side.y) * outwards > 0.0) {
             return behind(side.x).then_some(Way::Beside);
         }
-        let profile: Vec<Vec3> = self
-            .rows
-            .iter()
-            .filter_map(|row| at_width(row, point.y))
-            .collect();
+        let profile: Vec<Vec3> = self.rows.iter().filter_map(|row| at_width(row, point.y)).collect();
         let (low, high) = (profile.first()?, profile.last()?);
         match at_height(&profile, point.z) {
             Some(screen) => behind(screen.x).then_some(Way::Through),
@@ -79,17 +60,9 @@ impl Screen {
     /// The edge of the screen on the side of `y`, and the sign of y that leads away from it.
     fn edge(&self, y: f64) -> (Vec<Vec3>, f64) {
         let ends = |row: &Vec<Vec3>| Some((*row.first()?, *row.last()?));
-        let middle = self
-            .rows
-            .first()
-            .and_then(ends)
-            .map_or(0.0, |(a, b)| 0.5 * (a.y + b.y));
+        let middle = self.rows.first().and_then(ends).map_or(0.0, |(a, b)| 0.5 * (a.y + b.y));
         let first_side = y < middle;
-        let edge = self
-            .rows
-            .iter()
-            .filter_map(ends)
-            .map(|(a, b)| if first_side { a } else { b });
+        let edge = self.rows.iter().filter_map(ends).map(|(a, b)| if first_side { a } else { b });
         (edge.collect(), if first_side { -1.0 } else { 1.0 })
     }
 }
@@ -109,9 +82,7 @@ fn at_height(line: &[Vec3], z: f64) -> Option<Vec3> {
         let inside = (a.z - z) * (b.z - z) <= 0.0 && a.z != b.z;
         inside.then(|| a + (b - a) * ((z - a.z) / (b.z - a.z)))
     };
-    line.windows(2)
-        .filter_map(crossing)
-        .max_by(|a, b| a.x.total_cmp(&b.x))
+    line.windows(2).filter_map(crossing).max_by(|a, b| a.x.total_cmp(&b.x))
 }
 
 #[cfg(test)]
@@ -120,17 +91,9 @@ mod tests {
 
     #[test]
     fn tells_the_four_ways_apart() {
-        let rows = [(0.5, 0.0), (1.5, 1.0), (2.5, 0.0)].map(|(z, bulge)| {
-            vec![
-                Vec3::new(0.0, 1.0, z),
-                Vec3::new(bulge, 2.0, z),
-                Vec3::new(0.0, 3.0, z),
-            ]
-        });
-        let screen = Screen {
-            rows: rows.to_vec(),
-            nearest_x: 0.0,
-        };
+        let rows = [(0.5, 0.0), (1.5, 1.0), (2.5, 0.0)]
+            .map(|(z, bulge)| vec![Vec3::new(0.0, 1.0, z), Vec3::new(bulge, 2.0, z), Vec3::new(0.0, 3.0, z)]);
+        let screen = Screen { rows: rows.to_vec(), nearest_x: 0.0 };
         let way = |x, y, z| screen.way_of(&Vec3::new(x, y, z), 0.1);
         assert_eq!(way(0.8, 2.0, 1.5), None);
         assert_eq!(way(1.2, 2.0, 1.5), Some(Way::Through));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::dem::Vec3;
-use crate::dem::recorders::histories::Histories;
+use crate::dem::recorders::histories::{Gauge, Histories};
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::barrier::{Barrier, SegmentKind};
@@ -25,13 +25,24 @@ pub struct RecorderSetup {
     pub ropes: usize,
     /// Height (m) and width (m) of the rigid wall, if that is the barrier.
     pub wall: Option<[f64; 2]>,
-    /// Reach upstream of the barrier between which the incoming flow is gauged (m, both positive).
-    pub gauge: [f64; 2],
-    /// The same for the depth of the deposit at the barrier (m).
-    pub barrier_gauge: [f64; 2],
+    /// Window in which the incoming flow is gauged.
+    pub incoming: GaugeWindow,
+    /// Window in which the deposit at the barrier is gauged.
+    pub at_barrier: GaugeWindow,
     /// Mass of the whole flow (kg).
     pub mass: f64,
-    /// Diameter added in half to the gauged depth (m).
+}
+
+/// A window across the channel, between two distances upstream of the barrier's foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GaugeWindow {
+    pub near: f64,
+    pub far: f64,
+    /// Width of the channel (m).
+    pub width: f64,
+    /// kg/m³
+    pub bulk_density: f64,
+    /// Mean diameter of the grains (m).
     pub mean_diameter: f64,
 }
 
@@ -102,10 +113,7 @@ impl Recorder {
         if let Some(barrier) = &simulation.model.barrier {
             let net = &simulation.sums.net;
             add_tensions(sum, barrier, &net.tensions, self.setup.ropes);
-            add_rows(
-                &mut sum.anchors,
-                &anchor_loads(barrier, &net.tensions, &net.brakes, self.setup.ropes),
-            );
+            add_rows(&mut sum.anchors, &anchor_loads(barrier, &net.tensions, &net.brakes, self.setup.ropes));
         }
     }
 
@@ -141,9 +149,7 @@ impl Recorder {
         }
         push_rows(&mut self.histories.strokes, &strokes, 1.0);
         let top = self.setup.net_rows.last().into_iter().flatten();
-        let lowest = top
-            .map(|&node| barrier.nodes[node as usize].position.z)
-            .fold(f64::INFINITY, f64::min);
+        let lowest = top.map(|&node| barrier.nodes[node as usize].position.z).fold(f64::INFINITY, f64::min);
         self.histories.top_rope_height.push(lowest);
     }
 
@@ -157,8 +163,7 @@ impl Recorder {
             if self.passed.contains_key(&grain.id) {
                 continue;
             }
-            if let Some(way) = screen.way_of(&grain.position, grain.body.radius + grain.body.offset)
-            {
+            if let Some(way) = screen.way_of(&grain.position, grain.body.radius + grain.body.offset) {
                 self.passed.insert(grain.id, way);
                 self.lost[way as usize] += grain.body.mass / self.setup.mass;
             }
@@ -168,55 +173,52 @@ impl Recorder {
     fn sample_grains(&mut self, simulation: &Simulation) {
         let grains = &simulation.model.grains;
         let count = grains.len().max(1) as f64;
-        let sum = grains
-            .iter()
-            .fold(Vec3::zeros(), |sum, grain| sum + grain.velocity);
+        let sum = grains.iter().fold(Vec3::zeros(), |sum, grain| sum + grain.velocity);
         self.histories.velocity.push([sum.x / count, sum.z / count]);
         self.highest_velocity = self.highest_velocity.max(sum.x / count);
         let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
         let (mut dead, mut moving) = (0.0, 0.0);
-        for grain in grains
-            .iter()
-            .filter(|grain| !self.passed.contains_key(&grain.id))
-        {
+        for grain in grains.iter().filter(|grain| !self.passed.contains_key(&grain.id)) {
             let at_rest = grain.velocity.norm_squared() <= limit;
             *(if at_rest { &mut dead } else { &mut moving }) += grain.body.mass / self.setup.mass;
         }
-        self.histories
-            .dead
-            .push(if self.impact { dead } else { 0.0 });
+        self.histories.dead.push(if self.impact { dead } else { 0.0 });
         self.histories.moving.push(moving);
         self.histories.lost.push(self.lost);
     }
 
     fn sample_gauges(&mut self, simulation: &Simulation) {
-        let half_grain = 0.5 * self.setup.mean_diameter;
         let grains = &simulation.model.grains;
-        self.histories
-            .gauge
-            .push(gauge(grains, self.setup.gauge, half_grain));
-        let [at_barrier, _] = gauge(grains, self.setup.barrier_gauge, half_grain);
-        self.histories.barrier_depth.push(at_barrier);
+        self.histories.incoming.push(self.setup.incoming.read(grains));
+        self.histories.at_barrier.push(self.setup.at_barrier.read(grains));
     }
 }
 
-/// Depth (the height below which 90 % of the centres lie, plus half a grain) and mean velocity of the grains
-/// between two distances upstream of the barrier's foot; zeros where there are none.
-fn gauge(grains: &[Grain], [near, far]: [f64; 2], half_grain: f64) -> [f64; 2] {
-    let inside = grains
-        .iter()
-        .filter(|grain| (-far..=-near).contains(&grain.position.x));
-    let (mut heights, mut speed) = (Vec::new(), 0.0);
-    for grain in inside {
-        heights.push(grain.position.z);
-        speed += grain.velocity.x;
+impl GaugeWindow {
+    fn read(&self, grains: &[Grain]) -> Gauge {
+        let inside = grains.iter().filter(|grain| (-self.far..=-self.near).contains(&grain.position.x));
+        let mut heights = Vec::new();
+        let (mut velocity, mut mass, mut momentum_flux) = (0.0, 0.0, 0.0);
+        for grain in inside {
+            heights.push(grain.position.z);
+            velocity += grain.velocity.x;
+            mass += grain.body.mass;
+            momentum_flux += grain.body.mass * grain.velocity.x.powi(2);
+        }
+        if heights.is_empty() {
+            return Gauge::default();
+        }
+        let count = heights.len();
+        let rank = (count * 9 / 10).min(count - 1);
+        let (_, ninety, _) = heights.select_nth_unstable_by(rank, f64::total_cmp);
+        let full_mass_per_depth = self.bulk_density * self.width * (self.far - self.near);
+        Gauge {
+            thickness: *ninety + 0.5 * self.mean_diameter,
+            velocity: velocity / count as f64,
+            depth: mass / full_mass_per_depth,
+            flux: momentum_flux / full_mass_per_depth,
+        }
     }
-    if heights.is_empty() {
-        return [0.0, 0.0];
-    }
-    let rank = (heights.len() * 9 / 10).min(heights.len() - 1);
-    let (_, ninety, _) = heights.select_nth_unstable_by(rank, f64::total_cmp);
-    [*ninety + half_grain, speed / heights.len() as f64]
 }
 
 fn add_rows(sums: &mut Vec<f64>, values: &[f64]) {
@@ -248,10 +250,7 @@ fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, tensions: &[f64], rope
             SegmentKind::Lateral => {}
         }
     }
-    let mean: Vec<f64> = mean
-        .iter()
-        .map(|[weighted, length]| weighted / length)
-        .collect();
+    let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
     add_rows(&mut sum.rope_mean, &mean);
     add_rows(&mut sum.rope_largest, &largest);
     sum.net_largest += net_largest;
@@ -263,20 +262,12 @@ fn anchor_loads(barrier: &Barrier, tensions: &[f64], brakes: &[f64], ropes: usiz
     for anchor in &barrier.anchors {
         let mut sum = Vec3::zeros();
         let mut pull = |nodes: [u32; 2], tension: f64| {
-            let other = if nodes[0] == anchor.node {
-                nodes[1]
-            } else {
-                nodes[0]
-            };
-            let line = barrier.nodes[other as usize].position
-                - barrier.nodes[anchor.node as usize].position;
+            let other = if nodes[0] == anchor.node { nodes[1] } else { nodes[0] };
+            let line = barrier.nodes[other as usize].position - barrier.nodes[anchor.node as usize].position;
             sum += line * (tension / line.norm());
         };
         for &segment in &barrier.nodes[anchor.node as usize].segments {
-            pull(
-                barrier.segments[segment as usize].nodes,
-                tensions[segment as usize],
-            );
+            pull(barrier.segments[segment as usize].nodes, tensions[segment as usize]);
         }
         for (dissipator, &tension) in barrier.dissipators.iter().zip(brakes) {
             if dissipator.nodes[0] == anchor.node {

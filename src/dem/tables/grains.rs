@@ -57,13 +57,7 @@ impl GrainBody {
         let length = offset + radius;
         let root = 0.6_f64.sqrt();
         let rule = [(-root, 5.0 / 9.0), (0.0, 8.0 / 9.0), (root, 5.0 / 9.0)];
-        let mut body = Self {
-            radius,
-            offset,
-            mass: 0.0,
-            inertia_axial: 0.0,
-            inertia_transverse: 0.0,
-        };
+        let mut body = Self { radius, offset, mass: 0.0, inertia_axial: 0.0, inertia_transverse: 0.0 };
         for (node, weight) in rule {
             let x = 0.5 * length * (1.0 + node);
             let width_squared = radius * radius - (x - offset).powi(2);
@@ -71,8 +65,7 @@ impl GrainBody {
             let factor = density * PI * weight * length;
             body.mass += factor * width_squared;
             body.inertia_axial += factor * 0.5 * width_squared.powi(2);
-            body.inertia_transverse +=
-                factor * (0.25 * width_squared.powi(2) + width_squared * x * x);
+            body.inertia_transverse += factor * (0.25 * width_squared.powi(2) + width_squared * x * x);
         }
         body
     }
@@ -81,14 +74,7 @@ impl GrainBody {
 impl Grain {
     /// A grain at rest.
     pub fn at(id: u32, position: Vec3, axis: Vec3, body: GrainBody) -> Self {
-        Self {
-            id,
-            position,
-            velocity: Vec3::zeros(),
-            angular_momentum: Vec3::zeros(),
-            axis,
-            body,
-        }
+        Self { id, position, velocity: Vec3::zeros(), angular_momentum: Vec3::zeros(), axis, body }
     }
 
     /// Angular velocity (rad/s) from angular momentum: ω = L/I_t + (a·L)(1/I_a − 1/I_t) a.
@@ -102,8 +88,7 @@ impl Grain {
     pub fn spin_of(&self, angular_momentum: &Vec3) -> Vec3 {
         let along = self.axis.dot(angular_momentum);
         let transverse = 1.0 / self.body.inertia_transverse;
-        angular_momentum * transverse
-            + self.axis * (along * (1.0 / self.body.inertia_axial - transverse))
+        angular_momentum * transverse + self.axis * (along * (1.0 / self.body.inertia_axial - transverse))
     }
 }
 
@@ -201,21 +186,9 @@ mod tests {
         // Two spheres r, centres r apart: I_axial = 17/40 M r², I_transverse = 59/80 M r² (case A17).
         let body = GrainBody::clump(1.0, 1.5, 2701.0);
         let scale = body.mass * body.radius.powi(2);
-        assert_relative_eq!(
-            body.inertia_axial,
-            17.0 / 40.0 * scale,
-            max_relative = 1e-12
-        );
-        assert_relative_eq!(
-            body.inertia_transverse,
-            59.0 / 80.0 * scale,
-            max_relative = 1e-12
-        );
-        assert_relative_eq!(
-            body.radius.powi(3),
-            16.0 / 27.0 * 0.125,
-            max_relative = 1e-12
-        );
+        assert_relative_eq!(body.inertia_axial, 17.0 / 40.0 * scale, max_relative = 1e-12);
+        assert_relative_eq!(body.inertia_transverse, 59.0 / 80.0 * scale, max_relative = 1e-12);
+        assert_relative_eq!(body.radius.powi(3), 16.0 / 27.0 * 0.125, max_relative = 1e-12);
     }
 
     #[test]
@@ -224,10 +197,6 @@ mod tests {
         let mass = 1000.0 * std::f64::consts::PI / 6.0;
         assert_relative_eq!(body.mass, mass, max_relative = 1e-12);
         assert_relative_eq!(body.inertia_axial, 0.4 * mass * 0.25, max_relative = 1e-12);
-        assert_relative_eq!(
-            body.inertia_transverse,
-            body.inertia_axial,
-            max_relative = 1e-12
-        );
+        assert_relative_eq!(body.inertia_transverse, body.inertia_axial, max_relative = 1e-12);
     }
 }

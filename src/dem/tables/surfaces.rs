@@ -35,19 +35,11 @@ pub enum SurfaceRole {
 
 impl Span {
     pub fn unbounded(direction: Vec3) -> Self {
-        Self {
-            direction,
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-        }
+        Self { direction, low: f64::NEG_INFINITY, high: f64::INFINITY }
     }
 
     pub fn bounded(direction: Vec3, low: f64, high: f64) -> Self {
-        Self {
-            direction,
-            low,
-            high,
-        }
+        Self { direction, low, high }
     }
 }
 

@@ -38,10 +38,7 @@ pub fn move_grains(
     let per_grain = loads.len() / grains.len().max(1);
     let mut sums = MotionSums::default();
     let keep = (1.0 - time.drag * time.step).max(0.0);
-    let rows = grains
-        .iter_mut()
-        .zip(members.chunks_exact_mut(per_grain))
-        .zip(loads.chunks_exact(per_grain));
+    let rows = grains.iter_mut().zip(members.chunks_exact_mut(per_grain)).zip(loads.chunks_exact(per_grain));
     for ((grain, members), loads) in rows {
         let (force, torque) = resultant(grain, loads);
         sums.potential -= grain.body.mass * gravity.dot(&grain.position);
@@ -77,10 +74,7 @@ fn resultant(grain: &Grain, loads: &[MemberLoad]) -> (Vec3, Vec3) {
         [front, back] => {
             let (f, b) = (vector(&front.force), vector(&back.force));
             let arm = grain.axis * grain.body.offset;
-            (
-                f + b,
-                vector(&front.torque) + vector(&back.torque) + arm.cross(&(f - b)),
-            )
+            (f + b, vector(&front.torque) + vector(&back.torque) + arm.cross(&(f - b)))
         }
         _ => (Vec3::zeros(), Vec3::zeros()),
     }
@@ -102,8 +96,7 @@ fn turn_axis(grain: &mut Grain, step: f64) {
     let scale = 1.0 / (1.0 + half * half);
     let (sine, one_minus_cosine) = (2.0 * half * scale, 2.0 * half * half * scale);
     let axis = grain.axis;
-    let turned =
-        axis + line.cross(&axis) * sine + line.cross(&line.cross(&axis)) * one_minus_cosine;
+    let turned = axis + line.cross(&axis) * sine + line.cross(&line.cross(&axis)) * one_minus_cosine;
     grain.axis = turned * (1.5 - 0.5 * turned.norm_squared());
 }
 

@@ -45,8 +45,7 @@ impl StepRatio {
 
 /// Critical step (s) of two equal bodies in one contact: (2/ω)(√(1+ζ²) − ζ), ω² = k/m_r.
 pub fn critical_step_of_pair(stiffness: f64, reduced_mass: f64, damping_ratio: f64) -> f64 {
-    2.0 * (reduced_mass / stiffness).sqrt()
-        * ((1.0 + damping_ratio * damping_ratio).sqrt() - damping_ratio)
+    2.0 * (reduced_mass / stiffness).sqrt() * ((1.0 + damping_ratio * damping_ratio).sqrt() - damping_ratio)
 }
 
 /// Share w of a contact's stiffness that a body of mass `mass` must bear, with 1/m_r = `inverse_mass` (1/kg).
@@ -65,8 +64,7 @@ impl Audit<'_> {
     /// Bounds Δt/Δt_critical over all bodies, with the contacts of the last step.
     pub fn ratio(&self) -> StepRatio {
         let mut grain_tables = vec![Matrix6::zeros(); self.grains.len()];
-        let mut node_tables =
-            vec![Matrix3::zeros(); self.barrier.map_or(0, |barrier| barrier.nodes.len())];
+        let mut node_tables = vec![Matrix3::zeros(); self.barrier.map_or(0, |barrier| barrier.nodes.len())];
         for block in self.blocks {
             self.add_pairs(block, &mut grain_tables);
             self.add_surfaces(block, &mut grain_tables);
@@ -88,19 +86,11 @@ impl Audit<'_> {
                 if list.touched[slot] != self.step {
                     continue;
                 }
-                let (a, b) = (
-                    &self.members[first as usize],
-                    &self.members[second as usize],
-                );
+                let (a, b) = (&self.members[first as usize], &self.members[second as usize]);
                 let line = b.centre() - a.centre();
                 let normal = line.normalize();
-                let stiffness =
-                    2.0 * self.modulus * a.radius() * b.radius() / (a.radius() + b.radius());
-                let link = Link {
-                    normal,
-                    stiffness,
-                    inverse_mass: a.motion[3] + b.motion[3],
-                };
+                let stiffness = 2.0 * self.modulus * a.radius() * b.radius() / (a.radius() + b.radius());
+                let link = Link { normal, stiffness, inverse_mass: a.motion[3] + b.motion[3] };
                 let foot = a.centre() + normal * (0.5 * (line.norm() + a.radius() - b.radius()));
                 self.add_to_grain(first, &foot, &link, tables);
                 if both {
@@ -117,11 +107,7 @@ impl Audit<'_> {
                 let body = &self.members[member as usize];
                 let foot = self.surfaces[surface as usize].nearest(&body.centre());
                 let normal = (foot - body.centre()).normalize();
-                let link = Link {
-                    normal,
-                    stiffness: self.modulus * body.radius(),
-                    inverse_mass: body.motion[3],
-                };
+                let link = Link { normal, stiffness: self.modulus * body.radius(), inverse_mass: body.motion[3] };
                 self.add_to_grain(member, &foot, &link, tables);
             }
         }
@@ -147,11 +133,7 @@ impl Audit<'_> {
                 continue;
             };
             let normal = Vec3::from(contact.point.normal);
-            let link = Link {
-                normal,
-                stiffness: contact.point.stiffness,
-                inverse_mass: contact.point.inverse_mass,
-            };
+            let link = Link { normal, stiffness: contact.point.stiffness, inverse_mass: contact.point.inverse_mass };
             self.add_to_grain(member, &contact.foot, &link, grains);
             let ends = barrier.segments[segment as usize].nodes;
             for (node, share) in ends.into_iter().zip([1.0 - contact.share, contact.share]) {
@@ -161,22 +143,15 @@ impl Audit<'_> {
                 // u = Σ share u_node: k|u|² ≤ k Σ share |u_node|² (shares sum to one).
                 let rope_inverse = link.inverse_mass - body.motion[3];
                 let rope_weight = weight(1.0 / rope_inverse, link.inverse_mass);
-                nodes[node as usize] +=
-                    self.tensor(&link) * (share * rope_weight / barrier.nodes[node as usize].mass);
+                nodes[node as usize] += self.tensor(&link) * (share * rope_weight / barrier.nodes[node as usize].mass);
             }
         }
     }
 
     fn add_elements(&self, barrier: &Barrier, nodes: &mut [Matrix3<f64>]) {
         let step = self.law.time_step;
-        let ropes = barrier
-            .segments
-            .iter()
-            .map(|s| (s.nodes, s.stiffness, s.damping, s.rest_length));
-        let brakes = barrier
-            .dissipators
-            .iter()
-            .map(|d| (d.nodes, d.stiffness, 0.0, d.rest_length + d.used));
+        let ropes = barrier.segments.iter().map(|s| (s.nodes, s.stiffness, s.damping, s.rest_length));
+        let brakes = barrier.dissipators.iter().map(|d| (d.nodes, d.stiffness, 0.0, d.rest_length + d.used));
         for (ends, stiffness, damping, slack) in ropes.chain(brakes) {
             let [a, b] = ends.map(|node| &barrier.nodes[node as usize]);
             let line = b.position - a.position;
@@ -188,8 +163,7 @@ impl Audit<'_> {
             let along = direction * direction.transpose();
             let tension = stiffness * (length - slack);
             let sideways = (Matrix3::identity() - along) * (tension / length);
-            let matrix =
-                along * (step * step * stiffness + 2.0 * step * damping) + sideways * (step * step);
+            let matrix = along * (step * step * stiffness + 2.0 * step * damping) + sideways * (step * step);
             let inverse = |fixed: bool, mass: f64| if fixed { 0.0 } else { 1.0 / mass };
             let inverse_mass = inverse(a.fixed, a.mass) + inverse(b.fixed, b.mass);
             for (index, node) in ends.into_iter().zip([a, b]) {
@@ -218,12 +192,7 @@ impl Audit<'_> {
         // Displacement at the foot from the grain's own: u + θ × arm = u − [arm]× θ.
         let lever = -(foot - grain.position).cross_matrix();
         let linear = 1.0 / grain.body.mass.sqrt();
-        let angular = 1.0
-            / grain
-                .body
-                .inertia_axial
-                .min(grain.body.inertia_transverse)
-                .sqrt();
+        let angular = 1.0 / grain.body.inertia_axial.min(grain.body.inertia_transverse).sqrt();
         let coupling = tensor * lever * (linear * angular);
         let table = &mut tables[row];
         let mut add = |r: usize, c: usize, part: &Matrix3<f64>| {
@@ -233,11 +202,7 @@ impl Audit<'_> {
         add(0, 0, &(tensor * (linear * linear)));
         add(0, 3, &coupling);
         add(3, 0, &coupling.transpose());
-        add(
-            3,
-            3,
-            &(lever.transpose() * tensor * lever * (angular * angular)),
-        );
+        add(3, 3, &(lever.transpose() * tensor * lever * (angular * angular)));
     }
 }
 
@@ -276,20 +241,13 @@ mod tests {
         let matrix = Matrix3::new(4.0, 1.0, 0.5, 1.0, 3.0, 0.2, 0.5, 0.2, 1.0);
         let exact = matrix.symmetric_eigenvalues().max();
         let bound = eigenvalue_bound(&matrix);
-        assert!(
-            bound >= exact && bound < 1.15 * exact,
-            "{bound} against {exact}"
-        );
+        assert!(bound >= exact && bound < 1.15 * exact, "{bound} against {exact}");
     }
 
     #[test]
     fn pair_step_matches_the_tabulated_factor() {
         // Undamped 2/ω; with ζ = 0.497 a factor 0.620 shorter.
         assert_relative_eq!(critical_step_of_pair(4.0, 1.0, 0.0), 1.0);
-        assert_relative_eq!(
-            critical_step_of_pair(4.0, 1.0, 0.497239),
-            0.6196,
-            max_relative = 1e-3
-        );
+        assert_relative_eq!(critical_step_of_pair(4.0, 1.0, 0.497239), 0.6196, max_relative = 1e-3);
     }
 }

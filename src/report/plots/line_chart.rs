@@ -59,20 +59,13 @@ impl LineChart<'_> {
     pub fn svg(&self) -> String {
         let frame = self.frame();
         let mut out = String::new();
-        let _ = write!(
-            out,
-            r#"<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}">"#,
-            escape(self.title)
-        );
+        let _ = write!(out, r#"<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}">"#, escape(self.title));
         self.draw_axes(&frame, &mut out);
         let mut labels = Vec::new();
         for level in &self.levels {
             let y = frame.y(level.value * self.factor);
             let end = WIDTH - RIGHT;
-            let _ = write!(
-                out,
-                r#"<line class="level" x1="{LEFT}" x2="{end}" y1="{y:.1}" y2="{y:.1}"/>"#
-            );
+            let _ = write!(out, r#"<line class="level" x1="{LEFT}" x2="{end}" y1="{y:.1}" y2="{y:.1}"/>"#);
             labels.push((y, level.label.clone(), "level".to_string()));
         }
         for series in &self.series {
@@ -83,11 +76,7 @@ impl LineChart<'_> {
                 self.points(series, &frame)
             );
             let last = series.values.last().copied().unwrap_or(0.0) * self.factor;
-            labels.push((
-                frame.y(last),
-                series.label.clone(),
-                format!("c{}", series.colour),
-            ));
+            labels.push((frame.y(last), series.label.clone(), format!("c{}", series.colour)));
         }
         draw_labels(labels, &mut out);
         out.push_str("</svg>");
@@ -95,29 +84,15 @@ impl LineChart<'_> {
     }
 
     fn frame(&self) -> Frame {
-        let values = self
-            .series
-            .iter()
-            .flat_map(|series| series.values.iter().map(|value| value * self.factor));
+        let values = self.series.iter().flat_map(|series| series.values.iter().map(|value| value * self.factor));
         let (low, high) = values
             .chain(self.levels.iter().map(|level| level.value * self.factor))
             .filter(|value| value.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
+            .fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
         let high = if high > low { high } else { low + 1.0 };
         let step = nice_step(high - low);
-        let last_time = self
-            .time
-            .last()
-            .copied()
-            .filter(|time| *time > 0.0)
-            .unwrap_or(1.0);
-        Frame {
-            last_time,
-            low: (low / step).floor() * step,
-            high: (high / step).ceil() * step,
-        }
+        let last_time = self.time.last().copied().filter(|time| *time > 0.0).unwrap_or(1.0);
+        Frame { last_time, low: (low / step).floor() * step, high: (high / step).ceil() * step }
     }
 
     fn draw_axes(&self, frame: &Frame, out: &mut String) {
@@ -125,10 +100,7 @@ impl LineChart<'_> {
         let step = nice_step(frame.high - frame.low);
         for value in ticks(frame.low, frame.high, step) {
             let y = frame.y(value);
-            let _ = write!(
-                out,
-                r#"<line class="grid" x1="{LEFT}" x2="{end}" y1="{y:.1}" y2="{y:.1}"/>"#
-            );
+            let _ = write!(out, r#"<line class="grid" x1="{LEFT}" x2="{end}" y1="{y:.1}" y2="{y:.1}"/>"#);
             let _ = write!(
                 out,
                 r#"<text class="tick" text-anchor="end" x="{}" y="{:.1}">{}</text>"#,
@@ -140,10 +112,7 @@ impl LineChart<'_> {
         let step = nice_step(frame.last_time);
         for time in ticks(0.0, frame.last_time, step) {
             let x = frame.x(time);
-            let _ = write!(
-                out,
-                r#"<line class="grid" x1="{x:.1}" x2="{x:.1}" y1="{TOP}" y2="{bottom}"/>"#
-            );
+            let _ = write!(out, r#"<line class="grid" x1="{x:.1}" x2="{x:.1}" y1="{TOP}" y2="{bottom}"/>"#);
             let _ = write!(
                 out,
                 r#"<text class="tick" text-anchor="middle" x="{x:.1}" y="{}">{}</text>"#,
@@ -174,8 +143,7 @@ impl LineChart<'_> {
         for start in (0..count).step_by(chunk) {
             let range = start..(start + chunk).min(count);
             let by_value = |a: &usize, b: &usize| series.values[*a].total_cmp(&series.values[*b]);
-            let (Some(low), Some(high)) = (range.clone().min_by(by_value), range.max_by(by_value))
-            else {
+            let (Some(low), Some(high)) = (range.clone().min_by(by_value), range.max_by(by_value)) else {
                 continue;
             };
             let mut pair = [low, high];
@@ -183,12 +151,7 @@ impl LineChart<'_> {
             for index in if low == high { &pair[..1] } else { &pair[..] } {
                 let value = series.values[*index] * self.factor;
                 if value.is_finite() {
-                    let _ = write!(
-                        out,
-                        "{:.1},{:.1} ",
-                        frame.x(self.time[*index]),
-                        frame.y(value)
-                    );
+                    let _ = write!(out, "{:.1},{:.1} ", frame.x(self.time[*index]), frame.y(value));
                 }
             }
         }
@@ -224,28 +187,17 @@ fn nice_step(span: f64) -> f64 {
     let rough = span / 6.0;
     let power = 10_f64.powf(rough.log10().floor());
     let choices = [1.0, 2.0, 5.0, 10.0];
-    choices
-        .into_iter()
-        .map(|choice| choice * power)
-        .find(|step| *step >= rough)
-        .unwrap_or(power)
+    choices.into_iter().map(|choice| choice * power).find(|step| *step >= rough).unwrap_or(power)
 }
 
 fn short(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text.is_empty() || text == "-0" {
-        "0".to_string()
-    } else {
-        text.to_string()
-    }
+    if text.is_empty() || text == "-0" { "0".to_string() } else { text.to_string() }
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -257,19 +209,9 @@ mod tests {
         let time: Vec<f64> = (0..10_000).map(f64::from).collect();
         let mut values = vec![0.0; 10_000];
         values[7_777] = 5.0;
-        let series = Series {
-            label: "a".into(),
-            values: &values,
-            colour: 0,
-        };
-        let chart = LineChart {
-            title: "t",
-            unit: "N",
-            factor: 1.0,
-            time: &time,
-            series: vec![series],
-            levels: Vec::new(),
-        };
+        let series = Series { label: "a".into(), values: &values, colour: 0 };
+        let chart =
+            LineChart { title: "t", unit: "N", factor: 1.0, time: &time, series: vec![series], levels: Vec::new() };
         let frame = chart.frame();
         let top = format!("{:.1}", frame.y(5.0));
         assert!(chart.points(&chart.series[0], &frame).contains(&top));

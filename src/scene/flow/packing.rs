@@ -23,32 +23,20 @@ pub struct PackingBox {
 /// Why a packing failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PackingError {
-    #[error(
-        "the grains do not fit: after {steps} steps the largest overlap is still {overlap:.3} of a radius"
-    )]
+    #[error("the grains do not fit: after {steps} steps the largest overlap is still {overlap:.3} of a radius")]
     DoesNotFit { steps: usize, overlap: f64 },
     #[error(transparent)]
     Unstable(#[from] Unstable),
 }
 
 /// Packs `bodies` into `room`; grain numbers follow the order of `bodies`.
-pub fn pack(
-    bodies: &[GrainBody],
-    shape: GrainShape,
-    room: PackingBox,
-    seed: u64,
-) -> Result<Vec<Grain>, PackingError> {
+pub fn pack(bodies: &[GrainBody], shape: GrainShape, room: PackingBox, seed: u64) -> Result<Vec<Grain>, PackingError> {
     let model = Model {
         shape,
         grains: scatter(bodies, room, seed),
         surfaces: walls(room),
         barrier: None,
-        material: Material {
-            modulus: 1.0,
-            restitution: 0.1,
-            tangential_ratio: 2.0 / 7.0,
-            friction: 0.0,
-        },
+        material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
         gravity: Vec3::zeros(),
         wall_levels: Vec::new(),
         outlet: f64::INFINITY,
@@ -62,18 +50,12 @@ pub fn pack(
             return Ok(at_rest(simulation.model.grains));
         }
     }
-    Err(PackingError::DoesNotFit {
-        steps: MOST_STEPS,
-        overlap: simulation.sums.contacts.overlap_ratio,
-    })
+    Err(PackingError::DoesNotFit { steps: MOST_STEPS, overlap: simulation.sums.contacts.overlap_ratio })
 }
 
 /// Step and skin for pushing apart: many grains may overlap at once, so the step is a fifth of a pair's.
 fn relaxation_scales(bodies: &[GrainBody]) -> (f64, f64) {
-    let lightest = bodies
-        .iter()
-        .map(|body| body.mass / body.radius)
-        .fold(f64::INFINITY, f64::min);
+    let lightest = bodies.iter().map(|body| body.mass / body.radius).fold(f64::INFINITY, f64::min);
     let radius = bodies.iter().map(|body| body.radius).sum::<f64>() / bodies.len().max(1) as f64;
     (0.3 * lightest.sqrt(), 0.4 * radius)
 }
@@ -91,14 +73,9 @@ fn at_rest(mut grains: Vec<Grain>) -> Vec<Grain> {
 fn scatter(bodies: &[GrainBody], room: PackingBox, seed: u64) -> Vec<Grain> {
     let mut random = fastrand::Rng::with_seed(seed);
     let cell = (room.size.product() / bodies.len().max(1) as f64).cbrt();
-    let mut counts = room
-        .size
-        .map(|length| (length / cell).round().max(1.0) as usize);
+    let mut counts = room.size.map(|length| (length / cell).round().max(1.0) as usize);
     while counts.product() < bodies.len() {
-        let widest = room
-            .size
-            .component_div(&counts.map(|count| count as f64))
-            .imax();
+        let widest = room.size.component_div(&counts.map(|count| count as f64)).imax();
         counts[widest] += 1;
     }
     let mut cells: Vec<usize> = (0..counts.product()).collect();
@@ -115,12 +92,7 @@ fn scatter(bodies: &[GrainBody], room: PackingBox, seed: u64) -> Vec<Grain> {
     let mut grains = Vec::with_capacity(bodies.len());
     for (id, (body, cell)) in bodies.iter().zip(cells).enumerate() {
         let jitter = Vec3::from_fn(|_, _| 0.3 + 0.4 * random.f64());
-        grains.push(Grain::at(
-            id as u32,
-            place(cell, jitter),
-            random_direction(&mut random),
-            *body,
-        ));
+        grains.push(Grain::at(id as u32, place(cell, jitter), random_direction(&mut random), *body));
     }
     grains
 }
@@ -148,13 +120,7 @@ fn walls(room: PackingBox) -> Vec<Surface> {
             Span::unbounded(direction)
         });
         for (origin, normal) in [(Vec3::zeros(), inward), (inward * room.size[axis], -inward)] {
-            surfaces.push(Surface {
-                role: SurfaceRole::Side,
-                origin,
-                normal,
-                spans,
-                friction: 0.0,
-            });
+            surfaces.push(Surface { role: SurfaceRole::Side, origin, normal, spans, friction: 0.0 });
         }
     }
     surfaces

@@ -2,7 +2,7 @@
 
 use crate::dem::Vec3;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::design::{Arrival, Channel, Flow};
+use crate::design::{Arrival, Channel, DamBreak, Flow};
 use crate::scene::flow::packing::{PackingBox, PackingError, pack};
 
 /// Where the block stands: x of its downstream face, and its sizes.
@@ -17,26 +17,12 @@ pub struct Block {
 impl Block {
     pub fn of(flow: &Flow, upstream_reach: f64) -> Self {
         match flow.arrival {
-            Arrival::DamBreak {
-                length,
-                height,
-                distance,
-            } => Self {
-                front: -distance,
-                length,
-                height,
-                velocity: 0.0,
-            },
-            Arrival::Surge {
-                length,
-                depth,
-                velocity,
-            } => Self {
-                front: -upstream_reach,
-                length,
-                height: depth,
-                velocity,
-            },
+            Arrival::DamBreak(DamBreak { length, height, distance, .. }) => {
+                Self { front: -distance, length, height, velocity: 0.0 }
+            }
+            Arrival::Surge { length, depth, velocity } => {
+                Self { front: -upstream_reach, length, height: depth, velocity }
+            }
         }
     }
 }
@@ -44,31 +30,17 @@ impl Block {
 /// The bodies of all grains, from the design's size curve.
 pub fn bodies(flow: &Flow) -> Vec<GrainBody> {
     let diameters = flow.sizes.grains(flow.mass, flow.solid_density);
-    diameters
-        .iter()
-        .map(|&diameter| GrainBody::clump(diameter, flow.aspect, flow.solid_density))
-        .collect()
+    diameters.iter().map(|&diameter| GrainBody::clump(diameter, flow.aspect, flow.solid_density)).collect()
 }
 
 /// One or two spheres to a grain.
 pub fn shape(flow: &Flow) -> GrainShape {
-    if flow.aspect > 1.0 {
-        GrainShape::Clump
-    } else {
-        GrainShape::Sphere
-    }
+    if flow.aspect > 1.0 { GrainShape::Clump } else { GrainShape::Sphere }
 }
 
 /// Packs the flow into its block and gives it its velocity.
-pub fn packed_block(
-    flow: &Flow,
-    channel: &Channel,
-    block: &Block,
-    seed: u64,
-) -> Result<Vec<Grain>, PackingError> {
-    let room = PackingBox {
-        size: Vec3::new(block.length, channel.width, block.height),
-    };
+pub fn packed_block(flow: &Flow, channel: &Channel, block: &Block, seed: u64) -> Result<Vec<Grain>, PackingError> {
+    let room = PackingBox { size: Vec3::new(block.length, channel.width, block.height) };
     let mut grains = pack(&bodies(flow), shape(flow), room, seed)?;
     let corner = Vec3::new(block.front - block.length, 0.0, 0.0);
     for grain in &mut grains {

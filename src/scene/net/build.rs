@@ -99,10 +99,7 @@ impl Builder<'_> {
     fn add_net(&mut self) {
         let mut pairs = Vec::new();
         for (&(column, row), &node) in &self.knots {
-            for neighbour in [column.checked_sub(1), Some(column + 1)]
-                .into_iter()
-                .flatten()
-            {
+            for neighbour in [column.checked_sub(1), Some(column + 1)].into_iter().flatten() {
                 if let Some(&above) = self.knots.get(&(neighbour, row + 1)) {
                     pairs.push([node, above]);
                 }
@@ -127,11 +124,7 @@ impl Builder<'_> {
                 self.add_chain(segments);
                 let up = self.grid.row_heights[row];
                 self.add_rope_end(rope as u16, nodes[0], self.place(0.0, up));
-                self.add_rope_end(
-                    rope as u16,
-                    nodes[nodes.len() - 1],
-                    self.place(self.channel.width, up),
-                );
+                self.add_rope_end(rope as u16, nodes[nodes.len() - 1], self.place(self.channel.width, up));
             }
         }
     }
@@ -141,11 +134,7 @@ impl Builder<'_> {
         if self.model == BarrierModel::SlidingRopes {
             let rings = &self.design.main_ropes;
             let shortest = SHORTEST_SEGMENT * rings.ring_spacing;
-            self.barrier.chains.push(Chain {
-                segments,
-                friction: rings.ring_friction,
-                shortest,
-            });
+            self.barrier.chains.push(Chain { segments, friction: rings.ring_friction, shortest });
         }
     }
 
@@ -163,11 +152,7 @@ impl Builder<'_> {
                 stroke: dissipator.stroke,
                 used: 0.0,
             }),
-            None => self.add_segment(
-                [anchor, end],
-                SegmentKind::Main(rope),
-                &self.design.main_ropes.rope,
-            ),
+            None => self.add_segment([anchor, end], SegmentKind::Main(rope), &self.design.main_ropes.rope),
         }
     }
 
@@ -179,29 +164,17 @@ impl Builder<'_> {
                 line.push(self.lateral_stop(column, row));
             }
             for pair in line.windows(2) {
-                self.add_segment(
-                    [pair[0], pair[1]],
-                    SegmentKind::Lateral,
-                    &self.design.lateral_rope,
-                );
+                self.add_segment([pair[0], pair[1]], SegmentKind::Lateral, &self.design.lateral_rope);
             }
         }
     }
 
     fn lateral_stop(&self, column: usize, row: usize) -> u32 {
-        let rope = self
-            .grid
-            .rope_rows
-            .iter()
-            .position(|&rope_row| rope_row == row);
+        let rope = self.grid.rope_rows.iter().position(|&rope_row| rope_row == row);
         let anchor = match (self.design.lateral_to, rope) {
             (LateralTo::Anchors, Some(rope)) => {
                 let side = usize::from(column > 0);
-                self.barrier
-                    .anchors
-                    .iter()
-                    .filter(|anchor| anchor.rope as usize == rope)
-                    .nth(side)
+                self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == rope).nth(side)
             }
             _ => None,
         };
@@ -209,10 +182,7 @@ impl Builder<'_> {
     }
 
     fn knots_of_row(&self, row: usize) -> Vec<u32> {
-        self.grid
-            .knot_columns(row)
-            .map(|column| self.knots[&(column, row)])
-            .collect()
+        self.grid.knot_columns(row).map(|column| self.knots[&(column, row)]).collect()
     }
 
     /// Adds a straight rope between two nodes, unstretched as it lies, half its mass to each.
@@ -229,25 +199,12 @@ impl Builder<'_> {
             node.radius = node.radius.max(radius);
         }
         let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
-        self.barrier.segments.push(Segment {
-            nodes,
-            kind,
-            rest_length,
-            stiffness,
-            damping,
-            radius,
-        });
+        self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius });
     }
 
     fn finish(mut self) -> BuiltNet {
         self.barrier.connect();
-        let rows = (0..self.grid.row_heights.len())
-            .map(|row| self.knots_of_row(row))
-            .collect();
-        BuiltNet {
-            barrier: self.barrier,
-            rows,
-            rope_rows: self.grid.rope_rows,
-        }
+        let rows = (0..self.grid.row_heights.len()).map(|row| self.knots_of_row(row)).collect();
+        BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }
     }
 }

@@ -29,11 +29,7 @@ impl Grid {
             }
             rope_rows.push(row_heights.len() - 1);
         }
-        Self {
-            columns: whole(width),
-            row_heights,
-            rope_rows,
-        }
+        Self { columns: whole(width), row_heights, rope_rows }
     }
 
     /// Columns of the knots in one row, from one side to the other.
