@@ -77,7 +77,7 @@ impl Document {
         }
     }
 
-    /// Position of the value (or of the key itself) at `path`, a dotted path with list indices as numbers.
+    /// Position of the value at `path`, a dotted path with list indices as numbers.
     pub fn position(&self, path: &str) -> Option<Position> {
         BUDGET.set(MOST_VALUES);
         let steps: Vec<&str> = if path.is_empty() { Vec::new() } else { path.split('.').collect() };
@@ -241,8 +241,7 @@ impl<'de> Visitor<'de> for Locate<'_> {
         let Some((first, rest)) = self.steps.split_first() else {
             return Err(A::Error::custom("here"));
         };
-        let stop_at_key = if rest.is_empty() { Some(*first) } else { None };
-        while let Some(found) = entries.next_key_seed(KeySeed { wanted: first, stop: stop_at_key.is_some() })? {
+        while let Some(found) = entries.next_key_seed(KeySeed { wanted: first })? {
             if found {
                 return entries.next_value_seed(Locate { steps: rest });
             }
@@ -252,10 +251,9 @@ impl<'de> Visitor<'de> for Locate<'_> {
     }
 }
 
-/// Reads a key; fails on the wanted one when the path ends there.
+/// Reads a key and tells whether it is the wanted one.
 struct KeySeed<'a> {
     wanted: &'a str,
-    stop: bool,
 }
 
 impl<'de> DeserializeSeed<'de> for KeySeed<'_> {
@@ -265,9 +263,6 @@ impl<'de> DeserializeSeed<'de> for KeySeed<'_> {
         let Ok(Node::Text(name)) = NodeSeed.deserialize(deserializer) else {
             return Ok(false);
         };
-        if name == self.wanted && self.stop {
-            return Err(D::Error::custom("here"));
-        }
         Ok(name == self.wanted)
     }
 }

@@ -1,0 +1,57 @@
+//! Every rule of the design file has a fixture, and its message is a snapshot beside it.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use barrier_check::design::read::read_design;
+
+#[test]
+fn every_bad_design_gets_its_message() {
+    insta::glob!("bad_designs/*.yaml", |path| {
+        let bytes = std::fs::read(path).expect("fixture is readable");
+        let name = path.file_name().expect("fixture has a name").to_string_lossy().into_owned();
+        let started = Instant::now();
+        let problems = read_design(&name, &bytes).expect_err("fixture is wrong on purpose");
+        assert!(started.elapsed() < Duration::from_secs(1), "{name} took {:?}", started.elapsed());
+        insta::assert_snapshot!(problems.to_string());
+    });
+}
+
+#[test]
+fn the_shipped_designs_are_good() {
+    for entry in std::fs::read_dir("designs").expect("folder of designs") {
+        let path = entry.expect("entry").path();
+        if path.extension().is_some_and(|extension| extension == "yaml") {
+            let bytes = std::fs::read(&path).expect("design is readable");
+            if let Err(problems) = read_design(&path.display().to_string(), &bytes) {
+                panic!("{problems}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_huge_file_and_a_byte_order_mark() {
+    let huge = vec![b'#'; 3 << 20];
+    let problems = read_design("huge.yaml", &huge).expect_err("too large");
+    assert!(problems.to_string().contains("at most 1 MiB"), "{problems}");
+    let mut marked = b"\xef\xbb\xbf".to_vec();
+    marked.extend(std::fs::read(Path::new("designs/small_net.yaml")).expect("design is readable"));
+    assert!(read_design("marked.yaml", &marked).is_ok());
+}
+
+/// Cutting a good design anywhere, or changing one byte, must give an error or a design, never a panic.
+#[test]
+fn no_cut_and_no_changed_byte_panics() {
+    let bytes = std::fs::read("designs/small_net.yaml").expect("design is readable");
+    for end in (0..bytes.len()).step_by(37) {
+        let _ = read_design("cut.yaml", &bytes[..end]);
+    }
+    for place in (0..bytes.len()).step_by(23) {
+        for byte in [0_u8, b':', b'-', b'&', 0xff] {
+            let mut changed = bytes.clone();
+            changed[place] = byte;
+            let _ = read_design("changed.yaml", &changed);
+        }
+    }
+}
