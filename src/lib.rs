@@ -1,4 +1,34 @@
-//! barrier-check
+//! Checks rigid and flexible debris-flow barriers: guideline loads, granular-flow simulation, verdict, report.
+//!
+//! # Map
+//! The run is one chain, all of it in [`pipeline::run`]:
+//!
+//! [`design`] (what is asked) → [`fidelity`] (how finely to model) → [`scene`] (bodies, and the event itself)
+//! → histories of [`dem`] → [`demand`] (one number per check, by guideline and by simulation) → [`checks`]
+//! (demand over capacity) → verdict → [`report`].
+//!
+//! | to add | go to |
+//! |---|---|
+//! | a key of the design file | a line in [`design::schema`], its use in [`design::resolve`] |
+//! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
+//! | a contact law | a file beside [`dem::contact::law`] |
+//! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
+//! | a structural element | a file in [`dem::elements`], its forces in [`dem::net`] |
+//! | a load model | a file in [`loads`], its use in [`demand::from_loads`] |
+//! | a check | a file in [`checks`] and a line in its list |
+//! | a time series | [`dem::recorders`] |
+//! | a figure or row of the report | [`report::view`] or [`report::findings`], and the two templates |
+//!
+//! # Invariants
+//! * `design` imports nothing above it; `dem` imports no other part; `loads` and `checks` never see `dem`. A test keeps
+//!   these walls.
+//! * Everything inside is SI; units live at the borders, in [`units`].
+//! * The same file and seed give the same result bit for bit, on any number of threads: work is cut into blocks by the
+//!   number of grains alone, blocks never write each other's rows, and sums run in a fixed order.
+//! * The channel frame: x down the slope with the barrier's foot at 0, y across, z normal to the bed.
+//! * A run that becomes unstable or breaks a limit of [`checks::credibility`] never passes.
+//! * Only [`commands`] and the report's writer touch files; only one file names the broad-phase library.
+
 pub mod checks;
 pub mod commands;
 pub mod dem;

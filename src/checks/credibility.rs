@@ -26,7 +26,8 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     doubts.extend(numerics.broke_down.iter().map(|reason| format!("the simulation broke down: {reason}")));
     let mut hold = |what: &str, value: f64, limit: f64| {
         // Asked as "within", so that a NaN raises a doubt.
-        if !(value.abs() <= limit) {
+        let within = value.abs() <= limit;
+        if !within {
             doubts.push(format!("{what} is {value:.3e}, beyond the limit {limit}"));
         }
     };

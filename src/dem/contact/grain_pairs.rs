@@ -269,12 +269,9 @@ impl Batch {
 
     #[inline(always)]
     fn store(&mut self, lane: usize, point: &ContactPoint, arms: [f64; 2], response: &Response) {
-        let turn = cross(point.normal, response.force);
-        for axis in 0..3 {
-            self.force[axis][lane] = response.force[axis];
-            self.turn[axis][lane] = turn[axis];
-            self.new[axis][lane] = response.memory.tangential[axis];
-        }
+        put(&mut self.force, lane, response.force);
+        put(&mut self.turn, lane, cross(point.normal, response.force));
+        put(&mut self.new, lane, response.memory.tangential);
         self.new[3][lane] = response.memory.dashpot;
         self.arm[0][lane] = arms[0];
         self.arm[1][lane] = arms[1];
@@ -290,4 +287,11 @@ impl Batch {
 #[inline(always)]
 fn column<const N: usize>(rows: &[[f64; LANES]; N], lane: usize) -> [f64; 3] {
     [rows[0][lane], rows[1][lane], rows[2][lane]]
+}
+
+#[inline(always)]
+fn put<const N: usize>(rows: &mut [[f64; LANES]; N], lane: usize, vector: [f64; 3]) {
+    rows[0][lane] = vector[0];
+    rows[1][lane] = vector[1];
+    rows[2][lane] = vector[2];
 }

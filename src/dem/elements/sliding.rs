@@ -20,6 +20,9 @@ pub struct Chain {
 /// Sweeps over the rings of a chain in each step: enough for a slip to run along the rope within a few steps.
 const SWEEPS: usize = 2;
 
+/// Newton steps to the slip that just meets the limit; the slip of one time step is small.
+const NEWTON_STEPS: usize = 2;
+
 impl Chain {
     /// Lets the rope slide through its rings for one step; returns the energy lost in friction (J).
     pub fn slide(&self, segments: &mut [Segment], nodes: &[Node]) -> f64 {
@@ -46,12 +49,17 @@ impl Chain {
         if taut.tension <= slack.tension * hold {
             return 0.0;
         }
-        // Tension falls by EA L/l² per rest length given to the taut side, and rises likewise on the other.
-        let softening = taut.slope + hold * slack.slope;
-        let wanted = (taut.tension - hold * slack.tension) / softening;
-        let moved = wanted.min(segments[slack_index].rest_length - self.shortest).max(0.0);
-        segments[taut_index].set_rest_length(segments[taut_index].rest_length + moved);
-        segments[slack_index].set_rest_length(segments[slack_index].rest_length - moved);
+        for _ in 0..NEWTON_STEPS {
+            let [taut, slack] = [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
+            // Tension falls by EA L/l² per rest length given to the taut side, and rises likewise on the other.
+            let wanted = (taut.tension - hold * slack.tension) / (taut.slope + hold * slack.slope);
+            let moved = wanted.min(segments[slack_index].rest_length - self.shortest);
+            if moved == 0.0 || segments[taut_index].rest_length + moved < self.shortest {
+                break;
+            }
+            segments[taut_index].set_rest_length(segments[taut_index].rest_length + moved);
+            segments[slack_index].set_rest_length(segments[slack_index].rest_length - moved);
+        }
         let [after_taut, after_slack] = [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
         taut.energy + slack.energy - after_taut.energy - after_slack.energy
     }

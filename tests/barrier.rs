@@ -1,0 +1,127 @@
+//! Ropes, rings and dissipators against closed forms (verification cases D1, D13, D19), and the stability of
+//! what cannot be stable.
+
+#![allow(clippy::field_reassign_with_default)] // a barrier is put together part by part
+
+mod common;
+
+use approx::assert_relative_eq;
+use barrier_check::dem::Vec3;
+use barrier_check::dem::elements::dissipator::Dissipator;
+use barrier_check::dem::elements::sliding::Chain;
+use barrier_check::dem::simulation::{Model, Simulation, Unstable};
+use barrier_check::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use barrier_check::dem::tables::grains::GrainShape;
+use common::free_model;
+
+const AXIAL_STIFFNESS: f64 = 3.21699e6;
+
+fn node(position: Vec3, mass: f64, fixed: bool) -> Node {
+    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: 0.016, segments: Vec::new() }
+}
+
+fn segment(nodes: [u32; 2], rest_length: f64, damping: f64) -> Segment {
+    let stiffness = AXIAL_STIFFNESS / rest_length;
+    Segment { nodes, kind: SegmentKind::Main(0), rest_length, stiffness, damping, radius: 0.016 }
+}
+
+fn simulate(mut barrier: Barrier, gravity: Vec3, step: f64) -> Simulation {
+    barrier.connect();
+    let model = Model { barrier: Some(barrier), gravity, ..free_model(Vec::new(), GrainShape::Sphere) };
+    Simulation::new(model, step, 0.1, 1e3)
+}
+
+fn nodes(simulation: &Simulation) -> &[Node] {
+    &simulation.model.barrier.as_ref().expect("a barrier").nodes
+}
+
+/// A straight rope of 15.2 m with a load in the middle sags by δ under F = 2EA(√(a²+δ²)/a − 1) δ/√(a²+δ²).
+#[test]
+fn a_rope_with_a_load_in_its_middle_finds_the_closed_form() {
+    let (half, load) = (7.6, 7.2346e3);
+    let mut barrier = Barrier::default();
+    let mass = load / 9.81;
+    barrier.nodes = vec![
+        node(Vec3::zeros(), 1.0, true),
+        node(Vec3::new(half, 0.0, 0.0), mass, false),
+        node(Vec3::new(2.0 * half, 0.0, 0.0), 1.0, true),
+    ];
+    barrier.segments = vec![segment([0, 1], half, 2e4), segment([1, 2], half, 2e4)];
+    let mut simulation = simulate(barrier, Vec3::new(0.0, 0.0, -9.81), 1e-3);
+    for _ in 0..60_000 {
+        simulation.step().expect("stable");
+    }
+    assert_relative_eq!(-nodes(&simulation)[1].position.z, 1.0, max_relative = 0.005);
+}
+
+/// 1000 kg at 10 m/s on a dissipator of 45.957 MN/m and 250 kN: 202.72 mm in all, 197.28 mm of them plastic.
+#[test]
+fn a_dissipator_stops_a_mass_over_its_plateau() {
+    let mut barrier = Barrier::default();
+    barrier.nodes = vec![node(Vec3::zeros(), 1.0, true), node(Vec3::new(1.0, 0.0, 0.0), 1000.0, false)];
+    barrier.nodes[1].velocity.x = 10.0;
+    barrier.dissipators = vec![Dissipator {
+        nodes: [0, 1],
+        rope: 0,
+        rest_length: 1.0,
+        stiffness: 45.957e6,
+        plateau: 250e3,
+        stroke: 2.5,
+        used: 0.0,
+    }];
+    let mut simulation = simulate(barrier, Vec3::zeros(), 1e-6);
+    let mut furthest: f64 = 0.0;
+    for _ in 0..60_000 {
+        simulation.step().expect("stable");
+        furthest = furthest.max(nodes(&simulation)[1].position.x - 1.0);
+    }
+    let used = simulation.model.barrier.as_ref().expect("a barrier").dissipators[0].used;
+    assert_relative_eq!(furthest, 0.20272, max_relative = 0.005);
+    assert_relative_eq!(used, 0.19728, max_relative = 0.005);
+    assert_relative_eq!(simulation.ledger.lost_dissipators, 250e3 * used, max_relative = 1e-9);
+}
+
+/// A rope bent by a ring: with friction μ and wrap θ the two sides' tensions differ by at most e^(μθ).
+#[test]
+fn a_rope_slides_through_its_ring_up_to_the_capstan_limit() {
+    let ring = Vec3::new(0.0, 0.0, 0.0);
+    for friction in [0.0, 0.1, 0.4] {
+        let mut barrier = Barrier::default();
+        barrier.nodes = vec![
+            node(Vec3::new(-1.0, 0.0, 0.0), 1.0, true),
+            node(ring, 1.0, true),
+            node(Vec3::new(0.0, 1.0, 0.0), 1.0, true),
+        ];
+        barrier.segments = vec![segment([0, 1], 0.95, 0.0), segment([1, 2], 0.999, 0.0)];
+        barrier.chains = vec![Chain { segments: vec![0, 1], friction, shortest: 0.1 }];
+        let total = 0.95 + 0.999;
+        let mut simulation = simulate(barrier, Vec3::zeros(), 1e-4);
+        for _ in 0..20 {
+            simulation.step().expect("stable");
+        }
+        let segments = &simulation.model.barrier.as_ref().expect("a barrier").segments;
+        let [a, b] = [0, 1].map(|index| segments[index].stiffness * (1.0 - segments[index].rest_length));
+        assert_relative_eq!(a / b, (friction * std::f64::consts::FRAC_PI_2).exp(), max_relative = 1e-3);
+        assert_relative_eq!(segments[0].rest_length + segments[1].rest_length, total, max_relative = 1e-12);
+        assert!(simulation.ledger.lost_friction >= 0.0);
+    }
+}
+
+/// Far beyond the critical step the run must notice, by cutting the step or by giving up, never carry on.
+#[test]
+fn a_step_beyond_the_critical_one_is_noticed() {
+    let build = || {
+        let mut barrier = Barrier::default();
+        barrier.nodes = (0..5).map(|i| node(Vec3::new(f64::from(i), 0.0, 0.0), 1.0, i == 0 || i == 4)).collect();
+        barrier.segments = (0..4).map(|i| segment([i, i + 1], 0.99, 0.0)).collect();
+        barrier.nodes[2].velocity.z = 1.0;
+        barrier
+    };
+    // ω² ≤ 4 k/m = 1.3e7: critical step about 5.5e-4 s.
+    let mut simulation = simulate(build(), Vec3::zeros(), 1e-2);
+    let outcome = (0..2000).try_for_each(|_| simulation.step());
+    assert!(matches!(outcome, Err(Unstable::Node { .. } | Unstable::Step { .. })), "{outcome:?}");
+    let mut simulation = simulate(build(), Vec3::zeros(), 3e-4);
+    (0..2000).try_for_each(|_| simulation.step()).expect("stable below the critical step");
+    assert!(simulation.extremes.step_ratio.nodes < 1.0);
+}

@@ -1,0 +1,91 @@
+//! The program as a user meets it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_barrier-check")).args(arguments).output().expect("program starts")
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+fn result(folder: &Path) -> serde_json::Value {
+    let text = std::fs::read_to_string(folder.join("result.json")).expect("result is written");
+    serde_json::from_str(&text).expect("result is JSON")
+}
+
+#[test]
+fn a_small_design_gives_a_whole_report_and_repeats_bit_for_bit() {
+    let [one, two] = [("one", "1"), ("two", "2")].map(|(name, threads)| {
+        let out = folder(name);
+        let output = run(&["designs/small_net.yaml", "--threads", threads, "--out", out.to_str().expect("path")]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.stderr.is_empty(), "progress must be quiet when not a terminal");
+        out
+    });
+    for name in ["report.html", "report.md", "result.json", "histories.csv"] {
+        assert!(one.join(name).is_file(), "{name} is missing");
+    }
+    let csv = |folder: &Path| std::fs::read(folder.join("histories.csv")).expect("histories");
+    assert_eq!(csv(&one), csv(&two), "the result depends on the number of threads");
+    let html = std::fs::read_to_string(one.join("report.html")).expect("report");
+    assert!(!html.contains("http://") && !html.contains("https://"), "the report must open offline");
+    let mut result = result(&one);
+    assert_eq!(result["verdict"], "pass");
+    assert!(result["numerics"]["energy_error_relative"].as_f64().expect("number").abs() < 0.01);
+    // The contract: names of all fields, down to the arrays.
+    insta::assert_json_snapshot!(shape(&mut result));
+}
+
+/// Replaces every number by 0 and keeps one element of each list: what remains is the contract.
+fn shape(value: &mut serde_json::Value) -> serde_json::Value {
+    use serde_json::Value;
+    match value {
+        Value::Object(map) => Value::Object(map.iter_mut().map(|(key, value)| (key.clone(), shape(value))).collect()),
+        Value::Array(items) => Value::Array(items.iter_mut().take(1).map(shape).collect()),
+        Value::Number(_) => Value::from(0),
+        Value::String(_) => Value::from("text"),
+        other => other.clone(),
+    }
+}
+
+#[test]
+fn bad_input_ends_with_two_and_writes_nothing() {
+    let out = folder("bad");
+    let output = run(&["tests/bad_designs/several_at_once.yaml", "--out", out.to_str().expect("path")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("3 problems"));
+    assert!(!out.exists());
+    assert_eq!(run(&["designs/no_such_file.yaml"]).status.code(), Some(2));
+    assert_eq!(run(&["designs"]).status.code(), Some(2));
+    assert_eq!(run(&["--no-such-option"]).status.code(), Some(2));
+}
+
+#[test]
+fn a_run_that_cannot_finish_is_undecided() {
+    let design =
+        std::fs::read_to_string("designs/small_net.yaml").expect("design").replace("longest: 20 s", "longest: 0.3 s");
+    let out = folder("unfinished");
+    std::fs::create_dir_all(&out).expect("folder");
+    let path = out.join("unfinished.yaml");
+    std::fs::write(&path, design).expect("design is written");
+    let output = run(&[path.to_str().expect("path"), "--out", out.to_str().expect("path")]);
+    assert_eq!(output.status.code(), Some(2));
+    let result = result(&out);
+    assert_eq!(result["verdict"], "undecided");
+    assert!(result["doubts"][0].as_str().expect("text").contains("longest simulated time"));
+}
+
+#[test]
+fn schemas_are_valid_json_and_know_the_contract() {
+    for (of, key) in [("design", "channel"), ("result", "numerics")] {
+        let output = run(&["schema", of]);
+        assert!(output.status.success());
+        let schema: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert!(schema["properties"][key].is_object(), "{of} has no {key}");
+    }
+}

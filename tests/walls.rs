@@ -1,0 +1,59 @@
+//! The walls between the parts of the program: which folder may name which.
+
+use std::path::{Path, PathBuf};
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("folder") {
+        let path = entry.expect("entry").path();
+        if path.is_dir() {
+            files.extend(sources(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+/// No file below `folder` may name any module in `forbidden`.
+fn keeps_out(folder: &str, forbidden: &[&str]) {
+    for path in sources(&Path::new("src").join(folder)) {
+        let text = std::fs::read_to_string(&path).expect("source");
+        for module in forbidden {
+            assert!(!text.contains(&format!("crate::{module}::")), "{} names {module}", path.display());
+        }
+    }
+}
+
+const ABOVE_DESIGN: &[&str] =
+    &["checks", "commands", "dem", "demand", "fidelity", "loads", "pipeline", "report", "scene", "validation"];
+
+#[test]
+fn each_part_knows_only_what_lies_below() {
+    keeps_out("design", ABOVE_DESIGN);
+    keeps_out(
+        "dem",
+        &["checks", "commands", "demand", "design", "fidelity", "loads", "pipeline", "report", "scene", "units"],
+    );
+    keeps_out("loads", &["dem", "scene", "checks", "report", "design"]);
+    keeps_out("checks", &["dem", "scene", "report", "commands"]);
+    keeps_out("scene", &["checks", "demand", "report", "commands", "pipeline"]);
+}
+
+#[test]
+fn only_one_file_names_rapier() {
+    let named: Vec<_> = sources(Path::new("src"))
+        .into_iter()
+        .filter(|path| std::fs::read_to_string(path).expect("source").contains("rapier3d"))
+        .collect();
+    assert_eq!(named, [Path::new("src/dem/neighbours/broad_phase.rs")]);
+}
+
+#[test]
+fn only_commands_and_writers_touch_files() {
+    for path in sources(Path::new("src")) {
+        let text = std::fs::read_to_string(&path).expect("source");
+        let allowed = path.starts_with("src/commands") || path == Path::new("src/report/write.rs");
+        assert!(allowed || !text.contains("std::fs"), "{} touches files", path.display());
+    }
+}
