@@ -10,6 +10,7 @@ use crate::dem::contact::ropes::RopeContext;
 use crate::dem::contact::surfaces::{SurfaceContext, SurfaceForces, load_surfaces};
 use crate::dem::ledger::{ContactSums, Ledger};
 use crate::dem::neighbours::blocks::Block;
+use crate::dem::neighbours::drift::strayed;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
 use crate::dem::net::{NetForces, pull_all, slide_all};
 use crate::dem::tables::barrier::Barrier;
@@ -292,24 +293,26 @@ impl Simulation {
             self.ledger.lost_friction += slide_all(barrier);
             motion.add(&move_nodes(&mut barrier.nodes, &self.sums.net.forces, &gravity, self.time_step));
         }
-        let Neighbours { blocks, .. } = &mut self.neighbours;
+        self.neighbours.elapsed += self.time_step;
+        let Neighbours { blocks, references, elapsed, .. } = &mut self.neighbours;
         let rows = blocks.first().map_or(1, |block| block.members.len().max(1));
-        let reference = self.neighbours.member_reference();
-        let moved: Vec<(MotionSums, f64)> = self
+        let elapsed = *elapsed;
+        let moved: Vec<MotionSums> = self
             .model
             .grains
             .par_chunks_mut((rows / per_grain).max(1))
             .zip(self.members.par_chunks_mut(rows))
             .zip(self.loads.par_chunks(rows))
-            .zip(reference.par_chunks(rows))
-            .map(|(((grains, members), loads), reference)| {
+            .zip(references.par_chunks(rows))
+            .zip(blocks.par_iter_mut())
+            .map(|((((grains, members), loads), references), block)| {
                 let sums = move_grains(grains, members, loads, &gravity, time);
-                (sums, crate::dem::neighbours::renew::moved_squared(reference, members))
+                block.strayed = strayed(references, members, elapsed);
+                sums
             })
             .collect();
-        for (block, (sums, moved_squared)) in self.neighbours.blocks.iter_mut().zip(&moved) {
+        for sums in &moved {
             motion.add(sums);
-            block.moved_squared = *moved_squared;
         }
         self.ledger.kinetic = 0.5 * (self.kinetic_before.kinetic + motion.kinetic);
         self.ledger.rotational = 0.5 * (self.kinetic_before.rotational + motion.rotational);

@@ -9,6 +9,7 @@ use crate::dem::contact::candidates::CandidateList;
 use crate::dem::contact::ropes::RopeContacts;
 use crate::dem::contact::surfaces::SurfaceForces;
 use crate::dem::ledger::ContactSums;
+use crate::dem::neighbours::drift::Strayed;
 
 /// Grains below which one block is enough: parallel work would cost more than it saves.
 const GRAINS_FOR_TWO_BLOCKS: usize = 600;
@@ -17,7 +18,7 @@ const GRAINS_PER_BLOCK: usize = 1000;
 const MOST_BLOCKS: usize = 64;
 
 /// One slice of the members with all that is needed to load it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Block {
     /// Rows of the member table that this block owns.
     pub members: Range<usize>,
@@ -30,8 +31,23 @@ pub struct Block {
     pub sums: ContactSums,
     /// Forces on the surfaces in the step just made.
     pub surface_forces: SurfaceForces,
-    /// Largest squared displacement of a member since its neighbour list was made (m²).
-    pub moved_squared: f64,
+    /// How far its members have gone since the lists were made.
+    pub strayed: Strayed,
+}
+
+impl Block {
+    fn empty(members: Range<usize>) -> Self {
+        Self {
+            members,
+            inner: CandidateList::default(),
+            border: CandidateList::default(),
+            surfaces: CandidateList::default(),
+            ropes: RopeContacts::default(),
+            sums: ContactSums::default(),
+            surface_forces: SurfaceForces::default(),
+            strayed: Strayed::NOWHERE,
+        }
+    }
 }
 
 /// Number of grains in each block (the last may hold fewer).
@@ -50,7 +66,7 @@ pub fn make_blocks(grains: usize, members_per_grain: usize) -> Vec<Block> {
         .step_by(size)
         .map(|first| {
             let last = (first + size).min(grains);
-            Block { members: first * members_per_grain..last * members_per_grain, ..Block::default() }
+            Block::empty(first * members_per_grain..last * members_per_grain)
         })
         .collect()
 }

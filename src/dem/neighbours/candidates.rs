@@ -90,12 +90,12 @@ pub fn find_rope_pairs(
     });
 }
 
-/// Files every pair of the block's members and a surface nearer than half of `skin` (surfaces do not move).
+/// Files every pair of the block's members and a surface nearer than `skin`.
 pub fn find_surface_pairs(block: &mut Block, members: &[Member], surfaces: &[Surface], skin: f64) {
     for index in block.members.clone() {
         let member = &members[index];
         for (number, surface) in surfaces.iter().enumerate() {
-            if surface.height_above(&member.centre()).abs() < member.radius() + 0.5 * skin {
+            if surface.height_above(&member.centre()).abs() < member.radius() + skin {
                 block.surfaces.push([index as u32, number as u32]);
             }
         }

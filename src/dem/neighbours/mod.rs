@@ -4,6 +4,7 @@
 pub mod blocks;
 pub mod broad_phase;
 pub mod candidates;
+pub mod drift;
 pub mod memory_rows;
 pub mod order;
 pub mod renew;

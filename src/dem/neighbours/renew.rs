@@ -9,12 +9,15 @@ use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::neighbours::candidates::{
     find_grain_pairs, find_rope_pairs, find_surface_pairs, grain_box, segment_boxes,
 };
+use crate::dem::neighbours::drift::{Drift, Reference, Strayed};
 use crate::dem::neighbours::memory_rows::MemoryRows;
 use crate::dem::neighbours::order::morton_code;
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grains::{Grain, GrainShape, Member, place_members};
 use crate::dem::tables::surfaces::Surface;
 
+/// Reach of the lists of surfaces and ropes over that of the lists of grains.
+const FIXED_SKIN: f64 = 3.0;
 /// Renewals between two reorderings of the grain table.
 const RENEWALS_PER_ORDERING: u64 = 20;
 
@@ -24,7 +27,12 @@ pub struct Neighbours {
     /// Extra reach of the lists (m).
     pub skin: f64,
     pub renewals: u64,
-    member_reference: Vec<[f64; 3]>,
+    /// Places and drift of the members when the lists were made.
+    pub references: Vec<Reference>,
+    /// Time since then (s).
+    pub elapsed: f64,
+    steepness: f64,
+    largest_radius: f64,
     node_reference: Vec<Vec3>,
     /// Grain numbers in the order of the rows the lists speak of.
     row_ids: Vec<u32>,
@@ -54,7 +62,10 @@ impl Neighbours {
             blocks: Vec::new(),
             skin,
             renewals: 0,
-            member_reference: Vec::new(),
+            references: Vec::new(),
+            elapsed: 0.0,
+            steepness: 0.0,
+            largest_radius: 0.0,
             node_reference: Vec::new(),
             row_ids: Vec::new(),
             tree: None,
@@ -63,26 +74,34 @@ impl Neighbours {
 
     /// Whether something has moved so far that a pair outside the lists could touch.
     pub fn expired(&self, barrier: Option<&Barrier>) -> bool {
-        let limit = 0.25 * self.skin * self.skin;
-        // Asked as "all near", so that a NaN expires the lists.
-        let grains_near = self.blocks.iter().all(|block| block.moved_squared < limit);
-        let nodes_near = barrier.is_none_or(|barrier| {
-            let pairs = barrier.nodes.iter().zip(&self.node_reference);
-            pairs.clone().all(|(node, old)| (node.position - old).norm_squared() < limit)
-        });
-        self.blocks.is_empty() || !grains_near || !nodes_near
+        let (mut moved, mut strayed) = (0.0_f64, 0.0_f64);
+        for block in &self.blocks {
+            moved = moved.max(block.strayed.moved.sqrt());
+            strayed = strayed.max(block.strayed.strayed.sqrt());
+        }
+        let node_moves = barrier.into_iter().flat_map(|barrier| barrier.nodes.iter().zip(&self.node_reference));
+        let mut node_moved = 0.0_f64;
+        for (node, old) in node_moves {
+            let distance = (node.position - old).norm();
+            node_moved = if distance <= node_moved { node_moved } else { distance };
+        }
+        let drawn_out = self.steepness * self.elapsed;
+        let pairs_hold = 2.0 * strayed < self.skin - drawn_out * (2.0 * self.largest_radius + self.skin);
+        // Asked as "holds", so that a NaN expires the lists.
+        let fixed_hold = moved + node_moved < self.fixed_skin();
+        self.blocks.is_empty() || !pairs_hold || !fixed_hold
     }
 
-    /// Places of the members when the lists were made.
-    pub fn member_reference(&self) -> &[[f64; 3]] {
-        &self.member_reference
+    /// Reach of the lists of surfaces and ropes: wider, because the whole motion of the flow counts for them (m).
+    fn fixed_skin(&self) -> f64 {
+        FIXED_SKIN * self.skin
     }
 
     /// Drops the surface candidates because surfaces have gone; the next step renews all lists.
     pub fn forget_surfaces(&mut self) {
         for block in &mut self.blocks {
             block.surfaces = CandidateList::default();
-            block.moved_squared = f64::INFINITY;
+            block.strayed = Strayed::LOST;
         }
     }
 
@@ -104,7 +123,12 @@ impl Neighbours {
             }
         }
         self.fill(bodies, members, &memories);
-        self.member_reference = members.iter().map(|m| [m.place[0], m.place[1], m.place[2]]).collect();
+        let drift = Drift::fit(members);
+        self.references.clear();
+        self.references.extend(members.iter().map(|member| drift.reference(member)));
+        self.steepness = drift.steepness;
+        self.largest_radius = members.iter().map(Member::radius).fold(0.0, f64::max);
+        self.elapsed = 0.0;
         self.node_reference = bodies.barrier.map_or(Vec::new(), |b| b.nodes.iter().map(|n| n.position).collect());
         self.renewals += 1;
     }
@@ -149,7 +173,7 @@ impl Neighbours {
 
     fn fill(&mut self, bodies: &Bodies, members: &[Member], memories: &Memories) {
         let per_grain = bodies.shape.members();
-        let skin = self.skin;
+        let (skin, fixed_skin) = (self.skin, self.fixed_skin());
         let mut blocks = make_blocks(bodies.grains.len(), per_grain);
         let boxes: Vec<Box3> = members.chunks_exact(per_grain).map(|rows| grain_box(rows, 0.5 * skin)).collect();
         let tree = match self.tree.take() {
@@ -161,11 +185,11 @@ impl Neighbours {
         };
         find_grain_pairs(tree, members, per_grain, skin, &mut blocks);
         if let Some(barrier) = bodies.barrier.filter(|barrier| !barrier.segments.is_empty()) {
-            let ropes = BoxTree::new(&segment_boxes(barrier, skin));
-            find_rope_pairs((tree, &ropes), barrier, members, per_grain, skin, &mut blocks);
+            let ropes = BoxTree::new(&segment_boxes(barrier, 2.0 * fixed_skin));
+            find_rope_pairs((tree, &ropes), barrier, members, per_grain, fixed_skin, &mut blocks);
         }
         blocks.par_iter_mut().for_each(|block| {
-            find_surface_pairs(block, members, bodies.surfaces, skin);
+            find_surface_pairs(block, members, bodies.surfaces, fixed_skin);
             block.inner.settle(&memories.grains, bodies.step);
             block.border.settle(&memories.grains, bodies.step);
             block.surfaces.settle(&memories.surfaces, bodies.step);
@@ -173,19 +197,6 @@ impl Neighbours {
         });
         self.blocks = blocks;
     }
-}
-
-/// Largest squared displacement of `members` from their `reference` places (m²); infinite if any is not finite.
-#[inline(always)]
-pub fn moved_squared(reference: &[[f64; 3]], members: &[Member]) -> f64 {
-    let (mut largest, mut total) = (0.0, 0.0);
-    for (old, member) in reference.iter().zip(members) {
-        let moved = [member.place[0] - old[0], member.place[1] - old[1], member.place[2] - old[2]];
-        let squared = moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2];
-        largest = if squared > largest { squared } else { largest };
-        total += squared;
-    }
-    if total < f64::INFINITY { largest } else { f64::INFINITY }
 }
 
 /// Sorts the grains along a space-filling curve with cells of about two grains.
