@@ -68,6 +68,8 @@ pub struct Facts {
     pub wall_clock: f64,
     pub smoothing: f64,
     pub sampling: f64,
+    /// Bulk density of the packed flow over the one asked for.
+    pub packed_share: f64,
 }
 
 /// Why there is no result at all.
@@ -91,6 +93,7 @@ pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
         spheres: scene.simulation.members.len(),
         smoothing: scene.smoothing,
         sampling: scene.recorder.interval,
+        packed_share: scene.packed_share,
         threads: rayon::current_num_threads(),
         ..Facts::default()
     };
@@ -102,7 +105,7 @@ pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
     facts.take(&event, started);
     let numerics = numerics(&event);
     let observed = Observed::read(&event.histories, design, &guideline, reading);
-    let demands = Demands::meet(&guideline, &observed);
+    let demands = Demands::meet(&guideline, &observed, design.factors.load);
     let outcomes = check_all(design, &demands);
     let doubts = doubts(&numerics);
     let verdict = verdict(&outcomes, &doubts);

@@ -106,7 +106,7 @@ impl Dimension {
         let factor = factor_of(symbol).map_or(1.0, |(_, factor)| factor);
         let value = si / factor;
         let shown = if value != 0.0 && (value.abs() >= 1e5 || value.abs() < 1e-3) {
-            format!("{value:.4e}")
+            format!("{value:e}")
         } else {
             trim_zeros(&format!("{value:.4}"))
         };
@@ -132,10 +132,13 @@ fn factor_of(symbol: &str) -> Option<(Dimension, f64)> {
 pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
     let trimmed = text.trim();
     let fail = |found: String, hint: Option<String>| Err(NotAQuantity { found, hint });
+    if comma_in_number(trimmed) {
+        let hint = format!("use a point as decimal separator: `{}`", trimmed.replacen(',', ".", 1));
+        return fail(format!("`{trimmed}`, with a comma in the number"), Some(hint));
+    }
     let (number, unit) = split(trimmed);
     let Ok(value) = number.parse::<f64>() else {
-        let comma = trimmed.contains(',').then(|| "use a point as decimal separator, not a comma".to_string());
-        return fail(format!("`{trimmed}`, which does not start with a number"), comma);
+        return fail(format!("`{trimmed}`, which does not start with a number"), None);
     };
     if unit.is_empty() {
         return fail(format!("`{trimmed}`, a number without a unit"), Some(example(number, wanted)));
@@ -149,6 +152,11 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
         }
         None => fail(format!("`{trimmed}`, whose unit `{unit}` is not known"), near_unit(&symbol, wanted, number)),
     }
+}
+
+/// Whether a comma stands right behind a digit and before another.
+fn comma_in_number(text: &str) -> bool {
+    text.as_bytes().windows(3).any(|three| three[0].is_ascii_digit() && three[1] == b',' && three[2].is_ascii_digit())
 }
 
 /// Splits `15.2 m` into number and unit.

@@ -10,13 +10,13 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         return Vec::new();
     };
     let capacity = net.anchor_resistance / design.factors.anchor;
-    let loads = demands.anchor_force.iter().enumerate();
+    let loads = demands.anchor_force.iter().enumerate().skip(net.ropes_held_by_bed());
     loads
         .map(|(index, demand)| {
             let rope = index + 1;
             let title = format!("Load of the anchors of main rope {rope}");
             let name = CheckName::new(format!("anchor_{rope}_load"), title, "N", ANCHOR_FACTOR);
-            Outcome::at_most(name, demand.times(design.factors.load), capacity, design.limits.anchor_utilisation)
+            Outcome::at_most(name, *demand, capacity, design.limits.anchor_utilisation)
         })
         .collect()
 }

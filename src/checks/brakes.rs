@@ -1,25 +1,23 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, Outcome};
-use crate::demand::{Demand, Demands};
-use crate::design::{BarrierDesign, Design, DissipatorDesign};
+use crate::checks::outcome::{CheckName, CheckVerdict, Outcome};
+use crate::demand::Demands;
+use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
 use crate::sources::{BRAKE_DATA, PLATEAU_DATA};
 
-/// Share by which a sampled anchor load may exceed the plateau before the dissipator counts as exhausted.
+/// Share by which the tension of a dissipator may exceed its plateau before its stroke counts as used up.
 const PLATEAU_TOLERANCE: f64 = 1.01;
 
-fn dissipators(design: &Design) -> Option<DissipatorDesign> {
+fn dissipators(design: &Design) -> Option<(&FlexibleNet, DissipatorDesign)> {
     match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.dissipators,
+        BarrierDesign::FlexibleNet(net) => net.dissipators.map(|dissipators| (&**net, dissipators)),
         BarrierDesign::RigidWall(_) => None,
     }
 }
 
 pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let Some(dissipator) = dissipators(design) else {
-        return Vec::new();
-    };
-    let strokes = demands.brake_stroke.iter().enumerate();
+    let Some((net, dissipator)) = dissipators(design) else { return Vec::new() };
+    let strokes = demands.brake_stroke.iter().enumerate().skip(net.ropes_held_by_bed());
     strokes
         .map(|(index, demand)| {
             let rope = index + 1;
@@ -30,23 +28,16 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
         .collect()
 }
 
-/// With stroke left, no anchor behind a dissipator sees more than the plateau. More means that the stroke is
-/// used up or that load goes past the dissipator.
+/// With stroke left, a dissipator pulls with its plateau force at the most. At the plateau it works as it should, so there
+/// is no utilisation to tell; more means that the stroke is used up.
 pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let Some(dissipator) = dissipators(design) else {
-        return Vec::new();
-    };
-    let largest = |values: Vec<f64>| values.into_iter().reduce(f64::max);
-    let demand = Demand {
-        guideline: largest(demands.anchor_force.iter().filter_map(|demand| demand.guideline).collect()),
-        simulation: largest(demands.anchor_force.iter().filter_map(|demand| demand.simulation).collect()),
-    };
+    let Some((_, dissipator)) = dissipators(design) else { return Vec::new() };
     let name =
-        CheckName::new("brake_plateau", "Largest anchor load against the dissipators' plateau", "N", PLATEAU_DATA);
-    // At the plateau the dissipator works as it should: utilisation 1 is a pass, not a warning.
-    let mut outcome = Outcome::at_most(name, demand, dissipator.plateau, PLATEAU_TOLERANCE);
-    if outcome.verdict == crate::checks::outcome::CheckVerdict::Warn {
-        outcome.verdict = crate::checks::outcome::CheckVerdict::Pass;
+        CheckName::new("brake_plateau", "Largest tension of a dissipator against its plateau", "N", PLATEAU_DATA);
+    let mut outcome = Outcome::at_most(name, demands.brake_force, dissipator.plateau, 1.0);
+    if outcome.utilisation.is_some_and(|utilisation| utilisation <= PLATEAU_TOLERANCE) {
+        outcome.utilisation = None;
+        outcome.verdict = CheckVerdict::Pass;
     }
     vec![outcome]
 }

@@ -2,7 +2,7 @@
 
 /// Energy imbalance over the energy put in.
 pub const ENERGY_LIMIT: f64 = 0.01;
-/// Overlap over the smaller radius.
+/// Overlap over the smaller grain's radius.
 pub const OVERLAP_LIMIT: f64 = 0.20;
 /// Time step over critical step. An audit cuts the step as soon as it finds it beyond 1, so a value much
 /// above means that contacts stiffened between two audits.
@@ -24,16 +24,18 @@ pub struct Numerics {
 pub fn doubts(numerics: &Numerics) -> Vec<String> {
     let mut doubts = Vec::new();
     doubts.extend(numerics.broke_down.iter().map(|reason| format!("the simulation broke down: {reason}")));
-    let mut hold = |what: &str, value: f64, limit: f64| {
+    let mut hold = |what: &str, value: f64, limit: f64, remedy: &str| {
         // Asked as "within", so that a NaN raises a doubt.
         let within = value.abs() <= limit;
         if !within {
-            doubts.push(format!("{what} is {value:.3e}, beyond the limit {limit}"));
+            doubts.push(format!("{what} is {value:.3}, beyond the limit of {limit}; {remedy}"));
         }
     };
-    hold("the energy imbalance over the energy put in", numerics.energy_error, ENERGY_LIMIT);
-    hold("the largest overlap over the smaller radius", numerics.overlap, OVERLAP_LIMIT);
-    hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT);
+    let finer = "try simulation.fidelity: fine";
+    hold("the energy imbalance over the energy put in", numerics.energy_error, ENERGY_LIMIT, finer);
+    let stiffer = "a larger flow.contact_modulus makes grains stiffer";
+    hold("the largest overlap over the grain's radius", numerics.overlap, OVERLAP_LIMIT, stiffer);
+    hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT, finer);
     if numerics.unfinished {
         doubts.push("the flow had not come to rest when the longest simulated time was reached".to_string());
     }

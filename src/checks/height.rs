@@ -2,10 +2,14 @@
 
 use crate::checks::outcome::{CheckName, Outcome};
 use crate::demand::Demands;
-use crate::design::Design;
+use crate::design::{BarrierDesign, Design};
 use crate::sources::DESIGN_LIMIT;
 
+/// A net sags and is pulled out; a rigid wall keeps its height.
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    if matches!(design.barrier, BarrierDesign::RigidWall(_)) {
+        return Vec::new();
+    }
     let name = CheckName::new("residual_height", "Residual height over initial height", "-", DESIGN_LIMIT);
     vec![Outcome::at_least(name, demands.residual_height, design.limits.residual_height)]
 }

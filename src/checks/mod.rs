@@ -20,6 +20,7 @@ const CHECKS: &[Check] = &[
     total_force::check,
     ropes::check_main,
     ropes::check_net,
+    ropes::check_lateral,
     brakes::check_stroke,
     brakes::check_plateau,
     anchors::check,

@@ -33,8 +33,9 @@ pub struct Outcome {
     pub title: String,
     /// With partial factors, SI.
     pub demand: Demand,
+    /// Design resistance times the share of it that may be used.
     pub capacity: Option<f64>,
-    /// Governing demand over capacity; for a least value, capacity over demand.
+    /// Governing demand over capacity; for a least share, what is missing over what may be missing. At most 1 to pass.
     pub utilisation: Option<f64>,
     /// SI unit of demand and capacity; `-` for shares.
     pub unit: &'static str,
@@ -58,29 +59,35 @@ impl CheckName {
 }
 
 impl Outcome {
-    /// The governing demand must stay below `limit` times `capacity`.
-    pub fn at_most(name: CheckName, demand: Demand, capacity: f64, limit: f64) -> Self {
+    /// The governing demand must stay below the share `limit` of `resistance`; the capacity shown is their product.
+    pub fn at_most(name: CheckName, demand: Demand, resistance: f64, limit: f64) -> Self {
+        let capacity = resistance * limit;
         let utilisation = demand.largest().map(|largest| largest / capacity);
-        Self::judged(name, demand, Some(capacity), utilisation, limit)
+        Self::judged(name, demand, Some(capacity), utilisation)
     }
 
-    /// The simulated value must reach `least`.
+    /// The simulated share must reach `least`; used is what is missing to 1, of what may be missing.
     pub fn at_least(name: CheckName, demand: Demand, least: f64) -> Self {
-        let utilisation = demand.simulation.map(|value| if least <= 0.0 { 0.0 } else { least / value.max(1e-300) });
-        Self::judged(name, demand, Some(least), utilisation, 1.0)
+        let utilisation = demand.simulation.map(|value| match (1.0 - value, 1.0 - least) {
+            (missing, _) if missing <= 0.0 => 0.0,
+            (missing, allowed) if allowed > 0.0 => missing / allowed,
+            // Nothing may be missing, and something is.
+            (missing, _) => 1.0 + missing,
+        });
+        Self::judged(name, demand, Some(least), utilisation)
     }
 
     /// A demand that nothing is held against.
     pub fn informative(name: CheckName, demand: Demand) -> Self {
-        Self::judged(name, demand, None, None, 1.0)
+        Self::judged(name, demand, None, None)
     }
 
-    fn judged(name: CheckName, demand: Demand, capacity: Option<f64>, utilisation: Option<f64>, limit: f64) -> Self {
+    fn judged(name: CheckName, demand: Demand, capacity: Option<f64>, utilisation: Option<f64>) -> Self {
         let verdict = match utilisation {
             None => CheckVerdict::Info,
             // Asked as "within", so that a NaN fails.
-            Some(value) if value <= WARN_FROM * limit => CheckVerdict::Pass,
-            Some(value) if value <= limit => CheckVerdict::Warn,
+            Some(value) if value <= WARN_FROM => CheckVerdict::Pass,
+            Some(value) if value <= 1.0 => CheckVerdict::Warn,
             Some(_) => CheckVerdict::Fail,
         };
         let CheckName { id, title, unit, source } = name;
@@ -103,5 +110,18 @@ mod tests {
         assert_eq!(verdict(95.0), CheckVerdict::Warn);
         assert_eq!(verdict(101.0), CheckVerdict::Fail);
         assert_eq!(verdict(f64::NAN), CheckVerdict::Fail);
+    }
+
+    #[test]
+    fn a_least_share_is_used_up_by_what_is_missing() {
+        let outcome = |value, least| {
+            let demand = Demand { guideline: None, simulation: Some(value) };
+            Outcome::at_least(CheckName::new("x", "x", "-", "x"), demand, least)
+        };
+        assert!((outcome(0.95, 0.9).utilisation.unwrap() - 0.5).abs() < 1e-12);
+        assert_eq!(outcome(0.85, 0.9).verdict, CheckVerdict::Fail);
+        assert_eq!(outcome(1.0, 1.0).verdict, CheckVerdict::Pass);
+        assert_eq!(outcome(0.999, 1.0).verdict, CheckVerdict::Fail);
+        assert_eq!(outcome(0.0, 0.0).verdict, CheckVerdict::Warn);
     }
 }

@@ -1,36 +1,35 @@
-//! Tension of main ropes and net ropes against their design resistance.
+//! Tension of main, net and lateral ropes against their design resistance.
 
 use crate::checks::outcome::{CheckName, Outcome};
-use crate::demand::Demands;
-use crate::design::{BarrierDesign, Design};
+use crate::demand::{Demand, Demands};
+use crate::design::{BarrierDesign, Design, Rope};
 use crate::sources::ROPE_FACTOR;
 
+/// Main ropes that are free to move; one bolted to the bed is held all along and is not checked.
 pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let BarrierDesign::FlexibleNet(net) = &design.barrier else {
-        return Vec::new();
-    };
-    let capacity = net.main_ropes.rope.breaking_load / design.factors.rope;
-    let tensions = demands.rope_tension.iter().enumerate();
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
+    let tensions = demands.rope_tension.iter().enumerate().skip(net.ropes_held_by_bed());
     tensions
         .map(|(index, demand)| {
-            let rope = index + 1;
-            let name = CheckName::new(
-                format!("rope_{rope}_tension"),
-                format!("Tension of main rope {rope}"),
-                "N",
-                ROPE_FACTOR,
-            );
-            Outcome::at_most(name, demand.times(design.factors.load), capacity, design.limits.rope_utilisation)
+            let number = index + 1;
+            let title = format!("Tension of main rope {number}");
+            check(design, &net.main_ropes.rope, format!("rope_{number}_tension"), title, *demand)
         })
         .collect()
 }
 
 pub fn check_net(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let BarrierDesign::FlexibleNet(net) = &design.barrier else {
-        return Vec::new();
-    };
-    let capacity = net.net_rope.breaking_load / design.factors.rope;
-    let name = CheckName::new("net_tension", "Tension of the net's ropes", "N", ROPE_FACTOR);
-    let demand = demands.net_tension.times(design.factors.load);
-    vec![Outcome::at_most(name, demand, capacity, design.limits.rope_utilisation)]
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
+    vec![check(design, &net.net_rope, "net_tension".into(), "Tension of the net's ropes".into(), demands.net_tension)]
+}
+
+pub fn check_lateral(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
+    let title = "Tension of the lateral ropes".into();
+    vec![check(design, &net.lateral_rope, "lateral_tension".into(), title, demands.lateral_tension)]
+}
+
+fn check(design: &Design, rope: &Rope, id: String, title: String, demand: Demand) -> Outcome {
+    let resistance = rope.breaking_load / design.factors.rope;
+    Outcome::at_most(CheckName::new(id, title, "N", ROPE_FACTOR), demand, resistance, design.limits.rope_utilisation)
 }

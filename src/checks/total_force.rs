@@ -3,17 +3,17 @@
 use crate::checks::outcome::{CheckName, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::sources::DESIGN_LIMIT;
+use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let name = CheckName::new("total_force", "Total force on the barrier", "N", DESIGN_LIMIT);
-    let demand = demands.total_force.times(design.factors.load);
+    let demand = demands.total_force;
     let resistance = match &design.barrier {
         BarrierDesign::RigidWall(wall) => wall.resistance,
         BarrierDesign::FlexibleNet(_) => None,
     };
     vec![match resistance {
         Some(resistance) => Outcome::at_most(name, demand, resistance, 1.0),
-        None => Outcome::informative(name, demand),
+        None => Outcome::informative(CheckName { source: NO_LIMIT, ..name }, demand),
     }]
 }

@@ -30,6 +30,10 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
         }
     };
     let folder = out.map_or_else(|| Path::new("out").join(&file.name), PathBuf::from);
+    if folder.exists() && !folder.is_dir() {
+        eprintln!("error: {} is a file; --out needs a folder", folder.display());
+        return ExitCode::Undecided;
+    }
     let result = match simulate(file, threads) {
         Ok(run) => run,
         Err(error) => {

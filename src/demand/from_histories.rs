@@ -25,6 +25,10 @@ pub struct Observed {
     pub rope_mean_residual: Vec<f64>,
     pub anchor_force_peak: Vec<f64>,
     pub brake_stroke: Vec<f64>,
+    pub brake_force_peak: Vec<f64>,
+    pub lateral_tension_peak: f64,
+    /// Largest force on what holds the lowest rope to the bed (N).
+    pub bed_force_peak: f64,
     pub net_tension_peak: f64,
     /// Per metre of width (N/m), from the bottom.
     pub segment_peak: Vec<f64>,
@@ -76,30 +80,46 @@ impl Observed {
             rope_mean_residual: histories.rope_mean.iter().map(|row| tail_mean(row, reading.tail)).collect(),
             anchor_force_peak: raw_peaks(&histories.anchors),
             brake_stroke: raw_peaks(&histories.strokes),
+            brake_force_peak: raw_peaks(&histories.brakes),
+            lateral_tension_peak: peak(&histories.lateral_largest).1,
+            bed_force_peak: peak(&histories.bed_force).1,
             net_tension_peak: peak(&histories.net_largest).1,
             segment_peak: histories.segments.iter().map(|row| peak(&smoothed(row, reading.window)).1 / width).collect(),
             segment_residual: histories.segments.iter().map(|row| tail_mean(row, reading.tail) / width).collect(),
             moment_peak: peak(&smoothed(&histories.moment, reading.window)).1 / width,
-            incoming: incoming(histories, at_peak),
             incoming_at_peak: histories.incoming.get(at_peak).copied().unwrap_or_default(),
-            deposit_depth: histories.at_barrier.last().map_or(0.0, |gauge| gauge.depth),
+            deposit_depth: histories.barrier_depth.last().copied().unwrap_or(0.0),
             ..Self::default()
         };
-        observed.measure_coefficients(histories, at_peak, width, guideline);
+        observed.measure_coefficients(histories, design, guideline, reading);
         observed
     }
 
-    /// K from the force at rest, λ from the peak with the design's K for the static part.
-    fn measure_coefficients(&mut self, histories: &Histories, at_peak: usize, width: f64, guideline: &Guideline) {
+    /// K from the force along the channel at rest, λ from its peak with the design's K for the static part. Neither is told
+    /// where the deposit or the flow is thinner than two grains: it has no depth then.
+    fn measure_coefficients(
+        &mut self,
+        histories: &Histories,
+        design: &Design,
+        guideline: &Guideline,
+        reading: Reading,
+    ) {
+        let along: Vec<f64> = histories.force.iter().map(|force| force.x).collect();
+        let (at_peak, peak_along) = peak(&smoothed(&along, reading.window));
         let unit = guideline.input.density * guideline.input.gravity_normal;
-        if self.deposit_depth > 0.0 {
-            self.k_effective = Some(2.0 * self.force_residual / width / (unit * self.deposit_depth.powi(2)));
+        let width = design.channel.width;
+        let thin = 2.0 * design.flow.sizes.quantile(0.5);
+        if self.deposit_depth > thin {
+            let at_rest = tail_mean(&along, reading.tail);
+            self.k_effective = Some(2.0 * at_rest / width / (unit * self.deposit_depth.powi(2)));
         }
-        if self.incoming.flux > 0.0 {
-            let standing = histories.at_barrier.get(at_peak).map_or(0.0, |gauge| gauge.depth);
+        let flux: Vec<f64> = histories.incoming.iter().map(|gauge| gauge.flux).collect();
+        let (at_largest, largest_flux) = peak(&smoothed(&flux[..flux.len().min(at_peak + 1)], reading.window));
+        self.incoming = histories.incoming.get(at_largest).copied().unwrap_or_default();
+        if self.incoming.depth > 0.5 * thin && largest_flux > 0.0 {
+            let standing = histories.barrier_depth.get(at_peak).copied().unwrap_or(0.0);
             let fixed = 0.5 * guideline.input.earth_pressure * unit * standing.powi(2);
-            self.lambda_effective =
-                Some((self.force_peak / width - fixed) / (guideline.input.density * self.incoming.flux));
+            self.lambda_effective = Some((peak_along / width - fixed) / (guideline.input.density * largest_flux));
         }
     }
 }
@@ -109,10 +129,4 @@ fn residual_height(histories: &Histories) -> f64 {
         (Some(first), Some(last)) if *first > 0.0 => last / first,
         _ => 1.0,
     }
-}
-
-/// The gauge upstream when the momentum flux there was largest, before the force peaked.
-fn incoming(histories: &Histories, until: usize) -> Gauge {
-    let before = histories.incoming.iter().take(until + 1);
-    before.max_by(|a, b| a.flux.total_cmp(&b.flux)).copied().unwrap_or_default()
 }

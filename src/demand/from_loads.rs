@@ -14,7 +14,8 @@ pub struct Guideline {
     pub cases: Vec<LoadCase>,
     /// Largest total force over the stages (N).
     pub largest_force: f64,
-    /// Worst state of each main rope over the stages, from the bottom; rope 1 is at rest when the bed holds it.
+    /// Worst state of each main rope over the stages, from the bottom, with the partial factor on loads; rope 1 is at
+    /// rest when the bed holds it.
     pub ropes: Vec<RopeState>,
 }
 
@@ -27,7 +28,7 @@ pub fn guideline(design: &Design) -> Guideline {
     let largest = cases.iter().map(|case| case.force_per_width).fold(0.0, f64::max);
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
-        BarrierDesign::FlexibleNet(net) => rope_states(net, design, &input, &cases),
+        BarrierDesign::FlexibleNet(net) => rope_states(net, design, &input),
     };
     Guideline { input, cases, largest_force: largest * design.channel.width, ropes }
 }
@@ -35,7 +36,7 @@ pub fn guideline(design: &Design) -> Guideline {
 fn input(design: &Design) -> GuidelineInput {
     let (depth, velocity) = incoming(design);
     let slope = design.channel.slope;
-    let level = level_deposit_height(design.flow.volume() / design.channel.width, slope);
+    let level = level_deposit_height(design.flow.volume() / design.channel.width, slope, lean(design));
     GuidelineInput {
         density: design.flow.bulk_density,
         gravity_normal: GRAVITY * slope.cos(),
@@ -43,7 +44,7 @@ fn input(design: &Design) -> GuidelineInput {
         dynamic_pressure: design.factors.dynamic_pressure,
         depth,
         velocity,
-        fill_height: height_over_bed(design).min(level),
+        fill_height: height_over_bed(design).min(level.max(depth)),
     }
 }
 
@@ -80,17 +81,27 @@ fn sliding_velocity(design: &Design, block: &DamBreak) -> f64 {
     (2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length)).sqrt()
 }
 
-/// Each rope under the pressure on its tributary height, worst over the stages.
-fn rope_states(net: &FlexibleNet, design: &Design, input: &GuidelineInput, cases: &[LoadCase]) -> Vec<RopeState> {
+/// Angle by which the barrier leans upstream from the bed's normal (rad).
+fn lean(design: &Design) -> f64 {
+    match &design.barrier {
+        BarrierDesign::RigidWall(_) => 0.0,
+        BarrierDesign::FlexibleNet(net) => design.channel.slope + net.tilt,
+    }
+}
+
+/// Each rope under the largest load on its tributary height, with the partial factor on loads. The lowest rope also
+/// takes what an open gap below it would let through.
+fn rope_states(net: &FlexibleNet, design: &Design, input: &GuidelineInput) -> Vec<RopeState> {
     let rope = net.main_ropes.rope;
     let span = RopeInput {
         span: design.channel.width,
         axial_stiffness: rope.modulus * FRAC_PI_4 * rope.diameter.powi(2),
         dissipator: net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke]),
     };
-    let to_bed_normal = height_over_bed(design) / net.height;
+    let top = height_over_bed(design);
     let heights = &net.main_ropes.heights;
-    let middle = |a: usize, b: usize| 0.5 * (heights[a] + heights[b]) * to_bed_normal;
+    let above_bed = |along: f64| top - (net.height - along) * lean(design).cos();
+    let middle = |a: usize, b: usize| above_bed(0.5 * (heights[a] + heights[b]));
     (0..heights.len())
         .map(|index| {
             if index == 0 && net.bottom == Bottom::Fixed {
@@ -98,8 +109,7 @@ fn rope_states(net: &FlexibleNet, design: &Design, input: &GuidelineInput, cases
             }
             let low = if index == 0 { 0.0 } else { middle(index - 1, index) };
             let high = if index + 1 == heights.len() { f64::INFINITY } else { middle(index, index + 1) };
-            let loads = cases.iter().map(|case| input.strip_force(case, low, high));
-            span.under(loads.fold(0.0, f64::max))
+            span.under(design.factors.load * input.governing_strip_force(low, high))
         })
         .collect()
 }

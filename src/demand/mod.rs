@@ -25,7 +25,9 @@ impl Demand {
     }
 }
 
-/// Demands for every check, before partial factors. Lists go from the lowest main rope to the highest.
+/// Demands for every check, with the partial factor on loads. Lists go from the lowest main rope to the highest. The
+/// guideline's rope states are computed under factored loads; forces of the simulation are multiplied by the factor, its
+/// strokes are not, because a dissipator does not scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Demands {
     /// N
@@ -34,10 +36,14 @@ pub struct Demands {
     pub rope_tension: Vec<Demand>,
     /// N
     pub anchor_force: Vec<Demand>,
+    /// Tension of the dissipators (N), without partial factor.
+    pub brake_force: Demand,
     /// m
     pub brake_stroke: Vec<Demand>,
     /// N
     pub net_tension: Demand,
+    /// N
+    pub lateral_tension: Demand,
     /// Share of the mass held.
     pub retained: Demand,
     /// Final over initial height.
@@ -45,23 +51,29 @@ pub struct Demands {
 }
 
 impl Demands {
-    pub fn meet(guideline: &Guideline, observed: &Observed) -> Self {
-        let both = |guideline: &[f64], simulation: &[f64]| -> Vec<Demand> {
-            (0..simulation.len())
-                .map(|rope| Demand { guideline: guideline.get(rope).copied(), simulation: Some(simulation[rope]) })
-                .collect()
-        };
+    pub fn meet(guideline: &Guideline, observed: &Observed, load_factor: f64) -> Self {
         let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.tension).collect();
         let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.stroke).collect();
         let simulated = |value: f64| Demand { guideline: None, simulation: Some(value) };
+        let highest = |values: &[f64]| values.iter().copied().reduce(f64::max);
+        let total_force = Demand { guideline: Some(guideline.largest_force), simulation: Some(observed.force_peak) };
         Self {
-            total_force: Demand { guideline: Some(guideline.largest_force), simulation: Some(observed.force_peak) },
-            rope_tension: both(&tensions, &observed.rope_tension_peak),
-            anchor_force: both(&tensions, &observed.anchor_force_peak),
-            brake_stroke: both(&strokes, &observed.brake_stroke),
-            net_tension: simulated(observed.net_tension_peak),
+            total_force: total_force.times(load_factor),
+            rope_tension: side_by_side(&tensions, &observed.rope_tension_peak, load_factor),
+            anchor_force: side_by_side(&tensions, &observed.anchor_force_peak, load_factor),
+            brake_force: Demand { guideline: highest(&tensions), simulation: highest(&observed.brake_force_peak) },
+            brake_stroke: side_by_side(&strokes, &observed.brake_stroke, 1.0),
+            net_tension: simulated(observed.net_tension_peak).times(load_factor),
+            lateral_tension: simulated(observed.lateral_tension_peak).times(load_factor),
             retained: simulated(observed.retained),
             residual_height: simulated(observed.residual_height),
         }
     }
+}
+
+/// Guideline and simulation rope by rope; the factor goes on the simulation alone.
+fn side_by_side(guideline: &[f64], simulation: &[f64], factor: f64) -> Vec<Demand> {
+    let of =
+        |rope: usize| Demand { guideline: guideline.get(rope).copied(), simulation: Some(factor * simulation[rope]) };
+    (0..simulation.len()).map(of).collect()
 }

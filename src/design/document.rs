@@ -58,7 +58,8 @@ impl Document {
             ));
         }
         let Ok(text) = std::str::from_utf8(bytes) else {
-            return Err(whole("bytes that are not UTF-8 text", "a YAML text file").hint("is this a binary file?"));
+            return Err(whole("bytes that are not UTF-8 text", "a YAML text file")
+                .hint("save the file as UTF-8 text; is it a binary file?"));
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
         if let Some(line) = text.lines().position(|line| line.starts_with('\t')) {

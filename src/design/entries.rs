@@ -38,6 +38,8 @@ pub struct Entries {
     sections: Vec<String>,
     /// Paths in the order of the tables.
     pub order: Vec<String>,
+    /// Paths typed in the file, right or wrong.
+    mentioned: Vec<String>,
 }
 
 impl Entries {
@@ -64,6 +66,11 @@ impl Entries {
             Value::Text(text) => Some(text),
             _ => None,
         }
+    }
+
+    /// Whether the key was typed in the file, even with a value that cannot be used.
+    pub fn mentions(&self, path: &str) -> bool {
+        self.mentioned.iter().any(|mentioned| mentioned == path)
     }
 
     /// The value as typed, for messages.
@@ -103,7 +110,10 @@ impl Reader<'_> {
         for key in keys {
             let here = join(path, key.name);
             match map.iter().find(|(name, _)| name == key.name) {
-                Some((_, node)) => self.value(node, key, &here, Origin::File),
+                Some((_, node)) => {
+                    self.entries.mentioned.push(here.clone());
+                    self.value(node, key, &here, Origin::File);
+                }
                 None => self.absent(key, path, &here),
             }
         }
@@ -175,7 +185,11 @@ impl Reader<'_> {
                 0 => "none of them".to_string(),
                 _ => known.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(" and "),
             };
-            self.problems.push(Problem::new(path, found, allowed));
+            let problem = Problem::new(path, found, allowed);
+            self.problems.push(match known.len() {
+                0 => problem.hint("write one of them as a key of its own and indent its keys below it"),
+                _ => problem,
+            });
         }
         for (name, node) in known {
             if let Some(key) = keys.iter().find(|key| key.name == name) {
@@ -251,8 +265,7 @@ fn quantity(node: &Node, dimension: Dimension, low: f64, high: f64) -> Result<f6
     };
     let value = units::parse(&text, dimension).map_err(|error| (error.found, error.hint))?;
     // Bounds are inclusive up to rounding of the unit's factor.
-    let slack = 1e-12 * low.abs().max(high.abs());
-    if value < low - slack || value > high + slack {
+    if value < low - 1e-9 * low.abs() || value > high + 1e-9 * high.abs() {
         return Err((format!("`{}`", text.trim()), Some("the value is out of range; is the unit right?".into())));
     }
     Ok(value)

@@ -130,6 +130,13 @@ pub struct FlexibleNet {
     pub bottom: Bottom,
 }
 
+impl FlexibleNet {
+    /// Number of main ropes, from the bottom, that the bed holds along their length.
+    pub fn ropes_held_by_bed(&self) -> usize {
+        usize::from(self.bottom == Bottom::Fixed)
+    }
+}
+
 /// A wire rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rope {
@@ -155,8 +162,8 @@ pub struct MainRopes {
 /// Where the ropes along the sides of the net end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LateralTo {
-    /// At the rope ends, so that their load passes through the dissipators.
-    Dissipators,
+    /// At the rope ends, so that their load passes through the dissipators, if there are any.
+    RopeEnds,
     /// At the anchors, past the dissipators.
     Anchors,
 }

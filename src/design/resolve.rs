@@ -133,7 +133,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             ring_friction: value("main_ropes.rings.friction")?.tan(),
         },
         lateral_rope: rope(e, "lateral_ropes")?,
-        lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::Dissipators },
+        lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::RopeEnds },
         dissipators: match dissipators {
             Some(dissipators) => Some(dissipators?),
             None => None,

@@ -31,6 +31,9 @@ pub const RULES: &[Rule] = &[
     opening_below_the_barrier,
     barrier_leans_within_reach,
     slope_lets_a_dam_break_flow,
+    block_higher_than_the_grains,
+    lateral_ropes_have_their_dissipators,
+    knots_are_bearable,
 ];
 
 const NET: &str = "barrier.flexible_net";
@@ -49,7 +52,7 @@ pub fn flow_volume(entries: &Entries) -> Option<f64> {
 }
 
 fn mass_or_volume(e: &Entries) -> Option<Problem> {
-    let found = match (e.values.contains_key("flow.mass"), e.values.contains_key("flow.volume")) {
+    let found = match (e.mentions("flow.mass"), e.mentions("flow.volume")) {
         (true, true) => format!("mass `{}` and volume `{}`", e.typed("flow.mass"), e.typed("flow.volume")),
         (false, false) if e.has_section("flow") => "neither mass nor volume".to_string(),
         _ => return None,
@@ -211,7 +214,7 @@ fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
 fn main_ropes_counted_once(e: &Entries) -> Option<Problem> {
     let path = at("main_ropes");
     let (count, heights) = (at("main_ropes.count"), at("main_ropes.heights"));
-    let found = match (e.values.contains_key(&count), e.values.contains_key(&heights)) {
+    let found = match (e.mentions(&count), e.mentions(&heights)) {
         (true, true) => "both count and heights",
         (false, false) if e.has_section(&path) => "neither count nor heights",
         _ => return None,
@@ -307,5 +310,44 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
         );
         Problem::new("channel.slope", found, "a slope steeper than the base friction, or the block stops on its way")
             .hint("give the flow as a surge with its velocity instead of a dam break")
+    })
+}
+
+fn block_higher_than_the_grains(e: &Entries) -> Option<Problem> {
+    let largest = size_range(e)?.1;
+    let (path, depth) = match e.number("flow.arrival.surge.depth") {
+        Some(depth) => ("flow.arrival.surge.depth", depth),
+        None => {
+            let length = e.number("flow.arrival.dam_break.length")?;
+            ("flow.arrival.dam_break.length", flow_volume(e)? / (length * e.number("channel.width")?))
+        }
+    };
+    (depth < 1.2 * largest).then(|| {
+        let found = format!("a block {} deep of grains up to {}", length(depth), length(largest));
+        Problem::new(path, found, "a block deeper than 1.2 times its largest grains")
+            .hint("grains cannot be packed into a layer thinner than themselves")
+    })
+}
+
+fn lateral_ropes_have_their_dissipators(e: &Entries) -> Option<Problem> {
+    let path = at("lateral_ropes.tied_to");
+    (e.text(&path) == Some("dissipators") && !e.mentions(&at("dissipators"))).then(|| {
+        Problem::new(
+            path,
+            "`dissipators` in a barrier without dissipators",
+            "rope_ends or anchors, or a section dissipators",
+        )
+    })
+}
+
+/// Knots of the net beyond which a run would take hours.
+const MOST_KNOTS: f64 = 50_000.0;
+
+fn knots_are_bearable(e: &Entries) -> Option<Problem> {
+    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
+    let knots = e.number("channel.width")? * height / (mesh * mesh);
+    (knots > MOST_KNOTS).then(|| {
+        let found = format!("a mesh of {} with about {knots:.0} knots", length(mesh));
+        Problem::new(at("mesh_opening"), found, format!("at most {MOST_KNOTS:.0} knots")).hint("is the unit right?")
     })
 }

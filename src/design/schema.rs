@@ -3,7 +3,9 @@
 use crate::design::key::{Key, Kind, quantity};
 use crate::units::Dimension as D;
 
-const FRICTION: Kind = quantity(D::Angle, 0.0, 1.40);
+/// Steepest angle of a slope or of friction (rad): 80 degrees.
+const STEEPEST: f64 = 80.0 * std::f64::consts::PI / 180.0;
+const FRICTION: Kind = quantity(D::Angle, 0.0, STEEPEST);
 const GRAIN: Kind = quantity(D::Length, 1e-4, 10.0);
 const NOTE: Kind = Kind::Text;
 
@@ -28,7 +30,7 @@ const PROJECT: &[Key] = &[
 
 const CHANNEL: &[Key] = &[
     Key::required("width", quantity(D::Length, 0.01, 200.0), "width between the side walls"),
-    Key::required("slope", quantity(D::Angle, 0.0, 1.40), "slope of the bed against the horizontal"),
+    Key::required("slope", quantity(D::Angle, 0.0, STEEPEST), "slope of the bed against the horizontal"),
     Key::required("wall_height", quantity(D::Length, 0.01, 500.0), "height of the side walls, normal to the bed"),
     Key::required("base_friction", FRICTION, "friction angle between grains and bed"),
     Key::required("side_friction", FRICTION, "friction angle between grains and side walls"),
@@ -122,7 +124,12 @@ const RIGID_WALL: &[Key] = &[
 
 const FLEXIBLE_NET: &[Key] = &[
     Key::required("height", quantity(D::Length, 0.05, 30.0), "height along the barrier's plane"),
-    Key::default("tilt", quantity(D::Angle, -1.30, 1.30), "0 deg", "angle against plumb, positive leans upstream"),
+    Key::default(
+        "tilt",
+        quantity(D::Angle, -STEEPEST, STEEPEST),
+        "0 deg",
+        "angle against plumb, positive leans upstream",
+    ),
     Key::required("mesh_opening", quantity(D::Length, 0.005, 3.0), "side of the square mesh"),
     Key::required("net_rope", Kind::Section(ROPE), "rope of the net"),
     Key::required("main_ropes", Kind::Section(MAIN_ROPES), "horizontal ropes that carry the net"),
@@ -164,7 +171,12 @@ const LATERAL_ROPES: &[Key] = &[
     Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
     Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
     Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
-    Key::default("tied_to", Kind::Choice(&["dissipators", "anchors"]), "dissipators", "where the lateral ropes end"),
+    Key::default(
+        "tied_to",
+        Kind::Choice(&["rope_ends", "dissipators", "anchors"]),
+        "rope_ends",
+        "where the lateral ropes end: at the ends of the main ropes, which is behind their dissipators, or at the anchors",
+    ),
 ];
 
 const DISSIPATORS: &[Key] = &[

@@ -39,6 +39,9 @@ pub struct LoadCase {
     pub force_per_width: f64,
 }
 
+/// Depths of deposit tried between the empty and the full barrier.
+const STAGES: usize = 50;
+
 impl GuidelineInput {
     /// Froude number v/√(g cos α h).
     pub fn froude(&self) -> f64 {
@@ -71,6 +74,16 @@ impl GuidelineInput {
         }
     }
 
+    /// Largest force per width (N/m) on the strip between two heights over all stages of filling: the barrier full at
+    /// rest, and the surge over every depth of deposit that leaves it room.
+    pub fn governing_strip_force(&self, low: f64, high: f64) -> f64 {
+        let depth = self.depth.min(self.fill_height);
+        let room = self.fill_height - depth;
+        let stages = (0..=STAGES).map(|stage| self.case("stage", "", room * stage as f64 / STAGES as f64, depth));
+        let full = self.case("full", "", self.fill_height, 0.0);
+        stages.chain([full]).map(|case| self.strip_force(&case, low, high)).fold(0.0, f64::max)
+    }
+
     /// Force per width (N/m) that one stage puts on the strip between two heights (m) above the bed.
     pub fn strip_force(&self, case: &LoadCase, low: f64, high: f64) -> f64 {
         let unit = self.earth_pressure * self.density * self.gravity_normal;
@@ -90,10 +103,12 @@ pub fn split(input: &GuidelineInput, case: &LoadCase) -> (f64, f64) {
     (deposit, 0.5 * unit * case.moving.powi(2) + case.pressure_dynamic * case.moving)
 }
 
-/// Height of a deposit whose surface is level, for a volume per width V behind a barrier normal to the bed of
-/// slope α: V = H²/(2 tan α). A level surface is the highest a deposit can have at the barrier.
-pub fn level_deposit_height(volume_per_width: f64, slope: f64) -> f64 {
-    (2.0 * volume_per_width * slope.tan()).sqrt()
+/// Height normal to the bed of a deposit whose surface is level, for a volume per width V on a bed of slope α behind a
+/// barrier that leans upstream by θ from the bed's normal: V = ½ H² (cot α + tan θ).
+/// A level surface is the highest a deposit can have at the barrier; on a level bed it is 0.
+pub fn level_deposit_height(volume_per_width: f64, slope: f64, lean: f64) -> f64 {
+    let spread = slope.tan().recip() + lean.tan();
+    if spread > 0.0 { (2.0 * volume_per_width / spread).sqrt() } else { f64::INFINITY }
 }
 
 #[cfg(test)]
@@ -122,6 +137,24 @@ mod tests {
         assert_relative_eq!(first, 138.28e3, max_relative = 1e-4);
         assert_relative_eq!(second, 81.22e3, max_relative = 1e-4);
         assert_relative_eq!(case.force_per_width, 219.49e3, max_relative = 1e-4);
+    }
+
+    #[test]
+    fn the_governing_stage_reaches_every_strip_with_the_moving_flow() {
+        let input = input();
+        // In the middle of a barrier 4 m high a flow 1 m deep gives at least λρv² over a strip of 1 m.
+        let dynamic = input.dynamic_pressure * input.density * input.velocity.powi(2);
+        assert!(input.governing_strip_force(1.5, 2.5) > dynamic);
+        for case in input.cases() {
+            assert!(input.governing_strip_force(1.0, 2.0) >= input.strip_force(&case, 1.0, 2.0));
+        }
+    }
+
+    #[test]
+    fn a_level_deposit_fills_the_triangle_behind_the_barrier() {
+        let height = level_deposit_height(10.0, 0.5, 0.3);
+        assert_relative_eq!(0.5 * height * height * (1.0 / 0.5_f64.tan() + 0.3_f64.tan()), 10.0, max_relative = 1e-12);
+        assert_eq!(level_deposit_height(10.0, 0.0, 0.0), 0.0);
     }
 
     proptest! {

@@ -12,7 +12,18 @@ fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<Stri
 pub fn rows(run: &Run) -> Vec<Row> {
     let seen = &run.observed;
     let width = run.file.design.channel.width;
+    let mass = run.file.design.flow.mass;
+    let weight = mass * crate::units::GRAVITY;
     let mut rows = vec![
+        row(
+            "Mass of the flow",
+            with_unit(mass, "kg"),
+            format!(
+                "weight {}, along the bed {}",
+                with_unit(weight, "N"),
+                with_unit(weight * run.file.design.channel.slope.sin(), "N")
+            ),
+        ),
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
@@ -58,6 +69,13 @@ pub fn rows(run: &Run) -> Vec<Row> {
         with_unit(1.0 - seen.retained, "-"),
         format!("through {through}, under {under}, beside {beside}, over {over}"),
     ));
+    if seen.bed_force_peak > 0.0 {
+        rows.push(row(
+            "Load on the bolts of the lowest rope, largest",
+            with_unit(seen.bed_force_peak, "N"),
+            format!("{} of width; not held against a resistance", with_unit(seen.bed_force_peak / width, "N/m")),
+        ));
+    }
     if !seen.segment_peak.is_empty() {
         let list = |values: &[f64]| values.iter().map(|value| with_unit(*value, "N/m")).collect::<Vec<_>>().join(", ");
         rows.push(row("Wall segments, largest", list(&seen.segment_peak), "from the bottom up"));
@@ -80,7 +98,7 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
         row(
             "Largest overlap",
             format!("{:.1} %", 100.0 * numerics.overlap),
-            format!("of the smaller radius; limit {} %", 100.0 * OVERLAP_LIMIT),
+            format!("of a grain's radius; limit {} %", 100.0 * OVERLAP_LIMIT),
         ),
         row(
             "Time step over critical step",
@@ -100,6 +118,11 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
             "Model",
             format!("{} grains of {} spheres", facts.grains, facts.spheres),
             format!("{} nodes and {} elements of the barrier", facts.barrier_nodes, facts.barrier_elements),
+        ),
+        row(
+            "Packing",
+            format!("{:.0} %", 100.0 * facts.packed_share),
+            "of the bulk density asked for at the start; less where the grains are large against the block",
         ),
         row("Seed", run.file.design.simulation.seed.to_string(), "of the packing; one run, so no scatter is known"),
         row(

@@ -80,12 +80,14 @@ const ASSUMPTIONS: &[&str] = &[
     "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
     "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.",
     "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
+    "Strokes of the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
     "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed; the barrier fills at most to a level surface of the design volume.",
 ];
 
 const NOT_CHECKED: &[&str] = &[
     "scour, abutments and foundations",
     "corrosion, abrasion and maintenance",
+    "the bolts or anchors that hold the lowest rope to the bed; the rings",
     "impact of single boulders larger than the design grains, and of wood",
     "later surges on a filled barrier, drainage of the deposit, snow",
 ];
@@ -95,7 +97,10 @@ impl View {
         let project = &run.file.design.project;
         let row = |name: &str, value: &str| Row { name: name.into(), value: value.into(), remark: String::new() };
         let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
-        outcomes.sort_by(|a, b| b.utilisation.unwrap_or(-1.0).total_cmp(&a.utilisation.unwrap_or(-1.0)));
+        outcomes.sort_by(|a, b| {
+            let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);
+            rank(a.verdict).cmp(&rank(b.verdict)).then(used(b).total_cmp(&used(a)))
+        });
         Self {
             title: format!("{}: {}", project.name, project.barrier),
             project: vec![
@@ -124,15 +129,35 @@ impl View {
     }
 }
 
+/// Worst first.
+fn rank(verdict: CheckVerdict) -> u8 {
+    match verdict {
+        CheckVerdict::Fail => 0,
+        CheckVerdict::Warn => 1,
+        CheckVerdict::Pass => 2,
+        CheckVerdict::Info => 3,
+    }
+}
+
 fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
-    let failed = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail).count();
-    let governing = sorted.first().map_or(String::new(), |outcome| {
+    let held: Vec<_> = run.outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info).collect();
+    let failed = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail).count();
+    let by_guideline = |outcome: &&&Outcome| match (outcome.demand.guideline, outcome.capacity) {
+        (Some(demand), Some(capacity)) => demand > capacity,
+        _ => false,
+    };
+    let governing = sorted.iter().find(|outcome| outcome.utilisation.is_some());
+    let governing = governing.map_or(String::new(), |outcome| {
         format!(" Governing: {} ({}).", outcome.title.to_lowercase(), percent(outcome.utilisation))
     });
     match run.verdict {
-        Verdict::Undecided => "The simulation cannot be relied on; see the reasons below.".to_string(),
-        Verdict::Fail => format!("{failed} of {} checks fail.{governing}", run.outcomes.len()),
-        Verdict::Pass => format!("All {} checks hold.{governing}", run.outcomes.len()),
+        Verdict::Undecided => {
+            let alone = held.iter().filter(by_guideline).count();
+            let hint = if alone > 0 { format!(" By the guideline alone {alone} checks fail.") } else { String::new() };
+            format!("The simulation cannot be relied on; see the reasons below.{hint}")
+        }
+        Verdict::Fail => format!("{failed} of {} checks fail.{governing}", held.len()),
+        Verdict::Pass => format!("All {} checks hold.{governing}", held.len()),
     }
 }
 
@@ -150,7 +175,11 @@ fn check_row(outcome: &Outcome) -> CheckRow {
 }
 
 fn percent(share: Option<f64>) -> String {
-    share.map_or("–".to_string(), |share| format!("{:.0} %", 100.0 * share))
+    match share {
+        None => "–".to_string(),
+        Some(share) if share > 10.0 => "> 1000 %".to_string(),
+        Some(share) => format!("{:.0} %", 100.0 * share),
+    }
 }
 
 /// A value with the unit a person would use.
@@ -162,6 +191,10 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "N/m" => format!("{} kN/m", figures(value / 1e3)),
         "Pa" if value.abs() < 2000.0 => format!("{value:.0} Pa"),
         "Pa" => format!("{} kPa", figures(value / 1e3)),
+        "N m/m" if value.abs() < 2000.0 => format!("{value:.1} N m/m"),
+        "N m/m" => format!("{} kN m/m", figures(value / 1e3)),
+        "kg" if value.abs() < 2000.0 => format!("{} kg", figures(value)),
+        "kg" => format!("{} t", figures(value / 1e3)),
         "-" => format!("{:.1} %", 100.0 * value),
         unit => format!("{} {unit}", figures(value)),
     }

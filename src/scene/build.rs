@@ -19,6 +19,8 @@ pub struct Scene {
     pub smoothing: f64,
     /// Stretch over which steadiness is judged and residuals are averaged (s).
     pub rest: f64,
+    /// Bulk density of the block as packed, over the one asked for.
+    pub packed_share: f64,
     /// Rough time the event takes (s), for telling progress.
     pub expected_time: f64,
 }
@@ -68,7 +70,8 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
         BarrierDesign::RigidWall(_) => None,
     };
     let block = Block::of(&design.flow, upstream_reach(design, net.as_ref()));
-    let grains = packed_block(&design.flow, &design.channel, &block, seed)?;
+    let wanted = block.length;
+    let (grains, block) = packed_block(&design.flow, &design.channel, &block, seed)?;
     let flow = &design.flow;
     let model = Model {
         shape: shape(flow),
@@ -103,6 +106,7 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
         recorder,
         smoothing: smoothing(design),
         rest: REST * time_scale(design),
+        packed_share: wanted / block.length,
         expected_time: expected_time(design),
     })
 }
@@ -122,8 +126,7 @@ fn expected_time(design: &Design) -> f64 {
 
 /// How far upstream of its foot the barrier reaches (m), with room for the largest grain.
 fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
-    let lean = net.map_or(0.0, |net| net.barrier.nodes.iter().map(|node| -node.position.x).fold(0.0, f64::max));
-    lean + 0.5 * design.flow.sizes.quantile(1.0)
+    net.map_or(0.0, BuiltNet::reach) + 0.5 * design.flow.sizes.quantile(1.0)
 }
 
 /// Lets the block settle behind the gate under gravity, slowed by drag.
@@ -185,17 +188,21 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     all
 }
 
-/// Distance of the gauge window upstream, over the barrier's height: 40 to 50 cm at the 40 cm laboratory wall.
+/// Distance of the gauge window upstream of the barrier's most upstream point, over its height: 40 to 50 cm at the 40 cm
+/// laboratory wall.
 const INCOMING: [f64; 2] = [1.0, 1.25];
 
-/// Distance of the window in which the deposit's depth at the barrier is measured, over the barrier's height.
-const AT_BARRIER: [f64; 2] = [0.0, 0.25];
+/// How far downstream of the barrier's foot (a net bulges) and upstream of its most upstream point the depth of the
+/// deposit is sought, over the barrier's height.
+const DEPOSIT: [f64; 2] = [1.0, 0.5];
 
 fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
     let height = barrier_height(design);
+    let lean = net.as_ref().map_or(0.0, BuiltNet::reach);
+    let bulge = if net.is_some() { DEPOSIT[0] * height } else { 0.0 };
     let window = |[near, far]: [f64; 2]| GaugeWindow {
-        near: near * height,
-        far: far * height,
+        near: lean + near * height,
+        far: lean + far * height,
         width: design.channel.width,
         bulk_density: design.flow.bulk_density,
         mean_diameter: design.flow.sizes.quantile(0.5),
@@ -210,7 +217,7 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
             BarrierDesign::FlexibleNet(_) => None,
         },
         incoming: window(INCOMING),
-        at_barrier: window(AT_BARRIER),
+        deposit: GaugeWindow { near: -bulge, far: lean + DEPOSIT[1] * height, ..window(INCOMING) },
         mass: design.flow.mass,
     }
 }

@@ -3,7 +3,7 @@
 use crate::dem::Vec3;
 use crate::dem::ledger::Ledger;
 
-/// What happened, sample by sample. Forces are means over the sampling interval, so that no peak is lost.
+/// What happened, sample by sample. Forces are means over the sampling interval, so that no impulse is lost.
 #[derive(Clone, Debug, Default)]
 pub struct Histories {
     /// End of each sampling interval (s).
@@ -16,12 +16,18 @@ pub struct Histories {
     pub segments: Vec<Vec<f64>>,
     /// Mean tension along each main rope (N), a row for each rope.
     pub rope_mean: Vec<Vec<f64>>,
-    /// Largest tension along each main rope (N).
+    /// Largest tension along each main rope, its dissipators included (N).
     pub rope_largest: Vec<Vec<f64>>,
     /// Load of the higher loaded anchor of each main rope (N).
     pub anchors: Vec<Vec<f64>>,
     /// Stroke used by each rope's dissipators, the larger of the two (m).
     pub strokes: Vec<Vec<f64>>,
+    /// Larger tension of each main rope's two dissipators (N); zeros where there are none.
+    pub brakes: Vec<Vec<f64>>,
+    /// Largest tension in the lateral ropes (N).
+    pub lateral_largest: Vec<f64>,
+    /// Force on what holds the lowest main rope to the bed (N).
+    pub bed_force: Vec<f64>,
     /// Largest tension in the net (N).
     pub net_largest: Vec<f64>,
     /// Lowest height of the top main rope above the bed (m).
@@ -36,8 +42,8 @@ pub struct Histories {
     pub lost: Vec<[f64; 4]>,
     /// The incoming flow, upstream of the barrier.
     pub incoming: Vec<Gauge>,
-    /// The grains next to the barrier.
-    pub at_barrier: Vec<Gauge>,
+    /// Largest depth of the grains at the barrier, at bulk density (m).
+    pub barrier_depth: Vec<f64>,
     pub ledger: Vec<Ledger>,
 }
 

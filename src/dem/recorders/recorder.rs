@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::dem::Vec3;
+use crate::dem::net::NetForces;
 use crate::dem::recorders::histories::{Gauge, Histories};
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
 use crate::dem::simulation::Simulation;
@@ -27,8 +28,8 @@ pub struct RecorderSetup {
     pub wall: Option<[f64; 2]>,
     /// Window in which the incoming flow is gauged.
     pub incoming: GaugeWindow,
-    /// Window in which the deposit at the barrier is gauged.
-    pub at_barrier: GaugeWindow,
+    /// Where the depth of the deposit at the barrier is sought.
+    pub deposit: GaugeWindow,
     /// Mass of the whole flow (kg).
     pub mass: f64,
 }
@@ -68,7 +69,10 @@ struct IntervalSum {
     rope_mean: Vec<f64>,
     rope_largest: Vec<f64>,
     anchors: Vec<f64>,
+    brakes: Vec<f64>,
     net_largest: f64,
+    lateral_largest: f64,
+    bed_force: Vec3,
 }
 
 impl Recorder {
@@ -112,7 +116,8 @@ impl Recorder {
         add_rows(&mut sum.segments, &surfaces.wall_segments);
         if let Some(barrier) = &simulation.model.barrier {
             let net = &simulation.sums.net;
-            add_tensions(sum, barrier, &net.tensions, self.setup.ropes);
+            add_tensions(sum, barrier, net, self.setup.ropes);
+            sum.bed_force += bed_force(barrier, &net.forces, &self.setup.net_rows);
             add_rows(&mut sum.anchors, &anchor_loads(barrier, &net.tensions, &net.brakes, self.setup.ropes));
         }
     }
@@ -127,7 +132,12 @@ impl Recorder {
         push_rows(&mut histories.rope_mean, &self.sum.rope_mean, mean);
         push_rows(&mut histories.rope_largest, &self.sum.rope_largest, mean);
         push_rows(&mut histories.anchors, &self.sum.anchors, mean);
-        histories.net_largest.push(self.sum.net_largest * mean);
+        if simulation.model.barrier.is_some() {
+            push_rows(&mut histories.brakes, &self.sum.brakes, mean);
+            histories.net_largest.push(self.sum.net_largest * mean);
+            histories.lateral_largest.push(self.sum.lateral_largest * mean);
+            histories.bed_force.push(self.sum.bed_force.norm() * mean);
+        }
         histories.ledger.push(simulation.ledger);
         self.impact |= self.sum.force.norm() > 0.0;
         if let Some(barrier) = &simulation.model.barrier {
@@ -164,6 +174,8 @@ impl Recorder {
                 continue;
             }
             if let Some(way) = screen.way_of(&grain.position, grain.body.radius + grain.body.offset) {
+                // A grain first seen behind a wall, below its top, has come over it.
+                let way = if self.setup.wall.is_some() && way == Way::Through { Way::Over } else { way };
                 self.passed.insert(grain.id, way);
                 self.lost[way as usize] += grain.body.mass / self.setup.mass;
             }
@@ -190,11 +202,29 @@ impl Recorder {
     fn sample_gauges(&mut self, simulation: &Simulation) {
         let grains = &simulation.model.grains;
         self.histories.incoming.push(self.setup.incoming.read(grains));
-        self.histories.at_barrier.push(self.setup.at_barrier.read(grains));
+        self.histories.barrier_depth.push(self.setup.deposit.depth(grains));
     }
 }
 
+/// Windows into which the stretch of the deposit is cut; neighbours overlap by half.
+const DEPOSIT_WINDOWS: usize = 12;
+
 impl GaugeWindow {
+    /// Largest depth that the mass has at bulk density, over windows along the stretch: a leaning or bulging barrier takes
+    /// part of each window's room, so the window with most mass is the one that tells.
+    fn depth(&self, grains: &[Grain]) -> f64 {
+        let cell = (self.far - self.near) / (DEPOSIT_WINDOWS + 1) as f64;
+        let mut cells = [0.0; DEPOSIT_WINDOWS + 1];
+        for grain in grains {
+            let place = (-grain.position.x - self.near) / cell;
+            if place >= 0.0 && (place as usize) < cells.len() {
+                cells[place as usize] += grain.body.mass;
+            }
+        }
+        let most = cells.windows(2).map(|pair| pair[0] + pair[1]).fold(0.0, f64::max);
+        most / (self.bulk_density * self.width * 2.0 * cell)
+    }
+
     fn read(&self, grains: &[Grain]) -> Gauge {
         let inside = grains.iter().filter(|grain| (-self.far..=-self.near).contains(&grain.position.x));
         let mut heights = Vec::new();
@@ -235,10 +265,10 @@ fn push_rows(rows: &mut Vec<Vec<f64>>, values: &[f64], factor: f64) {
     }
 }
 
-fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, tensions: &[f64], ropes: usize) {
+fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, net: &NetForces, ropes: usize) {
     let (mut mean, mut largest) = (vec![[0.0, 0.0]; ropes], vec![0.0_f64; ropes]);
-    let mut net_largest: f64 = 0.0;
-    for (segment, &tension) in barrier.segments.iter().zip(tensions) {
+    let (mut net_largest, mut lateral_largest) = (0.0_f64, 0.0_f64);
+    for (segment, &tension) in barrier.segments.iter().zip(&net.tensions) {
         match segment.kind {
             SegmentKind::Main(rope) => {
                 let [weighted, length] = &mut mean[rope as usize];
@@ -247,13 +277,27 @@ fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, tensions: &[f64], rope
                 largest[rope as usize] = largest[rope as usize].max(tension);
             }
             SegmentKind::Net => net_largest = net_largest.max(tension),
-            SegmentKind::Lateral => {}
+            SegmentKind::Lateral => lateral_largest = lateral_largest.max(tension),
         }
+    }
+    let mut brakes = vec![0.0_f64; ropes];
+    for (dissipator, &tension) in barrier.dissipators.iter().zip(&net.brakes) {
+        let rope = dissipator.rope as usize;
+        brakes[rope] = brakes[rope].max(tension);
+        largest[rope] = largest[rope].max(tension);
     }
     let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
     add_rows(&mut sum.rope_mean, &mean);
     add_rows(&mut sum.rope_largest, &largest);
+    add_rows(&mut sum.brakes, &brakes);
     sum.net_largest += net_largest;
+    sum.lateral_largest += lateral_largest;
+}
+
+/// Force on the fixed knots of the lowest row: what the bolts of a rope held by the bed must bear (N).
+fn bed_force(barrier: &Barrier, forces: &[Vec3], rows: &[Vec<u32>]) -> Vec3 {
+    let lowest = rows.first().into_iter().flatten().map(|&node| node as usize);
+    lowest.filter(|&node| barrier.nodes[node].fixed).map(|node| forces[node]).sum()
 }
 
 /// Load of each rope's higher loaded anchor: the vector sum of all that is tied to it.

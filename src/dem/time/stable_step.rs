@@ -137,7 +137,7 @@ impl Audit<'_> {
             self.add_to_grain(member, &contact.foot, &link, grains);
             let ends = barrier.segments[segment as usize].nodes;
             for (node, share) in ends.into_iter().zip([1.0 - contact.share, contact.share]) {
-                if barrier.nodes[node as usize].fixed {
+                if barrier.nodes[node as usize].fixed || share == 0.0 {
                     continue;
                 }
                 // u = Σ share u_node: k|u|² ≤ k Σ share |u_node|² (shares sum to one).
@@ -211,7 +211,11 @@ fn largest_bound<const N: usize>(tables: &[SMatrix<f64, N, N>]) -> f64 {
     let mut largest: f64 = 0.0;
     for table in tables {
         // The trace bounds the eigenvalue too; most bodies are settled by it.
-        if table.trace() > largest {
+        let trace = table.trace();
+        if !trace.is_finite() {
+            return f64::INFINITY;
+        }
+        if trace > largest {
             largest = largest.max(eigenvalue_bound(table));
         }
     }

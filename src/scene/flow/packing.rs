@@ -11,8 +11,14 @@ use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 
 /// Largest overlap left, over the smaller radius.
 pub const OVERLAP_ALLOWED: f64 = 0.01;
-/// Steps after which packing gives up.
-const MOST_STEPS: usize = 4000;
+/// Steps after which an attempt is given up.
+const MOST_STEPS: usize = 2000;
+/// Share of its velocity that a grain loses in each step while grains push apart: little, so that whole regions can
+/// spread, and contacts are damped besides.
+const RELAXATION_DRAG: f64 = 0.02;
+/// Attempts with a longer room, and how much longer each is.
+const MOST_ATTEMPTS: u64 = 8;
+const LENGTHENING: f64 = 0.04;
 
 /// A box from the origin to `size` (m), in the channel frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,14 +29,39 @@ pub struct PackingBox {
 /// Why a packing failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PackingError {
-    #[error("the grains do not fit: after {steps} steps the largest overlap is still {overlap:.3} of a radius")]
+    #[error(
+        "the grains cannot be packed: after {steps} steps the largest overlap is still {overlap:.3} of a radius; a lower \
+         flow.bulk_density, smaller grains or a deeper block leave them more room"
+    )]
     DoesNotFit { steps: usize, overlap: f64 },
     #[error(transparent)]
     Unstable(#[from] Unstable),
 }
 
-/// Packs `bodies` into `room`; grain numbers follow the order of `bodies`.
-pub fn pack(bodies: &[GrainBody], shape: GrainShape, room: PackingBox, seed: u64) -> Result<Vec<Grain>, PackingError> {
+/// Packs `bodies` into `room`; grain numbers follow the order of `bodies`. Where they do not fit, as happens when grains
+/// are large against the room, the room is made longer (along x) and another start is tried. Returns the grains and the
+/// length they took (m).
+pub fn pack(
+    bodies: &[GrainBody],
+    shape: GrainShape,
+    room: PackingBox,
+    seed: u64,
+) -> Result<(Vec<Grain>, f64), PackingError> {
+    let mut longer = room;
+    let mut attempt = 0;
+    loop {
+        match pack_once(bodies, shape, longer, seed.wrapping_add(attempt << 32)) {
+            Err(PackingError::DoesNotFit { .. }) if attempt < MOST_ATTEMPTS => {
+                attempt += 1;
+                longer.size.x = room.size.x * (1.0 + LENGTHENING * attempt as f64);
+            }
+            Err(error) => return Err(error),
+            Ok(grains) => return Ok((grains, longer.size.x)),
+        }
+    }
+}
+
+fn pack_once(bodies: &[GrainBody], shape: GrainShape, room: PackingBox, seed: u64) -> Result<Vec<Grain>, PackingError> {
     let model = Model {
         shape,
         grains: scatter(bodies, room, seed),
@@ -43,14 +74,30 @@ pub fn pack(bodies: &[GrainBody], shape: GrainShape, room: PackingBox, seed: u64
     };
     let (step, skin) = relaxation_scales(bodies);
     let mut simulation = Simulation::new(model, step, skin, f64::INFINITY);
-    simulation.drag = 0.4 / step;
+    simulation.drag = RELAXATION_DRAG / step;
     for _ in 0..MOST_STEPS {
         simulation.step()?;
-        if simulation.sums.contacts.overlap_ratio < 0.8 * OVERLAP_ALLOWED {
+        hold_inside(&mut simulation.model.grains, room);
+        if simulation.sums.contacts.overlap_ratio < OVERLAP_ALLOWED {
             return Ok(at_rest(simulation.model.grains));
         }
     }
     Err(PackingError::DoesNotFit { steps: MOST_STEPS, overlap: simulation.sums.contacts.overlap_ratio })
+}
+
+/// Puts grains that were flung through a wall back inside: walls push to the side a grain is on.
+fn hold_inside(grains: &mut [Grain], room: PackingBox) {
+    for grain in grains {
+        for axis in 0..3 {
+            // Both member centres must lie inside, or the wall would push them out.
+            let margin = 0.5 * grain.body.radius + grain.body.offset * grain.axis[axis].abs();
+            let held = grain.position[axis].clamp(margin, room.size[axis] - margin);
+            if held != grain.position[axis] {
+                grain.position[axis] = held;
+                grain.velocity = Vec3::zeros();
+            }
+        }
+    }
 }
 
 /// Step and skin for pushing apart: many grains may overlap at once, so the step is a fifth of a pair's.
@@ -124,4 +171,33 @@ fn walls(room: PackingBox) -> Vec<Surface> {
         }
     }
     surfaces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pack_at(share: f64, aspect: f64, seed: u64) -> (Vec<Grain>, f64, PackingBox) {
+        let bodies: Vec<GrainBody> =
+            (0..400).map(|i| GrainBody::clump(0.20 + 0.0005 * f64::from(i), aspect, 2650.0)).collect();
+        let volume: f64 = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>() / share;
+        let room = PackingBox { size: Vec3::new(volume / (3.0 * 1.2), 3.0, 1.2) };
+        let shape = if aspect > 1.0 { GrainShape::Clump } else { GrainShape::Sphere };
+        let (grains, length) = pack(&bodies, shape, room, seed).expect("fits");
+        (grains, length, room)
+    }
+
+    #[test]
+    fn spheres_and_clumps_pack_without_overlap_into_the_room_asked_for() {
+        for (share, aspect) in [(0.52, 1.0), (0.55, 1.5), (0.55, 2.0)] {
+            for seed in [1, 2, 3] {
+                let (grains, length, room) = pack_at(share, aspect, seed);
+                assert!(length <= 1.0401 * room.size.x, "{share} {aspect} {seed}: {length} against {}", room.size.x);
+                let inside = |grain: &Grain| {
+                    grain.position.iter().zip(&[length, room.size.y, room.size.z]).all(|(x, l)| *x > 0.0 && x < l)
+                };
+                assert!(grains.iter().all(inside));
+            }
+        }
+    }
 }

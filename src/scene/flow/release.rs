@@ -38,14 +38,19 @@ pub fn shape(flow: &Flow) -> GrainShape {
     if flow.aspect > 1.0 { GrainShape::Clump } else { GrainShape::Sphere }
 }
 
-/// Packs the flow into its block and gives it its velocity.
-pub fn packed_block(flow: &Flow, channel: &Channel, block: &Block, seed: u64) -> Result<Vec<Grain>, PackingError> {
+/// Packs the flow into its block and gives it its velocity. The block may come out longer than asked.
+pub fn packed_block(
+    flow: &Flow,
+    channel: &Channel,
+    block: &Block,
+    seed: u64,
+) -> Result<(Vec<Grain>, Block), PackingError> {
     let room = PackingBox { size: Vec3::new(block.length, channel.width, block.height) };
-    let mut grains = pack(&bodies(flow), shape(flow), room, seed)?;
-    let corner = Vec3::new(block.front - block.length, 0.0, 0.0);
+    let (mut grains, length) = pack(&bodies(flow), shape(flow), room, seed)?;
+    let corner = Vec3::new(block.front - length, 0.0, 0.0);
     for grain in &mut grains {
         grain.position += corner;
         grain.velocity = Vec3::new(block.velocity, 0.0, 0.0);
     }
-    Ok(grains)
+    Ok((grains, Block { length, ..*block }))
 }

@@ -30,6 +30,13 @@ pub struct BuiltNet {
     pub rope_rows: Vec<usize>,
 }
 
+impl BuiltNet {
+    /// How far upstream of its foot the barrier reaches (m).
+    pub fn reach(&self) -> f64 {
+        self.barrier.nodes.iter().map(|node| -node.position.x).fold(0.0, f64::max)
+    }
+}
+
 /// Builds the net of `design` across `channel`. The barrier's foot is at x = 0.
 pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel) -> BuiltNet {
     let mut builder = Builder {
