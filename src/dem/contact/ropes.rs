@@ -77,22 +77,19 @@ pub fn touch(member: &Member, segment_index: u32, context: &RopeContext) -> Opti
     let [a, b] = segment.nodes.map(|node| &barrier.nodes[node as usize]);
     let centre = member.centre();
     let along = nearest_on_segment(&centre, &a.position, &b.position);
-    let rope_radius = if along.inside {
-        segment.radius
-    } else {
-        let end = usize::from(along.share > 0.5);
-        let node = &barrier.nodes[segment.nodes[end] as usize];
-        if !owns_node(segment_index, segment.nodes[end], &centre, barrier) {
-            return None;
-        }
-        node.radius
-    };
     let towards = along.point - centre;
-    let distance = towards.norm();
-    let overlap = member.radius() + rope_radius - distance;
-    if overlap <= 0.0 || distance == 0.0 {
+    let end = usize::from(along.share > 0.5);
+    let rope_radius = if along.inside { segment.radius } else { [a, b][end].radius };
+    let reach = member.radius() + rope_radius;
+    let distance_squared = towards.norm_squared();
+    if distance_squared >= reach * reach || distance_squared == 0.0 {
         return None;
     }
+    if !along.inside && !owns_node(segment_index, segment.nodes[end], &centre, barrier) {
+        return None;
+    }
+    let distance = distance_squared.sqrt();
+    let overlap = reach - distance;
     let normal = towards / distance;
     let foot = centre + normal * (member.radius() - 0.5 * overlap);
     let rope_velocity = a.velocity * (1.0 - along.share) + b.velocity * along.share;

@@ -31,6 +31,8 @@ pub struct GrainBody {
     pub inertia_axial: f64,
     /// Moment of inertia about any line through the centre across the axis (kg m²).
     pub inertia_transverse: f64,
+    /// Reciprocals of mass, axial and transverse inertia: divisions cost more than all else in a step of a grain.
+    pub inverse: [f64; 3],
 }
 
 impl GrainBody {
@@ -57,7 +59,8 @@ impl GrainBody {
         let length = offset + radius;
         let root = 0.6_f64.sqrt();
         let rule = [(-root, 5.0 / 9.0), (0.0, 8.0 / 9.0), (root, 5.0 / 9.0)];
-        let mut body = Self { radius, offset, mass: 0.0, inertia_axial: 0.0, inertia_transverse: 0.0 };
+        let mut body =
+            Self { radius, offset, mass: 0.0, inertia_axial: 0.0, inertia_transverse: 0.0, inverse: [0.0; 3] };
         for (node, weight) in rule {
             let x = 0.5 * length * (1.0 + node);
             let width_squared = radius * radius - (x - offset).powi(2);
@@ -67,6 +70,7 @@ impl GrainBody {
             body.inertia_axial += factor * 0.5 * width_squared.powi(2);
             body.inertia_transverse += factor * (0.25 * width_squared.powi(2) + width_squared * x * x);
         }
+        body.inverse = [body.mass, body.inertia_axial, body.inertia_transverse].map(f64::recip);
         body
     }
 }
@@ -80,15 +84,9 @@ impl Grain {
     /// Angular velocity (rad/s) from angular momentum: ω = L/I_t + (a·L)(1/I_a − 1/I_t) a.
     #[inline(always)]
     pub fn spin(&self) -> Vec3 {
-        self.spin_of(&self.angular_momentum)
-    }
-
-    /// Angular velocity that the given angular momentum means for the present axis.
-    #[inline(always)]
-    pub fn spin_of(&self, angular_momentum: &Vec3) -> Vec3 {
-        let along = self.axis.dot(angular_momentum);
-        let transverse = 1.0 / self.body.inertia_transverse;
-        angular_momentum * transverse + self.axis * (along * (1.0 / self.body.inertia_axial - transverse))
+        let along = self.axis.dot(&self.angular_momentum);
+        let [_, axial, transverse] = self.body.inverse;
+        self.angular_momentum * transverse + self.axis * (along * (axial - transverse))
     }
 }
 
@@ -163,7 +161,7 @@ impl GrainShape {
 #[inline(always)]
 pub fn place_members(grain: &Grain, members: &mut [Member]) {
     let spin = grain.spin();
-    let inverse_mass = 1.0 / grain.body.mass;
+    let inverse_mass = grain.body.inverse[0];
     let mut side = 1.0;
     for member in members {
         let arm = grain.axis * (side * grain.body.offset);

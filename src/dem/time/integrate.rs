@@ -42,7 +42,7 @@ pub fn move_grains(
     for ((grain, members), loads) in rows {
         let (force, torque) = resultant(grain, loads);
         sums.potential -= grain.body.mass * gravity.dot(&grain.position);
-        grain.velocity = (grain.velocity + (force / grain.body.mass + gravity) * time.step) * keep;
+        grain.velocity = (grain.velocity + (force * grain.body.inverse[0] + gravity) * time.step) * keep;
         grain.angular_momentum = (grain.angular_momentum + torque * time.step) * keep;
         let rotational = 0.5 * grain.spin().dot(&grain.angular_momentum);
         sums.rotational += rotational;
@@ -91,7 +91,7 @@ fn turn_axis(grain: &mut Grain, step: f64) {
     let line = momentum / magnitude;
     // Sine and cosine from their series: the angle of one step is small, and the result is the same on
     // every machine, which the system's library does not promise.
-    let angle = magnitude / grain.body.inertia_transverse * step;
+    let angle = magnitude * grain.body.inverse[2] * step;
     let half = small_tangent(0.5 * angle);
     let scale = 1.0 / (1.0 + half * half);
     let (sine, one_minus_cosine) = (2.0 * half * scale, 2.0 * half * half * scale);
