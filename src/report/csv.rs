@@ -34,11 +34,10 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     for (index, way) in ["through", "under", "beside", "over"].into_iter().enumerate() {
         add(format!("lost_{way}_share"), histories.lost.iter().map(|lost| lost[index]).collect());
     }
-    for (name, gauge) in [("incoming", &histories.incoming)] {
-        add(format!("{name}_thickness_m"), gauge.iter().map(|gauge| gauge.thickness).collect());
-        add(format!("{name}_depth_m"), gauge.iter().map(|gauge| gauge.depth).collect());
-        add(format!("{name}_velocity_m_s"), gauge.iter().map(|gauge| gauge.velocity).collect());
-    }
+    let incoming = &histories.incoming;
+    add("incoming_thickness_m".into(), incoming.iter().map(|gauge| gauge.thickness).collect());
+    add("incoming_depth_m".into(), incoming.iter().map(|gauge| gauge.depth).collect());
+    add("incoming_velocity_m_s".into(), incoming.iter().map(|gauge| gauge.velocity).collect());
     add("deposit_depth_m".into(), histories.barrier_depth.clone());
     add("kinetic_j".into(), histories.ledger.iter().map(|ledger| ledger.kinetic).collect());
     add("potential_j".into(), histories.ledger.iter().map(|ledger| ledger.potential).collect());

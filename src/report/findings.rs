@@ -3,6 +3,7 @@
 use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, STEP_LIMIT};
 use crate::pipeline::Run;
 use crate::report::view::{Row, with_unit};
+use crate::units::GRAVITY;
 
 fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) -> Row {
     Row { name: name.into(), value: value.into(), remark: remark.into() }
@@ -10,79 +11,86 @@ fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<Stri
 
 /// What the simulation showed.
 pub fn rows(run: &Run) -> Vec<Row> {
-    let seen = &run.observed;
-    let width = run.file.design.channel.width;
-    let mass = run.file.design.flow.mass;
-    let weight = mass * crate::units::GRAVITY;
-    let mut rows = vec![
+    [flow_rows(run), force_rows(run), coefficient_rows(run), loss_rows(run), wall_rows(run)].concat()
+}
+
+fn per_width(force: f64, run: &Run) -> String {
+    format!("{} of width", with_unit(force / run.file.design.channel.width, "N/m"))
+}
+
+fn flow_rows(run: &Run) -> Vec<Row> {
+    let (design, seen) = (&run.file.design, &run.observed);
+    let weight = design.flow.mass * GRAVITY;
+    let downhill = with_unit(weight * design.channel.slope.sin(), "N");
+    let incoming =
+        format!("{} deep, {}", with_unit(seen.incoming.depth, "m"), with_unit(seen.incoming.velocity, "m/s"));
+    let fastest = format!("at {:.2} s", seen.velocity_peak_time);
+    vec![
         row(
             "Mass of the flow",
-            with_unit(mass, "kg"),
-            format!(
-                "weight {}, along the bed {}",
-                with_unit(weight, "N"),
-                with_unit(weight * run.file.design.channel.slope.sin(), "N")
-            ),
+            with_unit(design.flow.mass, "kg"),
+            format!("weight {}, of it along the bed {downhill}", with_unit(weight, "N")),
         ),
+        row("Highest mean velocity", with_unit(seen.velocity_peak, "m/s"), fastest),
+        row(
+            "Incoming flow",
+            incoming,
+            "at the gauge upstream, when its momentum flux was largest; depth at bulk density",
+        ),
+        row("Depth of the deposit at the barrier", with_unit(seen.deposit_depth, "m"), "at the end, at bulk density"),
+    ]
+}
+
+fn force_rows(run: &Run) -> Vec<Row> {
+    let seen = &run.observed;
+    let mut rows = vec![
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
-            format!("at {:.2} s; {} of width", seen.force_peak_time, with_unit(seen.force_peak / width, "N/m")),
+            format!("at {:.2} s; {}", seen.force_peak_time, per_width(seen.force_peak, run)),
         ),
-        row(
-            "Total force at rest",
-            with_unit(seen.force_residual, "N"),
-            format!("{} of width", with_unit(seen.force_residual / width, "N/m")),
-        ),
-        row(
-            "Highest mean velocity",
-            with_unit(seen.velocity_peak, "m/s"),
-            format!("at {:.2} s", seen.velocity_peak_time),
-        ),
-        row(
-            "Incoming flow",
-            format!("{} deep, {}", with_unit(seen.incoming.depth, "m"), with_unit(seen.incoming.velocity, "m/s")),
-            "at the gauge upstream, when its momentum flux was largest",
-        ),
-        row("Depth of the deposit at the barrier", with_unit(seen.deposit_depth, "m"), "at the end"),
+        row("Total force at rest", with_unit(seen.force_residual, "N"), per_width(seen.force_residual, run)),
     ];
-    if let Some(k) = seen.k_effective {
-        rows.push(row(
-            "K that the simulation shows",
-            format!("{k:.2}"),
-            format!("from the force at rest; the design takes {}", run.guideline.input.earth_pressure),
-        ));
-    }
-    if let Some(lambda) = seen.lambda_effective {
-        rows.push(row(
-            "λ that the simulation shows",
-            format!("{lambda:.2}"),
-            format!(
-                "from the largest force less the static part with the design's K; the design takes {}",
-                run.guideline.input.dynamic_pressure
-            ),
-        ));
-    }
-    let [through, under, beside, over] = seen.lost.map(|share| with_unit(share, "-"));
-    rows.push(row(
-        "Mass lost",
-        with_unit(1.0 - seen.retained, "-"),
-        format!("through {through}, under {under}, beside {beside}, over {over}"),
-    ));
     if seen.bed_force_peak > 0.0 {
-        rows.push(row(
-            "Load on the bolts of the lowest rope, largest",
-            with_unit(seen.bed_force_peak, "N"),
-            format!("{} of width; not held against a resistance", with_unit(seen.bed_force_peak / width, "N/m")),
-        ));
-    }
-    if !seen.segment_peak.is_empty() {
-        let list = |values: &[f64]| values.iter().map(|value| with_unit(*value, "N/m")).collect::<Vec<_>>().join(", ");
-        rows.push(row("Wall segments, largest", list(&seen.segment_peak), "from the bottom up"));
-        rows.push(row("Wall segments, at rest", list(&seen.segment_residual), "from the bottom up"));
-        rows.push(row("Moment about the toe, largest", with_unit(seen.moment_peak, "N m/m"), ""));
+        let remark = format!("{}; not held against a resistance", per_width(seen.bed_force_peak, run));
+        rows.push(row("Load on the bolts of the lowest rope, largest", with_unit(seen.bed_force_peak, "N"), remark));
     }
     rows
+}
+
+fn coefficient_rows(run: &Run) -> Vec<Row> {
+    let input = &run.guideline.input;
+    let k = run.observed.k_effective.map(|k| {
+        let remark = format!("from the force at rest along the channel; the design takes {}", input.earth_pressure);
+        row("K that the simulation shows", format!("{k:.2}"), remark)
+    });
+    let lambda = run.observed.lambda_effective.map(|lambda| {
+        let remark = format!(
+            "from the largest force along the channel less the static part with the design's K; the design takes {}",
+            input.dynamic_pressure
+        );
+        row("λ that the simulation shows", format!("{lambda:.2}"), remark)
+    });
+    k.into_iter().chain(lambda).collect()
+}
+
+fn loss_rows(run: &Run) -> Vec<Row> {
+    let [through, under, beside, over] = run.observed.lost.map(|share| with_unit(share, "-"));
+    let ways = format!("through {through}, under {under}, beside {beside}, over {over}");
+    vec![row("Mass lost", with_unit(1.0 - run.observed.retained, "-"), ways)]
+}
+
+fn wall_rows(run: &Run) -> Vec<Row> {
+    let seen = &run.observed;
+    if seen.segment_peak.is_empty() {
+        return Vec::new();
+    }
+    let list = |values: &[f64]| values.iter().map(|value| with_unit(*value, "N/m")).collect::<Vec<_>>().join(", ");
+    vec![
+        row("Wall segments, largest", list(&seen.segment_peak), "from the bottom up"),
+        row("Wall segments, at rest", list(&seen.segment_residual), "from the bottom up"),
+        row("Moment about the toe, largest", with_unit(seen.moment_peak, "N m/m"), ""),
+    ]
 }
 
 /// How the numbers were obtained, and the limits of credibility.

@@ -28,7 +28,7 @@ pub struct View {
 }
 
 /// A name with its value and, where it helps, a remark.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Row {
     pub name: String,
     pub value: String,
