@@ -9,15 +9,15 @@
 //!
 //! | to add | go to |
 //! |---|---|
-//! | a key of the design file | a line in [`design::schema`], its use in [`design::resolve`] |
+//! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
-//! | a contact law | a file beside [`dem::contact::law`] |
+//! | a contact law | a file beside [`dem::contact::law`]; its callers are the three loops in [`dem::contact`] and the bound in [`dem::time::stable_step`] |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | a structural element | a file in [`dem::elements`], its forces in [`dem::net`] |
 //! | a load model | a file in [`loads`], its use in [`demand::from_loads`] |
-//! | a check | a file in [`checks`] and a line in its list |
+//! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
 //! | a time series | [`dem::recorders`] |
-//! | a figure or row of the report | [`report::view`] or [`report::findings`], and the two templates |
+//! | a figure or row of the report | [`report::view`] or [`report::findings`]; the templates loop over them |
 //!
 //! # Invariants
 //! * `design` imports nothing above it; `dem` imports no other part; `loads` and `checks` never see `dem`. A test keeps

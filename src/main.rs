@@ -20,6 +20,7 @@ struct Arguments {
 #[derive(Args)]
 struct CheckArguments {
     /// Design file in YAML, for example designs/small_net.yaml
+    #[arg(required = true)]
     design: Option<PathBuf>,
     /// Folder for the report [default: out/<name of the design file>]
     #[arg(long, value_name = "DIR")]

@@ -143,6 +143,7 @@ fn numerics(event: &Event) -> Numerics {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
             _ => None,
         },
+        missed: event.ending == Ending::Steady && event.histories.force.iter().all(|force| force.norm() == 0.0),
         unfinished: event.ending == Ending::OutOfTime,
     }
 }

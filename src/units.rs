@@ -106,7 +106,7 @@ impl Dimension {
         let factor = factor_of(symbol).map_or(1.0, |(_, factor)| factor);
         let value = si / factor;
         let shown = if value != 0.0 && (value.abs() >= 1e5 || value.abs() < 1e-3) {
-            format!("{value:e}")
+            format!("{value:.2e}")
         } else {
             trim_zeros(&format!("{value:.4}"))
         };

@@ -16,6 +16,8 @@ pub struct Numerics {
     pub step_ratio: f64,
     /// Why the run ended early, if it did.
     pub broke_down: Option<String>,
+    /// Whether no grain ever touched the barrier.
+    pub missed: bool,
     /// Whether the answer still changed when the longest time was reached.
     pub unfinished: bool,
 }
@@ -36,6 +38,9 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     let stiffer = "a larger flow.contact_modulus makes grains stiffer";
     hold("the largest overlap over the grain's radius", numerics.overlap, OVERLAP_LIMIT, stiffer);
     hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT, finer);
+    if numerics.missed {
+        doubts.push("the flow came to rest without ever touching the barrier".to_string());
+    }
     if numerics.unfinished {
         doubts.push("the flow had not come to rest when the longest simulated time was reached".to_string());
     }
@@ -54,6 +59,7 @@ mod tests {
             Numerics { energy_error: f64::NAN, ..Numerics::default() },
             Numerics { overlap: 0.21, ..Numerics::default() },
             Numerics { step_ratio: 2.0, ..Numerics::default() },
+            Numerics { missed: true, ..Numerics::default() },
             Numerics { unfinished: true, ..Numerics::default() },
             Numerics { broke_down: Some("x".into()), ..Numerics::default() },
         ] {

@@ -110,6 +110,7 @@ mod tests {
         assert_eq!(verdict(95.0), CheckVerdict::Warn);
         assert_eq!(verdict(101.0), CheckVerdict::Fail);
         assert_eq!(verdict(f64::NAN), CheckVerdict::Fail);
+        assert_eq!(verdict(-f64::NAN), CheckVerdict::Fail);
     }
 
     #[test]

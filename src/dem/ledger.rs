@@ -84,6 +84,11 @@ impl Ledger {
     /// potential energy released since. Zero while nothing was put in.
     pub fn relative_error(&self, start: &Self) -> f64 {
         let put_in = start.kinetic + (start.potential - self.potential - self.carried_out).max(0.0);
-        if put_in > 0.0 { (self.total() - start.total()) / put_in } else { 0.0 }
+        let imbalance = self.total() - start.total();
+        match imbalance.is_nan() {
+            true => f64::NAN,
+            false if put_in > 0.0 => imbalance / put_in,
+            false => 0.0,
+        }
     }
 }

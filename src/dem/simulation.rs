@@ -171,10 +171,6 @@ impl Simulation {
         self.kinetic_before = self.motion_now();
     }
 
-    pub fn damping_ratio(&self) -> f64 {
-        self.damping_ratio
-    }
-
     fn law(&self) -> LawConstants {
         LawConstants {
             damping_ratio: self.damping_ratio,

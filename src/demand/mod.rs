@@ -14,9 +14,9 @@ pub struct Demand {
 }
 
 impl Demand {
-    /// The larger of the two.
+    /// The larger of the two; NaN if either is.
     pub fn largest(&self) -> Option<f64> {
-        self.guideline.into_iter().chain(self.simulation).max_by(f64::total_cmp)
+        self.guideline.into_iter().chain(self.simulation).reduce(larger)
     }
 
     /// Both multiplied by a partial factor.
@@ -36,7 +36,7 @@ pub struct Demands {
     pub rope_tension: Vec<Demand>,
     /// N
     pub anchor_force: Vec<Demand>,
-    /// Tension of the dissipators (N), without partial factor.
+    /// Tension of the dissipators (N): by the guideline under factored loads, of the simulation without factor.
     pub brake_force: Demand,
     /// m
     pub brake_stroke: Vec<Demand>,
@@ -55,7 +55,7 @@ impl Demands {
         let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.tension).collect();
         let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.stroke).collect();
         let simulated = |value: f64| Demand { guideline: None, simulation: Some(value) };
-        let highest = |values: &[f64]| values.iter().copied().reduce(f64::max);
+        let highest = |values: &[f64]| values.iter().copied().reduce(larger);
         let total_force = Demand { guideline: Some(guideline.largest_force), simulation: Some(observed.force_peak) };
         Self {
             total_force: total_force.times(load_factor),
@@ -69,6 +69,11 @@ impl Demands {
             residual_height: simulated(observed.residual_height),
         }
     }
+}
+
+/// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// Guideline and simulation rope by rope; the factor goes on the simulation alone.

@@ -240,7 +240,7 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
             _ => Err((node.describe(), None)),
         },
         Kind::Text => match node {
-            Node::Map(_) | Node::List(_) => Err((node.describe(), None)),
+            Node::Map(_) | Node::List(_) | Node::Nothing => Err((node.describe(), None)),
             _ => Ok(Value::Text(typed(node))),
         },
         Kind::Choice(words) => match node {

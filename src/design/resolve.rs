@@ -1,8 +1,7 @@
 //! From checked entries to the design, in SI.
 
 use crate::design::entries::Entries;
-use crate::design::rules::{flow_volume, quantiles, rope_heights};
-use crate::design::sizes::SizeCurve;
+use crate::design::rules::{flow_volume, rope_heights, size_curve};
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, Bottom, Channel, DamBreak, Design, DissipatorDesign, Factors, FidelityWish,
     FlexibleNet, Flow, LateralTo, Limits, MainRopes, Project, RigidWall, Rope, SimulationWishes,
@@ -51,22 +50,13 @@ fn flow(e: &Entries) -> Option<Flow> {
         mass: flow_volume(e)? * bulk_density,
         bulk_density,
         solid_density: value("solid_density")?,
-        sizes: sizes(e)?,
+        sizes: size_curve(e)?,
         aspect: value("grain_aspect")?,
         grain_friction: value("grain_friction")?.tan(),
         restitution: value("restitution")?,
         modulus: value("contact_modulus")?,
         arrival: arrival(e)?,
     })
-}
-
-fn sizes(e: &Entries) -> Option<SizeCurve> {
-    let uniform = |key: &str| e.number(&format!("flow.grain_sizes.uniform.{key}"));
-    if let (Some(smallest), Some(largest)) = (uniform("min"), uniform("max")) {
-        return Some(SizeCurve::ByNumber { smallest, largest });
-    }
-    let points = quantiles(e);
-    (points.len() >= 2).then(|| SizeCurve::through(&points))
 }
 
 fn arrival(e: &Entries) -> Option<Arrival> {
@@ -173,12 +163,14 @@ fn factors(e: &Entries) -> Option<Factors> {
 fn simulation(e: &Entries) -> Option<SimulationWishes> {
     let fidelity = match e.text("simulation.fidelity")? {
         "fast" => FidelityWish::Fast,
+        "standard" => FidelityWish::Standard,
         "fine" => FidelityWish::Fine,
-        _ => FidelityWish::Standard,
+        _ => return None,
     };
     let barrier_model = match e.text("simulation.barrier_model")? {
         "pinned_ropes" => BarrierModel::PinnedRopes,
-        _ => BarrierModel::SlidingRopes,
+        "sliding_ropes" => BarrierModel::SlidingRopes,
+        _ => return None,
     };
     let seed = e.number("simulation.seed")? as u64;
     Some(SimulationWishes { fidelity, barrier_model, seed, longest: e.number("simulation.longest")? })

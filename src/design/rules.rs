@@ -2,6 +2,7 @@
 //! silent: that was already reported.
 
 use crate::design::entries::Entries;
+use crate::design::sizes::SizeCurve;
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -31,7 +32,8 @@ pub const RULES: &[Rule] = &[
     opening_below_the_barrier,
     barrier_leans_within_reach,
     slope_lets_a_dam_break_flow,
-    block_higher_than_the_grains,
+    block_larger_than_the_grains,
+    dam_break_clears_the_barrier,
     lateral_ropes_have_their_dissipators,
     knots_are_bearable,
 ];
@@ -119,19 +121,19 @@ fn curve_increases(e: &Entries) -> Option<Problem> {
     ))
 }
 
-/// Largest and smallest diameter of the design, roughly.
-fn size_range(e: &Entries) -> Option<(f64, f64)> {
-    if let (Some(low), Some(high)) =
-        (e.number("flow.grain_sizes.uniform.min"), e.number("flow.grain_sizes.uniform.max"))
-    {
-        return Some((low, high));
+/// The size curve of the design, ends included, if it is sound.
+pub fn size_curve(e: &Entries) -> Option<SizeCurve> {
+    let uniform = |key: &str| e.number(&format!("flow.grain_sizes.uniform.{key}"));
+    if let (Some(smallest), Some(largest)) = (uniform("min"), uniform("max")) {
+        return (smallest <= largest).then_some(SizeCurve::ByNumber { smallest, largest });
     }
     let points = quantiles(e);
-    Some((points.first()?.1, points.last()?.1))
+    let rises = points.windows(2).all(|pair| pair[0].1 < pair[1].1);
+    (points.len() >= 2 && rises).then(|| SizeCurve::through(&points))
 }
 
 fn grains_fit_the_channel(e: &Entries) -> Option<Problem> {
-    let (largest, width) = (size_range(e)?.1, e.number("channel.width")?);
+    let (largest, width) = (size_curve(e)?.quantile(1.0), e.number("channel.width")?);
     (3.0 * largest > width).then(|| {
         let found = format!("grains of {} in a channel {} wide", length(largest), length(width));
         Problem::new("flow.grain_sizes", found, "grains of at most a third of the channel's width")
@@ -142,13 +144,17 @@ fn grains_fit_the_channel(e: &Entries) -> Option<Problem> {
 const MOST_GRAINS: f64 = 400_000.0;
 
 fn grain_count_is_bearable(e: &Entries) -> Option<Problem> {
-    let (low, high) = size_range(e)?;
+    let curve = size_curve(e)?;
     let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
-    let mean_cube = 0.25 * (low + high) * (low * low + high * high);
-    let count = solid / (std::f64::consts::PI / 6.0 * mean_cube);
+    let count = curve.count(solid);
     (count > MOST_GRAINS).then(|| {
-        Problem::new("flow.grain_sizes", format!("about {count:.0} grains"), format!("at most {MOST_GRAINS:.0} grains"))
-            .hint("coarsen the curve: the finest part of a debris flow need not be simulated grain by grain")
+        let finest = length(curve.quantile(0.0));
+        Problem::new(
+            "flow.grain_sizes",
+            format!("about {count:.2e} grains, the finest {finest}"),
+            format!("at most {MOST_GRAINS:.0} grains"),
+        )
+        .hint("coarsen the curve: the finest part of a debris flow need not be simulated grain by grain")
     })
 }
 
@@ -313,19 +319,30 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
     })
 }
 
-fn block_higher_than_the_grains(e: &Entries) -> Option<Problem> {
-    let largest = size_range(e)?.1;
-    let (path, depth) = match e.number("flow.arrival.surge.depth") {
+fn block_larger_than_the_grains(e: &Entries) -> Option<Problem> {
+    let largest = size_curve(e)?.quantile(1.0);
+    let area = flow_volume(e)? / e.number("channel.width")?;
+    let (typed_path, typed) = match e.number("flow.arrival.surge.depth") {
         Some(depth) => ("flow.arrival.surge.depth", depth),
-        None => {
-            let length = e.number("flow.arrival.dam_break.length")?;
-            ("flow.arrival.dam_break.length", flow_volume(e)? / (length * e.number("channel.width")?))
-        }
+        None => ("flow.arrival.dam_break.length", e.number("flow.arrival.dam_break.length")?),
     };
-    (depth < 1.2 * largest).then(|| {
-        let found = format!("a block {} deep of grains up to {}", length(depth), length(largest));
-        Problem::new(path, found, "a block deeper than 1.2 times its largest grains")
+    let smaller = typed.min(area / typed);
+    (smaller < 1.2 * largest).then(|| {
+        let found =
+            format!("a block {} by {} of grains up to {}", length(typed), length(area / typed), length(largest));
+        Problem::new(typed_path, found, "a block longer and deeper than 1.2 times its largest grains")
             .hint("grains cannot be packed into a layer thinner than themselves")
+    })
+}
+
+fn dam_break_clears_the_barrier(e: &Entries) -> Option<Problem> {
+    let distance = e.number("flow.arrival.dam_break.distance")?;
+    let lean = e.number(&at("tilt"))? + e.number("channel.slope")?;
+    let reach = (e.number(&at("height"))? * lean.sin()).max(0.0) + 0.5 * size_curve(e)?.quantile(1.0);
+    (distance < reach).then(|| {
+        let found =
+            format!("a gate {} from the foot of a barrier that reaches {} upstream", length(distance), length(reach));
+        Problem::new("flow.arrival.dam_break.distance", found, "a gate upstream of the whole barrier")
     })
 }
 

@@ -44,6 +44,17 @@ impl SizeCurve {
         }
     }
 
+    /// About how many grains a solid volume (m³) makes.
+    pub fn count(&self, solid_volume: f64) -> f64 {
+        const SLICES: usize = 1000;
+        let slice = solid_volume / SLICES as f64;
+        let grains_in = |index: usize| {
+            let diameter = self.quantile((index as f64 + 0.5) / SLICES as f64);
+            slice / (std::f64::consts::PI / 6.0 * diameter.powi(3))
+        };
+        (0..SLICES).map(grains_in).sum()
+    }
+
     /// Diameters of grains that together weigh `mass`, from fine to coarse. Each grain is the quantile at the
     /// middle of the mass it adds, so the curve is met to within the mass of one grain.
     pub fn grains(&self, mass: f64, solid_density: f64) -> Vec<f64> {
@@ -87,5 +98,7 @@ mod tests {
         let middle = grains.iter().filter(|d| **d < 14.748e-3).count() as f64;
         assert!((middle / grains.len() as f64 - 0.5).abs() < 0.01);
         assert!((grains.len() as f64 - 5406.0).abs() < 4.0, "{}", grains.len());
+        let counted = SizeCurve::ByNumber { smallest: 9.832e-3, largest: 19.664e-3 }.count(27.25 / 2701.0);
+        assert_relative_eq!(counted, grains.len() as f64, max_relative = 0.01);
     }
 }

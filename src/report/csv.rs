@@ -19,12 +19,15 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
         ("rope_largest", "n", &histories.rope_largest),
         ("anchor", "n", &histories.anchors),
         ("brake_stroke", "m", &histories.strokes),
+        ("brake", "n", &histories.brakes),
     ];
     for (name, unit, rows) in groups {
         for (index, row) in rows.iter().enumerate() {
             add(format!("{name}_{}_{unit}", index + 1), row.clone());
         }
     }
+    add("lateral_largest_n".into(), histories.lateral_largest.clone());
+    add("bed_force_n".into(), histories.bed_force.clone());
     add("net_largest_n".into(), histories.net_largest.clone());
     add("top_rope_height_m".into(), histories.top_rope_height.clone());
     add("velocity_mean_x_m_s".into(), histories.velocity.iter().map(|velocity| velocity[0]).collect());

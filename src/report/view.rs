@@ -6,6 +6,7 @@ use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
 use crate::pipeline::{Run, Verdict};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
+use crate::sources::VOLKWEIN_2014;
 
 #[derive(Debug, Serialize)]
 pub struct View {
@@ -214,8 +215,8 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
     let input = &run.guideline.input;
     let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
     vec![
-        row("K", figures(input.earth_pressure), "static pressure K ρ g H cos α"),
-        row("λ", figures(input.dynamic_pressure), "dynamic pressure λ ρ v²"),
+        row("K", figures(input.earth_pressure), &format!("static pressure K ρ g H cos α; {VOLKWEIN_2014}")),
+        row("λ", figures(input.dynamic_pressure), &format!("dynamic pressure λ ρ v²; {VOLKWEIN_2014}")),
         row("Density ρ", with_unit(input.density, "kg/m³"), "bulk density of the flow"),
         row("Depth h", with_unit(input.depth, "m"), "of the moving flow"),
         row("Velocity v", with_unit(input.velocity, "m/s"), "of the moving flow"),

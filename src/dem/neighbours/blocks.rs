@@ -1,7 +1,7 @@
 //! Blocks: fixed slices of the grain table, each with its own candidate lists and scratch space.
 //!
 //! How many blocks there are depends on the number of grains alone, never on the number of threads: this is
-//! what makes a run repeat bit for bit on any machine.
+//! what makes a run repeat bit for bit.
 
 use std::ops::Range;
 

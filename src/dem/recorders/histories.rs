@@ -78,8 +78,11 @@ pub fn smoothed(series: &[f64], window: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Largest value and its index; (0, 0.0) for an empty series.
+/// Largest value and its index; (0, 0.0) for an empty series, NaN if any value is NaN.
 pub fn peak(series: &[f64]) -> (usize, f64) {
+    if let Some(index) = series.iter().position(|value| value.is_nan()) {
+        return (index, f64::NAN);
+    }
     series.iter().copied().enumerate().fold(
         (0, 0.0),
         |best, (index, value)| {

@@ -67,10 +67,12 @@ impl Screen {
     }
 }
 
-/// The point of a row at width `y`, if the row reaches there.
+/// The point of a row at width `y`; beyond its ends, the end.
 fn at_width(row: &[Vec3], y: f64) -> Option<Vec3> {
     let upper = row.partition_point(|point| point.y < y);
-    let (a, b) = (row.get(upper.checked_sub(1)?)?, row.get(upper)?);
+    let (Some(a), Some(b)) = (upper.checked_sub(1).and_then(|index| row.get(index)), row.get(upper)) else {
+        return if upper == 0 { row.first().copied() } else { row.last().copied() };
+    };
     let share = (y - a.y) / (b.y - a.y);
     Some(a + (b - a) * share)
 }
@@ -101,5 +103,8 @@ mod tests {
         assert_eq!(way(0.5, 2.0, 2.8), Some(Way::Over));
         assert_eq!(way(0.5, 0.4, 1.5), Some(Way::Beside));
         assert_eq!(way(0.05, 0.4, 1.5), None);
+        // Outside all rows in width, and above or below the screen.
+        assert_eq!(way(0.5, 0.4, 2.8), Some(Way::Over));
+        assert_eq!(way(0.5, 0.4, 0.2), Some(Way::Under));
     }
 }

@@ -13,6 +13,9 @@ use crate::dem::tables::grains::Grain;
 /// A grain is at rest below this share of the highest mean velocity (Albaba 2015, section 3.3.3).
 const DEAD_SHARE: f64 = 0.05;
 
+/// Rounding of the sum of all masses.
+const UNSEEN: f64 = 1e-9;
+
 /// What and how often to record.
 #[derive(Clone, Debug)]
 pub struct RecorderSetup {
@@ -99,11 +102,6 @@ impl Recorder {
         self.sample(simulation);
         self.sum = IntervalSum::default();
         true
-    }
-
-    /// Highest mean velocity so far (m/s).
-    pub fn highest_velocity(&self) -> f64 {
-        self.highest_velocity
     }
 
     fn add_step(&mut self, simulation: &Simulation) {
@@ -193,6 +191,11 @@ impl Recorder {
         for grain in grains.iter().filter(|grain| !self.passed.contains_key(&grain.id)) {
             let at_rest = grain.velocity.norm_squared() <= limit;
             *(if at_rest { &mut dead } else { &mut moving }) += grain.body.mass / self.setup.mass;
+        }
+        // What is neither here nor known to have passed has left the model between two looks: it is lost all the same.
+        let unseen = 1.0 - dead - moving - self.lost.iter().sum::<f64>();
+        if unseen > UNSEEN {
+            self.lost[Way::Over as usize] += unseen;
         }
         self.histories.dead.push(if self.impact { dead } else { 0.0 });
         self.histories.moving.push(moving);

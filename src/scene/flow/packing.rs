@@ -91,7 +91,7 @@ fn hold_inside(grains: &mut [Grain], room: PackingBox) {
         for axis in 0..3 {
             // Both member centres must lie inside, or the wall would push them out.
             let margin = 0.5 * grain.body.radius + grain.body.offset * grain.axis[axis].abs();
-            let held = grain.position[axis].clamp(margin, room.size[axis] - margin);
+            let held = grain.position[axis].max(margin).min((room.size[axis] - margin).max(margin));
             if held != grain.position[axis] {
                 grain.position[axis] = held;
                 grain.velocity = Vec3::zeros();
