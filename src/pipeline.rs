@@ -57,16 +57,26 @@ pub struct Facts {
     pub spheres: usize,
     pub barrier_nodes: usize,
     pub barrier_elements: usize,
+    /// Simulated time since the release (s).
     pub simulated: f64,
+    /// Whether the answer no longer changed at the end.
     pub steady: bool,
+    /// Steps made, those of the settling included.
     pub steps: u64,
+    /// Time step at the end (s).
     pub time_step: f64,
+    /// How often an audit has cut the time step.
     pub step_cuts: u32,
+    /// Largest step over critical step that an audit found.
     pub step_ratio: StepRatio,
+    /// How often the neighbour lists were made anew.
     pub renewals: u64,
     pub threads: usize,
+    /// From design to end of simulation (s).
     pub wall_clock: f64,
+    /// Window over which total and wall forces are averaged (s).
     pub smoothing: f64,
+    /// Interval of the time series (s).
     pub sampling: f64,
     /// Bulk density of the packed flow over the one asked for.
     pub packed_share: f64,

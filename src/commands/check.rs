@@ -38,6 +38,9 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
         Ok(run) => run,
         Err(error) => {
             eprintln!("error: {error}");
+            if folder.join("result.json").exists() {
+                eprintln!("note: {} still holds the report of an earlier run", folder.display());
+            }
             return ExitCode::Undecided;
         }
     };

@@ -15,17 +15,23 @@ pub struct Observed {
     /// Highest mean velocity of all grains along the channel (m/s), and its time (s).
     pub velocity_peak: f64,
     pub velocity_peak_time: f64,
+    /// Share of the mass that has not passed the barrier.
     pub retained: f64,
     /// Shares that went through, under, beside, over.
     pub lost: [f64; 4],
     /// Lowest height of the top rope at the end over its initial height; 1 for a wall.
     pub residual_height: f64,
+    /// Largest tension anywhere along each main rope, its dissipators included (N).
     pub rope_tension_peak: Vec<f64>,
+    /// Largest mean tension along each main rope, and its mean at the end (N).
     pub rope_mean_peak: Vec<f64>,
     pub rope_mean_residual: Vec<f64>,
+    /// Largest load of each rope's higher loaded anchor (N).
     pub anchor_force_peak: Vec<f64>,
+    /// Larger stroke used by each rope's two dissipators (m), and their largest tension (N).
     pub brake_stroke: Vec<f64>,
     pub brake_force_peak: Vec<f64>,
+    /// Largest tension of the lateral ropes (N).
     pub lateral_tension_peak: f64,
     /// Largest force on what holds the lowest rope to the bed (N).
     pub bed_force_peak: f64,

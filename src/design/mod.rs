@@ -36,13 +36,16 @@ pub struct Project {
 /// A straight channel of rectangular section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Channel {
+    /// Between the side walls (m).
     pub width: f64,
     /// Slope of the bed against the horizontal (rad).
     pub slope: f64,
+    /// Of the side walls, normal to the bed (m).
     pub wall_height: f64,
+    /// Friction of grains on the bed and on the side walls, tan φ.
     pub base_friction: f64,
     pub side_friction: f64,
-    /// Friction of grains on the barrier, wall or rope.
+    /// Friction of grains on the barrier, wall or rope, tan φ.
     pub barrier_friction: f64,
 }
 
