@@ -158,7 +158,7 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
             format!("The simulation cannot be relied on; see the reasons below.{hint}")
         }
         Verdict::Fail => format!("{failed} of {} checks fail.{governing}", held.len()),
-        Verdict::Pass => format!("All {} checks hold.{governing}", held.len()),
+        Verdict::Pass => format!("{0} of {0} checks hold.{governing}", held.len()),
     }
 }
 
