@@ -12,7 +12,7 @@ use barrier_check::dem::elements::sliding::Chain;
 use barrier_check::dem::simulation::{Model, Simulation, Unstable};
 use barrier_check::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
 use barrier_check::dem::tables::grains::GrainShape;
-use common::free_model;
+use common::{ball, free_model};
 
 const AXIAL_STIFFNESS: f64 = 3.21699e6;
 
@@ -124,4 +124,26 @@ fn a_step_beyond_the_critical_one_is_noticed() {
     let mut simulation = simulate(build(), Vec3::zeros(), 3e-4);
     (0..2000).try_for_each(|_| simulation.step()).expect("stable below the critical step");
     assert!(simulation.extremes.step_ratio.nodes < 1.0);
+}
+
+/// A grain on a knot from which all ropes lead away is pushed once, not once by each rope.
+#[test]
+fn a_grain_on_a_knot_is_pushed_once() {
+    let radius = 0.2;
+    let mut barrier = Barrier::default();
+    barrier.contact_modulus = 4e9;
+    barrier.nodes = vec![node(Vec3::zeros(), 1.0, true)];
+    for (index, [x, y]) in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].into_iter().enumerate() {
+        barrier.nodes.push(node(Vec3::new(x, y, -0.5), 1.0, true));
+        barrier.segments.push(segment([0, index as u32 + 1], 2.0, 0.0));
+    }
+    barrier.connect();
+    let grain = ball(0, Vec3::new(0.0, 0.0, radius + 0.016 - 0.001), radius, 2600.0);
+    let model = Model { barrier: Some(barrier), ..free_model(vec![grain], GrainShape::Sphere) };
+    let mut simulation = Simulation::new(model, 1e-5, 0.05, 1e3);
+    simulation.step().expect("stable");
+    assert_eq!(simulation.neighbours.blocks[0].ropes.pushes.len(), 1);
+    let (grain, rope) = (1e8 * radius, 4e9 * 0.016);
+    let stiffness = 2.0 * grain * rope / (grain + rope);
+    assert_relative_eq!(-simulation.sums.net.from_grains.z, stiffness * 0.001, max_relative = 1e-9);
 }
