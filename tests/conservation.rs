@@ -146,3 +146,23 @@ fn renewing_the_lists_changes_nothing() {
     assert_relative_eq!(seldom.lost_friction, often.lost_friction, max_relative = 1e-6);
     assert_relative_eq!(seldom.kinetic, often.kinetic, max_relative = 1e-6);
 }
+
+/// Two balls that start just outside each other's list must be listed before they touch: an elastic impact then keeps
+/// their speed, while one noticed late would gain from the overlap it starts with.
+#[test]
+fn balls_from_outside_the_list_meet_without_a_jump() {
+    let (radius, skin, speed) = (0.01, 0.004, 1.0);
+    let mut left = common::ball(0, Vec3::new(-radius - 0.6 * skin, 0.0, 0.0), radius, 2600.0);
+    let mut right = common::ball(1, Vec3::new(radius + 0.6 * skin, 0.0, 0.0), radius, 2600.0);
+    left.velocity.x = speed;
+    right.velocity.x = -speed;
+    let model = Model { material: material(1.0, 0.0), ..free_model(vec![left, right], GrainShape::Sphere) };
+    let mut simulation = Simulation::new(model, 2e-6, skin, 1e6);
+    for _ in 0..3000 {
+        simulation.step().expect("stable");
+    }
+    for grain in &simulation.model.grains {
+        assert_relative_eq!(grain.velocity.norm(), speed, max_relative = 1e-3);
+        assert!(grain.velocity.x * grain.position.x > 0.0, "the balls did not bounce");
+    }
+}
