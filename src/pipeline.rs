@@ -99,8 +99,8 @@ pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
     let guideline = guideline(design);
     let scene = build(design, &fidelity, design.simulation.seed)?;
     let mut facts = Facts {
-        grains: scene.simulation.model.grains.len(),
-        spheres: scene.simulation.members.len(),
+        grains: scene.simulation.grains.len(),
+        spheres: scene.simulation.grains.members(),
         smoothing: scene.smoothing,
         sampling: scene.recorder.interval,
         packed_share: scene.packed_share,

@@ -4,7 +4,8 @@ mod common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use barrier_check::dem::Vec3;
-use barrier_check::dem::simulation::{Model, Simulation};
+use barrier_check::dem::model::Model;
+use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use common::{ball, floor, free_model, material};
 
@@ -34,7 +35,7 @@ fn measured_restitution_between_grains_is_the_nominal_one() {
     for nominal in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
         let mut simulation = head_on(nominal, 1.0, 1.0 / 400.0);
         run(&mut simulation, 1200);
-        let measured = simulation.model.grains.iter().map(|g| g.velocity.x.abs()).sum::<f64>() / 2.0;
+        let measured = simulation.snapshot().iter().map(|g| g.velocity.x.abs()).sum::<f64>() / 2.0;
         assert_abs_diff_eq!(measured, nominal, epsilon = 0.01);
     }
 }
@@ -49,7 +50,7 @@ fn measured_restitution_at_a_wall_is_the_nominal_one() {
         model.surfaces = vec![floor(0.0)];
         let mut simulation = Simulation::new(model, contact_time / 400.0, 0.2 * RADIUS, 1e6);
         run(&mut simulation, 1200);
-        assert_abs_diff_eq!(simulation.model.grains[0].velocity.z, nominal, epsilon = 0.01);
+        assert_abs_diff_eq!(simulation.grains.grain(0).velocity.z, nominal, epsilon = 0.01);
     }
 }
 
@@ -69,7 +70,7 @@ fn clumps_meet_with_their_own_reduced_mass() {
     let contact_time = std::f64::consts::PI * (0.5 * body.mass / (1e8 * body.radius)).sqrt();
     let mut simulation = Simulation::new(model, contact_time / 400.0, 0.002, 1e6);
     run(&mut simulation, 1200);
-    assert_abs_diff_eq!(simulation.model.grains[0].velocity.x.abs(), 0.3, epsilon = 0.01);
+    assert_abs_diff_eq!(simulation.grains.grain(0).velocity.x.abs(), 0.3, epsilon = 0.01);
 }
 
 #[test]
@@ -83,7 +84,7 @@ fn a_ball_at_rest_sinks_in_by_its_weight_over_the_stiffness() {
     let weight = model.grains[0].body.mass * 9.81;
     let mut simulation = Simulation::new(model, 2e-6, 0.2 * RADIUS, 1e6);
     run(&mut simulation, 20_000);
-    let sunk = RADIUS - simulation.model.grains[0].position.z;
+    let sunk = RADIUS - simulation.grains.grain(0).position.z;
     assert_relative_eq!(sunk, weight / (1e8 * RADIUS), max_relative = 1e-3);
     assert_relative_eq!(-simulation.sums.surfaces.base.z, weight, max_relative = 1e-4);
 }
@@ -101,7 +102,7 @@ fn a_slipping_ball_rolls_with_five_sevenths_of_its_speed() {
     let mut simulation = Simulation::new(model, 5e-6, 0.2 * RADIUS, 1e6);
     // Rolls from t = 2 v0/(7 μ g) = 0.0971 s on.
     run(&mut simulation, 22_000);
-    let grain = &simulation.model.grains[0];
+    let grain = &simulation.grains.grain(0);
     assert_relative_eq!(grain.velocity.x, 5.0 / 7.0, max_relative = 0.01);
     assert_relative_eq!(grain.spin().y * RADIUS, grain.velocity.x, max_relative = 0.01);
 }
@@ -117,7 +118,7 @@ fn a_ball_rolls_down_a_slope_at_five_sevenths_of_gravity() {
     model.surfaces = vec![floor(25_f64.to_radians().tan())];
     let mut simulation = Simulation::new(model, 5e-6, 0.2 * RADIUS, 1e6);
     run(&mut simulation, 20_000);
-    assert_relative_eq!(simulation.model.grains[0].velocity.x / simulation.time, 4.504, max_relative = 0.005);
+    assert_relative_eq!(simulation.grains.grain(0).velocity.x / simulation.time, 4.504, max_relative = 0.005);
 }
 
 /// Oblique impact without damping on a wall, k_t = 2/7 k: e_t = 3/7 of the contact-point velocity is reversed
@@ -135,7 +136,7 @@ fn oblique_impact_follows_the_closed_form() {
         model.surfaces = vec![floor(friction)];
         let mut simulation = Simulation::new(model, contact_time / 2000.0, 0.2 * RADIUS, 1e6);
         run(&mut simulation, 3000);
-        let grain = &simulation.model.grains[0];
+        let grain = &simulation.grains.grain(0);
         let kept = grain.velocity.x / (ratio * friction * speed);
         if ratio <= 3.5 {
             assert_abs_diff_eq!(kept, 3.0 / 7.0, epsilon = 0.005);
@@ -158,7 +159,7 @@ fn a_free_clump_keeps_momentum_and_energy() {
     let model = free_model(vec![grain], GrainShape::Clump);
     let mut simulation = Simulation::new(model, 1e-4, 0.002, 1e6);
     run(&mut simulation, 20_000);
-    let after = &simulation.model.grains[0];
+    let after = &simulation.grains.grain(0);
     assert_eq!(after.angular_momentum, before.1);
     assert_relative_eq!(energy(after), before.0, max_relative = 1e-9);
     assert_relative_eq!(after.axis.norm(), 1.0, max_relative = 1e-9);

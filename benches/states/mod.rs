@@ -9,7 +9,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use barrier_check::dem::Vec3;
-use barrier_check::dem::simulation::{Material, Model, Simulation};
+use barrier_check::dem::model::{Material, Model};
+use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use barrier_check::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use barrier_check::scene::flow::packing::{PackingBox, pack};
@@ -88,7 +89,7 @@ fn make(count: usize, phase: Phase) -> Vec<Grain> {
     while simulation.time < time {
         simulation.step().expect("stable");
     }
-    let mut grains = simulation.model.grains;
+    let mut grains = simulation.snapshot();
     grains.sort_by_key(|grain| grain.id);
     grains
 }

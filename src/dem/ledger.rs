@@ -34,13 +34,16 @@ impl ContactSums {
         self.overlap_ratio = self.overlap_ratio.max(overlap_ratio);
         self.contacts += 1;
     }
+}
 
-    /// Contacts across a block border are met by both blocks; each books half the energy.
-    pub fn halve_energies(&mut self) {
-        self.stored *= 0.5;
-        self.lost_damping *= 0.5;
-        self.lost_friction *= 0.5;
-    }
+/// Energies of motion and place at one instant (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotionEnergy {
+    pub kinetic: f64,
+    /// Its rotational part.
+    pub rotational: f64,
+    /// Gravity potential.
+    pub potential: f64,
 }
 
 /// Energies of the whole model at one instant, and losses since the start (all J).

@@ -5,6 +5,7 @@ pub mod contact;
 pub mod elements;
 pub mod geometry;
 pub mod ledger;
+pub mod model;
 pub mod neighbours;
 pub mod net;
 pub mod recorders;

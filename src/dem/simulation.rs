@@ -8,15 +8,15 @@ use crate::dem::contact::law::LawConstants;
 use crate::dem::contact::restitution::damping_ratio_for;
 use crate::dem::contact::ropes::RopeContext;
 use crate::dem::contact::surfaces::{SurfaceContext, SurfaceForces, load_surfaces};
-use crate::dem::ledger::{ContactSums, Ledger};
+use crate::dem::ledger::{ContactSums, Ledger, MotionEnergy};
+use crate::dem::model::Model;
 use crate::dem::neighbours::blocks::Block;
-use crate::dem::neighbours::drift::strayed;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
 use crate::dem::net::{NetForces, pull_all, slide_all};
-use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grains::{Grain, GrainShape, Member, MemberLoad, place_members};
-use crate::dem::tables::surfaces::{Surface, SurfaceRole};
-use crate::dem::time::integrate::{MotionSums, Stretch, move_grains, move_nodes};
+use crate::dem::tables::grain_table::{GrainLoad, GrainTable};
+use crate::dem::tables::grains::Grain;
+use crate::dem::tables::surfaces::SurfaceRole;
+use crate::dem::time::integrate::{Pace, Stretch, move_nodes};
 use crate::dem::time::stable_step::{Audit, StepRatio};
 
 /// Steps between two audits of the stable step.
@@ -27,35 +27,6 @@ const STEP_AFTER_CUT: f64 = 0.95;
 
 /// Share of the first time step below which a run is given up.
 const SHORTEST_STEP: f64 = 0.05;
-
-/// What the grains are made of, as contacts feel it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Contact modulus E (Pa): k = 2 E r₁ r₂/(r₁+r₂).
-    pub modulus: f64,
-    /// Normal restitution ε, 0 < ε ≤ 1.
-    pub restitution: f64,
-    /// k_t / k_n, 2/7 by Silbert 2001.
-    pub tangential_ratio: f64,
-    /// Friction coefficient between grains, tan φ.
-    pub friction: f64,
-}
-
-/// Everything that is simulated, at rest or in motion.
-#[derive(Clone, Debug)]
-pub struct Model {
-    pub shape: GrainShape,
-    pub grains: Vec<Grain>,
-    pub surfaces: Vec<Surface>,
-    pub barrier: Option<Barrier>,
-    pub material: Material,
-    /// m/s², in the channel frame.
-    pub gravity: Vec3,
-    /// Tops of the rigid wall's segments from the bottom (m); empty without a rigid wall.
-    pub wall_levels: Vec<f64>,
-    /// Grains beyond this x are taken out of the model (m).
-    pub outlet: f64,
-}
 
 /// Why a run cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -86,9 +57,10 @@ pub struct StepSums {
 }
 
 pub struct Simulation {
+    /// All but the grains; those are in `grains`.
     pub model: Model,
-    pub members: Vec<Member>,
-    loads: Vec<MemberLoad>,
+    pub grains: GrainTable,
+    loads: Vec<GrainLoad>,
     pub neighbours: Neighbours,
     /// Time step (s).
     pub time_step: f64,
@@ -99,27 +71,22 @@ pub struct Simulation {
     /// Time since the start (s).
     pub time: f64,
     pub sums: StepSums,
+    /// Losses are booked in every step; energies in place only by [`Self::step_and_account`].
     pub ledger: Ledger,
     pub extremes: Extremes,
     /// How often an audit has shortened the time step.
     pub step_cuts: u32,
     first_time_step: f64,
     damping_ratio: f64,
-    kinetic_before: MotionSums,
     /// Speed no grain or node can have by honest means (m/s).
     speed_limit: f64,
 }
 
 impl Simulation {
-    pub fn new(model: Model, time_step: f64, skin: f64, speed_limit: f64) -> Self {
-        let per_grain = model.shape.members();
-        let mut members = vec![Member::default(); model.grains.len() * per_grain];
-        for (grain, rows) in model.grains.iter().zip(members.chunks_exact_mut(per_grain)) {
-            place_members(grain, rows);
-        }
-        let damping_ratio = damping_ratio_for(model.material.restitution);
-        let mut simulation = Self {
-            members,
+    pub fn new(mut model: Model, time_step: f64, skin: f64, speed_limit: f64) -> Self {
+        let grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
+        Self {
+            grains,
             loads: Vec::new(),
             neighbours: Neighbours::new(skin),
             time_step,
@@ -131,30 +98,42 @@ impl Simulation {
             extremes: Extremes::default(),
             step_cuts: 0,
             first_time_step: time_step,
-            damping_ratio,
-            kinetic_before: MotionSums::default(),
+            damping_ratio: damping_ratio_for(model.material.restitution),
             speed_limit,
             model,
-        };
-        simulation.kinetic_before = simulation.motion_now();
-        simulation
+        }
     }
 
     /// Advances the model by one step.
     pub fn step(&mut self) -> Result<(), Unstable> {
-        if self.neighbours.expired(self.model.barrier.as_ref()) {
-            self.check_finite()?;
-            self.renew();
-        }
-        self.steps += 1;
-        self.load();
-        self.gather_sums();
-        if self.steps.is_multiple_of(STEPS_PER_AUDIT) && self.drag == 0.0 {
-            self.audit()?;
-        }
+        self.find_forces()?;
         self.advance();
-        self.time += self.time_step;
         Ok(())
+    }
+
+    /// Advances the model by one step and closes the energy account of the instant its forces belong to: motion at the
+    /// half steps before and after counts half each.
+    pub fn step_and_account(&mut self) -> Result<(), Unstable> {
+        self.find_forces()?;
+        let before = self.motion_now();
+        self.advance();
+        let after = self.motion_now();
+        self.ledger.kinetic = 0.5 * (before.kinetic + after.kinetic);
+        self.ledger.rotational = 0.5 * (before.rotational + after.rotational);
+        self.ledger.potential = before.potential;
+        Ok(())
+    }
+
+    /// All grains as they are now.
+    pub fn snapshot(&self) -> Vec<Grain> {
+        self.grains.grains()
+    }
+
+    /// Puts the grain in `row` somewhere else, at rest.
+    pub fn put(&mut self, row: usize, position: &Vec3) {
+        self.grains.place[row].set_vector(position);
+        self.grains.motion[row].set_vector(&Vec3::zeros());
+        self.neighbours.lose();
     }
 
     /// Takes away all surfaces of the given role (opens the gate).
@@ -168,62 +147,61 @@ impl Simulation {
         self.time = 0.0;
         self.ledger = Ledger::default();
         self.extremes = Extremes::default();
-        self.kinetic_before = self.motion_now();
     }
 
     fn law(&self) -> LawConstants {
-        LawConstants {
-            damping_ratio: self.damping_ratio,
-            tangential_ratio: self.model.material.tangential_ratio,
-            time_step: self.time_step,
+        LawConstants::new(self.damping_ratio, self.model.material.tangential_ratio, self.time_step)
+    }
+
+    fn find_forces(&mut self) -> Result<(), Unstable> {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
+            self.check_finite()?;
+            self.renew();
         }
+        self.steps += 1;
+        self.load();
+        self.gather_sums();
+        if self.steps.is_multiple_of(STEPS_PER_AUDIT) && self.drag == 0.0 {
+            self.audit()?;
+        }
+        Ok(())
     }
 
     fn renew(&mut self) {
-        let carried = self.remove_departed();
-        self.ledger.carried_out += carried;
-        let mut bodies = Bodies {
-            shape: self.model.shape,
-            grains: &mut self.model.grains,
-            surfaces: &self.model.surfaces,
-            barrier: self.model.barrier.as_ref(),
-            step: self.steps as u32,
-        };
-        self.neighbours.renew(&mut bodies, &mut self.members);
-        self.loads.resize(self.members.len(), MemberLoad::default());
+        self.remove_departed();
+        let mut bodies =
+            Bodies { grains: &mut self.grains, surfaces: &self.model.surfaces, barrier: self.model.barrier.as_ref() };
+        self.neighbours.renew(&mut bodies);
+        self.loads.resize(self.grains.len(), GrainLoad::default());
     }
 
-    /// Removes grains beyond the outlet; returns the energy they carry (J).
-    fn remove_departed(&mut self) -> f64 {
-        let (outlet, gravity) = (self.model.outlet, self.model.gravity);
-        let mut carried = 0.0;
-        let before = &mut self.kinetic_before;
-        self.model.grains.retain(|grain| {
-            let stays = grain.position.x <= outlet;
-            if !stays {
-                let spin_energy = 0.5 * grain.spin().dot(&grain.angular_momentum);
-                let kinetic = 0.5 * grain.body.mass * grain.velocity.norm_squared() + spin_energy;
-                before.kinetic -= kinetic;
-                before.rotational -= spin_energy;
-                carried += kinetic - grain.body.mass * gravity.dot(&grain.position);
-            }
-            stays
-        });
-        carried
+    /// Removes grains beyond the outlet and books the energy they carry.
+    fn remove_departed(&mut self) {
+        let outlet = self.model.outlet;
+        if self.grains.place.iter().all(|place| place.0[0] <= outlet) {
+            return;
+        }
+        let (stay, leave): (Vec<u32>, Vec<u32>) =
+            (0..self.grains.len() as u32).partition(|&row| self.grains.place[row as usize].0[0] <= outlet);
+        for row in leave {
+            let grain = self.grains.grain(row as usize);
+            let [kinetic, _] = grain.kinetic_energy();
+            self.ledger.carried_out += kinetic - grain.body.mass * self.model.gravity.dot(&grain.position);
+        }
+        self.grains.arrange(&stay);
     }
 
     /// Forces of all contacts and elements, at the present places.
     fn load(&mut self) {
         let law = self.law();
-        let step = self.steps as u32;
-        let Self { model, members, loads, neighbours, sums, .. } = self;
-        let forces = BlockForces { model, members, law, step };
-        let block_rows = neighbours.blocks.first().map_or(1, |block| block.members.len().max(1));
+        let Self { model, grains, loads, neighbours, sums, .. } = self;
+        let forces = BlockForces { model, grains, law };
+        let rows = block_rows(&neighbours.blocks);
         let (net, ()) = rayon::join(
             || model.barrier.as_ref().map(|barrier| pull_all(barrier, law.time_step)),
             || {
-                let rows = loads.par_chunks_mut(block_rows).zip(neighbours.blocks.par_iter_mut());
-                rows.for_each(|(loads, block)| forces.load_block(block, loads));
+                let blocks = loads.par_chunks_mut(rows).zip(neighbours.blocks.par_iter_mut());
+                blocks.for_each(|(loads, block)| forces.load_block(block, loads));
             },
         );
         sums.net = net.unwrap_or_default();
@@ -232,7 +210,7 @@ impl Simulation {
     /// Adds up the blocks in their fixed order.
     fn gather_sums(&mut self) {
         let mut contacts = ContactSums::default();
-        let mut surfaces = std::mem::take(&mut self.sums.surfaces);
+        let surfaces = &mut self.sums.surfaces;
         surfaces.reset(self.model.wall_levels.len());
         for block in &self.neighbours.blocks {
             contacts.add(&block.sums);
@@ -248,22 +226,18 @@ impl Simulation {
         self.ledger.lost_ropes += self.sums.net.lost_ropes;
         self.extremes.overlap_ratio = self.extremes.overlap_ratio.max(contacts.overlap_ratio);
         self.sums.contacts = contacts;
-        self.sums.surfaces = surfaces;
     }
 
     /// Holds the time step against what is connected now, and cuts it where it is too long.
     fn audit(&mut self) -> Result<(), Unstable> {
         let audit = Audit {
-            grains: &self.model.grains,
-            members: &self.members,
-            per_grain: self.model.shape.members(),
+            grains: &self.grains,
             surfaces: &self.model.surfaces,
             barrier: self.model.barrier.as_ref(),
             blocks: &self.neighbours.blocks,
             law: self.law(),
             modulus: self.model.material.modulus,
             friction: self.model.material.friction,
-            step: self.steps as u32,
         };
         let ratio = audit.ratio();
         let worst = &mut self.extremes.step_ratio;
@@ -278,50 +252,38 @@ impl Simulation {
         Ok(())
     }
 
-    /// Moves everything through the step and closes the account of the instant the forces belong to.
+    /// Moves everything through the step.
     fn advance(&mut self) {
-        let time = Stretch { step: self.time_step, drag: self.drag };
-        let gravity = self.model.gravity;
-        let per_grain = self.model.shape.members();
-        let mut motion = MotionSums::default();
+        let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
+        let mut fastest_node = 0.0;
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_dissipators += self.sums.net.slip_dissipators(barrier);
             self.ledger.lost_friction += slide_all(barrier);
-            motion.add(&move_nodes(&mut barrier.nodes, &self.sums.net.forces, &gravity, self.time_step));
+            fastest_node = move_nodes(&mut barrier.nodes, &self.sums.net.forces, &time.gravity, time.step).sqrt();
         }
-        self.neighbours.elapsed += self.time_step;
-        let Neighbours { blocks, references, elapsed, .. } = &mut self.neighbours;
-        let rows = blocks.first().map_or(1, |block| block.members.len().max(1));
-        let elapsed = *elapsed;
-        let moved: Vec<MotionSums> = self
-            .model
-            .grains
-            .par_chunks_mut((rows / per_grain).max(1))
-            .zip(self.members.par_chunks_mut(rows))
-            .zip(self.loads.par_chunks(rows))
-            .zip(references.par_chunks(rows))
-            .zip(blocks.par_iter_mut())
-            .map(|((((grains, members), loads), references), block)| {
-                let sums = move_grains(grains, members, loads, &gravity, time);
-                block.strayed = strayed(references, members, elapsed);
-                sums
-            })
-            .collect();
-        for sums in &moved {
-            motion.add(sums);
+        let blocks = &self.neighbours.blocks;
+        let rows = self.grains.rows_by_block(&mut self.loads, &self.neighbours.drift, block_rows(blocks));
+        let paces = rows.into_par_iter().enumerate().map(|(number, rows)| {
+            take_post(blocks, number, rows.loads);
+            rows.advance(&time)
+        });
+        let paces: Vec<Pace> = paces.collect();
+        let stray = paces.iter().map(|pace| pace.stray).fold(0.0, f64::max);
+        let Neighbours { clocks, blocks, .. } = &mut self.neighbours;
+        clocks.tick(time.step, stray, fastest_node);
+        for (block, pace) in blocks.iter_mut().zip(&paces) {
+            clocks.tick_block(&mut block.clocks, time.step, pace.stray, stray, fastest_node);
         }
-        self.ledger.kinetic = 0.5 * (self.kinetic_before.kinetic + motion.kinetic);
-        self.ledger.rotational = 0.5 * (self.kinetic_before.rotational + motion.rotational);
-        self.ledger.potential = motion.potential;
-        self.kinetic_before = motion;
+        self.time += self.time_step;
     }
 
-    fn motion_now(&self) -> MotionSums {
-        let mut sums = MotionSums::default();
-        for grain in &self.model.grains {
-            let rotational = 0.5 * grain.spin().dot(&grain.angular_momentum);
+    fn motion_now(&self) -> MotionEnergy {
+        let mut sums = MotionEnergy::default();
+        for row in 0..self.grains.len() {
+            let grain = self.grains.grain(row);
+            let [kinetic, rotational] = grain.kinetic_energy();
+            sums.kinetic += kinetic;
             sums.rotational += rotational;
-            sums.kinetic += 0.5 * grain.body.mass * grain.velocity.norm_squared() + rotational;
             sums.potential -= grain.body.mass * self.model.gravity.dot(&grain.position);
         }
         for node in self.model.barrier.iter().flat_map(|barrier| &barrier.nodes).filter(|node| !node.fixed) {
@@ -337,8 +299,11 @@ impl Simulation {
         let honest = |position: &Vec3, velocity: &Vec3| {
             position.iter().all(|value| value.is_finite()) && velocity.norm() <= limit
         };
-        if let Some(grain) = self.model.grains.iter().find(|grain| !honest(&grain.position, &grain.velocity)) {
-            return Err(Unstable::Grain { id: grain.id, time: self.time, speed: grain.velocity.norm() });
+        for row in 0..self.grains.len() {
+            let velocity = self.grains.motion[row].vector();
+            if !honest(&self.grains.place[row].vector(), &velocity) {
+                return Err(Unstable::Grain { id: self.grains.ids[row], time: self.time, speed: velocity.norm() });
+            }
         }
         let nodes = self.model.barrier.iter().flat_map(|barrier| barrier.nodes.iter().enumerate());
         for (index, node) in nodes {
@@ -350,44 +315,60 @@ impl Simulation {
     }
 }
 
+/// Rows of the grain table in each block but the last.
+fn block_rows(blocks: &[Block]) -> usize {
+    blocks.first().map_or(1, |block| block.grains.len().max(1))
+}
+
+/// Adds what earlier blocks have posted for the grains of block `number`, in the order of the blocks.
+fn take_post(blocks: &[Block], number: usize, loads: &mut [GrainLoad]) {
+    let start = blocks[number].grains.start;
+    for sender in &blocks[..number] {
+        for (row, load) in sender.outbox.for_block(number) {
+            loads[*row as usize - start].join(load);
+        }
+    }
+}
+
 /// What every block reads while it is loaded.
 struct BlockForces<'a> {
     model: &'a Model,
-    members: &'a [Member],
+    grains: &'a GrainTable,
     law: LawConstants,
-    step: u32,
 }
 
 impl BlockForces<'_> {
-    fn load_block(&self, block: &mut Block, loads: &mut [MemberLoad]) {
-        let Self { model, members, law, step } = *self;
+    fn load_block(&self, block: &mut Block, loads: &mut [GrainLoad]) {
+        let Self { model, grains, law } = *self;
+        let clocks = block.clocks;
         let material = &model.material;
-        loads.fill(MemberLoad::default());
+        block.outbox.clear();
         let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
-        let pairs = PairContext { members, constants, step };
-        let mut sums = load_inner(&mut block.inner, &pairs, &block.members, loads);
-        sums.add(&load_border(&mut block.border, &pairs, &block.members, loads));
+        let pairs = |clock| PairContext { grains, constants, clock };
+        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads);
+        let border = &mut block.border;
+        sums.add(&load_border(border, &pairs(clocks.border), &block.grains, loads, &mut block.outbox));
         let surfaces = SurfaceContext {
-            members,
+            grains,
             surfaces: &model.surfaces,
             law,
             modulus: material.modulus,
             grain_friction: material.friction,
-            step,
+            clock: clocks.fixed,
             wall_levels: &model.wall_levels,
         };
         block.surface_forces.reset(model.wall_levels.len());
-        sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.members, loads, &mut block.surface_forces));
+        sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.grains, loads, &mut block.surface_forces));
         if let Some(barrier) = &model.barrier {
             let context = RopeContext {
-                members,
+                grains,
                 barrier,
                 law,
                 grain_modulus: material.modulus,
                 grain_friction: material.friction,
-                step,
+                clock: clocks.fixed,
             };
-            sums.add(&block.ropes.load(&context, &block.members, loads));
+            sums.add(&block.ropes.load(&context, &block.grains, loads));
         }
         block.sums = sums;
     }

@@ -1,8 +1,9 @@
 //! `Design` + `Fidelity` → a simulation ready to be released, and what its recorder must know.
 
 use crate::dem::Vec3;
+use crate::dem::model::{Material, Model};
 use crate::dem::recorders::recorder::{GaugeWindow, RecorderSetup};
-use crate::dem::simulation::{Material, Model, Simulation, Unstable};
+use crate::dem::simulation::{Simulation, Unstable};
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::Fidelity;

@@ -57,11 +57,10 @@ pub fn run(scene: Scene, longest: f64, watch: &Watch) -> Event {
     let mut recorder = Recorder::new(recorder);
     let mut energy_error: f64 = 0.0;
     let ending = loop {
-        if let Err(unstable) = simulation.step() {
-            break Ending::BrokeDown(unstable);
-        }
-        if !recorder.observe(&simulation) {
-            continue;
+        match recorder.step(&mut simulation) {
+            Err(unstable) => break Ending::BrokeDown(unstable),
+            Ok(false) => continue,
+            Ok(true) => {}
         }
         let histories = &recorder.histories;
         let error = simulation.ledger.relative_error(&histories.ledger[0]);

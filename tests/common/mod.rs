@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test binary uses its own share of these
 
 use barrier_check::dem::Vec3;
-use barrier_check::dem::simulation::{Material, Model};
+use barrier_check::dem::model::{Material, Model};
 use barrier_check::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use barrier_check::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 

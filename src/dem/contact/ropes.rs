@@ -7,17 +7,18 @@
 use std::ops::Range;
 
 use crate::dem::Vec3;
-use crate::dem::contact::candidates::CandidateList;
-use crate::dem::contact::law::{ContactPoint, LawConstants, respond};
+use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Spring, respond};
+use crate::dem::contact::pair_list::PairList;
 use crate::dem::geometry::point_segment::nearest_on_segment;
 use crate::dem::ledger::ContactSums;
+use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::barrier::{Barrier, Node};
-use crate::dem::tables::grains::{Member, MemberLoad};
+use crate::dem::tables::grain_table::{GrainLoad, GrainTable, Member};
 
 /// Candidate pairs (member, segment) of one block, and the forces they put on nodes in this step.
 #[derive(Clone, Debug, Default)]
 pub struct RopeContacts {
-    pub list: CandidateList,
+    pub list: PairList,
     pub pushes: Vec<Push>,
 }
 
@@ -31,43 +32,72 @@ pub struct Push {
 }
 
 pub struct RopeContext<'a> {
-    pub members: &'a [Member],
+    pub grains: &'a GrainTable,
     pub barrier: &'a Barrier,
     pub law: LawConstants,
     pub grain_modulus: f64,
     pub grain_friction: f64,
-    pub step: u32,
+    /// Way that grains and nodes together can have gone since the lists were made (m).
+    pub clock: Clock,
 }
 
 /// A sphere on a rope: the contact, its foot, and how the force is shared between the segment's nodes.
 pub struct RopeTouch {
     pub point: ContactPoint,
+    /// 1/m_r (1/kg).
+    pub inverse_mass: f64,
     pub foot: Vec3,
     pub share: f64,
 }
 
 impl RopeContacts {
-    /// Loads the members of the block that touch ropes and lists the pushes on the nodes.
-    pub fn load(&mut self, context: &RopeContext, range: &Range<usize>, loads: &mut [MemberLoad]) -> ContactSums {
+    /// Loads the grains of the block that touch ropes and lists the pushes on the nodes.
+    pub fn load(&mut self, context: &RopeContext, range: &Range<usize>, loads: &mut [GrainLoad]) -> ContactSums {
         let mut sums = ContactSums::default();
         self.pushes.clear();
-        for slot in 0..self.list.pairs.len() {
-            let [member_index, segment_index] = self.list.pairs[slot];
-            let member = &context.members[member_index as usize];
-            let Some(contact) = touch(member, segment_index, context) else {
+        let Self { list, pushes } = self;
+        let (grains, barrier) = (context.grains, context.barrier);
+        list.sort_near(&context.clock, |[member, segment]| {
+            separation(grains.sphere(member as usize), segment, barrier)
+        });
+        let per_grain = grains.shape.members();
+        let PairList { touching, memory, ended, .. } = list;
+        for (place, (pair, memory)) in touching.iter().zip(memory).enumerate() {
+            let [index, segment] = *pair;
+            let member = grains.member(index as usize);
+            if gap((member.centre, member.radius), segment, barrier) >= 0.0 {
+                ended.push(place as u32);
+                continue;
+            }
+            let Some(contact) = touch(&member, segment, context) else {
+                *memory = Memory::default();
                 continue;
             };
-            let memory = self.list.memory_at(slot, context.step);
-            let response = respond(&contact.point, &memory, &context.law);
-            self.list.remember_at(slot, context.step, response.memory);
+            let response = respond(&contact.point, memory, &context.law);
+            *memory = response.memory;
             let force = Vec3::from(response.force);
-            loads[member_index as usize - range.start].add(&force, &(contact.foot - member.centre()));
-            let nodes = context.barrier.segments[segment_index as usize].nodes;
-            self.pushes.push(Push { nodes, share: contact.share, force: -force });
-            sums.count(&response, contact.point.overlap / member.radius());
+            let row = index as usize / per_grain - range.start;
+            loads[row].add(&force, &(contact.foot - member.centre + member.arm));
+            let nodes = barrier.segments[segment as usize].nodes;
+            pushes.push(Push { nodes, share: contact.share, force: -force });
+            sums.count(&response, contact.point.overlap / member.radius);
         }
+        list.end_contacts();
         sums
     }
+}
+
+/// Square of the distance of a sphere's centre from a rope segment (m²), and the distance at which it may touch (m).
+fn separation((centre, radius): (Vec3, f64), segment: u32, barrier: &Barrier) -> (f64, f64) {
+    let [a, b] = barrier.segments[segment as usize].nodes.map(|node| &barrier.nodes[node as usize].position);
+    let nearest = nearest_on_segment(&centre, a, b).point;
+    ((nearest - centre).norm_squared(), radius + barrier.thickness(segment))
+}
+
+/// Distance between a member sphere and a rope segment as thick as the thicker of its ends (m); never more than the true one.
+pub fn gap(sphere: (Vec3, f64), segment: u32, barrier: &Barrier) -> f64 {
+    let (square, reach) = separation(sphere, segment, barrier);
+    square.sqrt() - reach
 }
 
 /// Geometry of sphere against segment, or against the node a segment ends in.
@@ -75,12 +105,12 @@ pub fn touch(member: &Member, segment_index: u32, context: &RopeContext) -> Opti
     let barrier = context.barrier;
     let segment = &barrier.segments[segment_index as usize];
     let [a, b] = segment.nodes.map(|node| &barrier.nodes[node as usize]);
-    let centre = member.centre();
+    let centre = member.centre;
     let along = nearest_on_segment(&centre, &a.position, &b.position);
     let towards = along.point - centre;
     let end = usize::from(along.share > 0.5);
     let rope_radius = if along.inside { segment.radius } else { [a, b][end].radius };
-    let reach = member.radius() + rope_radius;
+    let reach = member.radius + rope_radius;
     let distance_squared = towards.norm_squared();
     if distance_squared >= reach * reach || distance_squared == 0.0 {
         return None;
@@ -91,21 +121,21 @@ pub fn touch(member: &Member, segment_index: u32, context: &RopeContext) -> Opti
     let distance = distance_squared.sqrt();
     let overlap = reach - distance;
     let normal = towards / distance;
-    let foot = centre + normal * (member.radius() - 0.5 * overlap);
+    let foot = centre + normal * (member.radius - 0.5 * overlap);
     let rope_velocity = a.velocity * (1.0 - along.share) + b.velocity * along.share;
-    let velocity = rope_velocity - member.velocity() - member.spin().cross(&(foot - centre));
-    let grain = context.grain_modulus * member.radius();
+    let velocity = rope_velocity - member.velocity - member.spin.cross(&(foot - centre));
+    let grain = context.grain_modulus * member.radius;
     let rope = barrier.contact_modulus * rope_radius;
+    let inverse_mass = member.inverse_mass + inverse_mass_at(a, b, along.share);
     let point = ContactPoint {
         normal: normal.into(),
         overlap,
         velocity: velocity.into(),
-        twist: 0.5 * member.spin().dot(&normal),
-        stiffness: 2.0 * grain * rope / (grain + rope),
-        inverse_mass: member.motion[3] + inverse_mass_at(a, b, along.share),
+        twist: 0.5 * member.spin.dot(&normal),
+        spring: Spring::new(2.0 * grain * rope / (grain + rope), inverse_mass),
         friction: barrier.friction.min(context.grain_friction),
     };
-    Some(RopeTouch { point, foot, share: along.share })
+    Some(RopeTouch { point, inverse_mass, foot, share: along.share })
 }
 
 /// 1/m felt at the point that divides a segment as (1−share):share; a fixed node counts as infinitely heavy.

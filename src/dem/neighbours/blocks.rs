@@ -5,11 +5,12 @@
 
 use std::ops::Range;
 
-use crate::dem::contact::candidates::CandidateList;
+use crate::dem::contact::pair_list::PairList;
 use crate::dem::contact::ropes::RopeContacts;
 use crate::dem::contact::surfaces::SurfaceForces;
 use crate::dem::ledger::ContactSums;
-use crate::dem::neighbours::drift::Strayed;
+use crate::dem::neighbours::clocks::BlockClocks;
+use crate::dem::tables::grain_table::GrainLoad;
 
 /// Grains below which one block is enough: parallel work would cost more than it saves.
 const GRAINS_FOR_TWO_BLOCKS: usize = 600;
@@ -17,36 +18,57 @@ const GRAINS_FOR_TWO_BLOCKS: usize = 600;
 const GRAINS_PER_BLOCK: usize = 1000;
 const MOST_BLOCKS: usize = 64;
 
-/// One slice of the members with all that is needed to load it.
-#[derive(Debug)]
+/// One slice of the grains with all that is needed to load it.
+#[derive(Debug, Default)]
 pub struct Block {
-    /// Rows of the member table that this block owns.
-    pub members: Range<usize>,
+    /// Rows of the grain table that this block owns.
+    pub grains: Range<usize>,
     /// Pairs with both members in this block.
-    pub inner: CandidateList,
-    /// Pairs with the other member elsewhere.
-    pub border: CandidateList,
-    pub surfaces: CandidateList,
+    pub inner: PairList,
+    /// Pairs with the second member in a later block.
+    pub border: PairList,
+    pub surfaces: PairList,
     pub ropes: RopeContacts,
+    /// Loads for grains of other blocks.
+    pub outbox: Outbox,
+    pub clocks: BlockClocks,
     pub sums: ContactSums,
     /// Forces on the surfaces in the step just made.
     pub surface_forces: SurfaceForces,
-    /// How far its members have gone since the lists were made.
-    pub strayed: Strayed,
+}
+
+/// Loads that one block has for grains of others, by block.
+#[derive(Debug, Default)]
+pub struct Outbox {
+    block_size: usize,
+    post: Vec<Vec<(u32, GrainLoad)>>,
 }
 
 impl Block {
-    fn empty(members: Range<usize>) -> Self {
-        Self {
-            members,
-            inner: CandidateList::default(),
-            border: CandidateList::default(),
-            surfaces: CandidateList::default(),
-            ropes: RopeContacts::default(),
-            sums: ContactSums::default(),
-            surface_forces: SurfaceForces::default(),
-            strayed: Strayed::NOWHERE,
-        }
+    /// Forgets all pairs; gaps of pairs of grains will be told apart up to `skin`, of the others up to `fixed_skin` (m).
+    pub fn reset(&mut self, skin: f64, fixed_skin: f64) {
+        self.inner.reset(skin);
+        self.border.reset(skin);
+        self.surfaces.reset(fixed_skin);
+        self.ropes.list.reset(fixed_skin);
+        self.outbox.clear();
+        self.clocks = BlockClocks::default();
+    }
+}
+
+impl Outbox {
+    #[inline(always)]
+    pub fn post(&mut self, row: usize, load: GrainLoad) {
+        self.post[row / self.block_size].push((row as u32, load));
+    }
+
+    pub fn clear(&mut self) {
+        self.post.iter_mut().for_each(Vec::clear);
+    }
+
+    /// What is there for the block of the given number.
+    pub fn for_block(&self, number: usize) -> &[(u32, GrainLoad)] {
+        &self.post[number]
     }
 }
 
@@ -59,14 +81,14 @@ pub fn grains_per_block(grains: usize) -> usize {
     grains.div_ceil(2 * pairs_of_blocks)
 }
 
-/// Empty blocks over `grains` grains of `members_per_grain` members.
-pub fn make_blocks(grains: usize, members_per_grain: usize) -> Vec<Block> {
+/// Empty blocks over `grains` grains.
+pub fn make_blocks(grains: usize) -> Vec<Block> {
     let size = grains_per_block(grains);
-    (0..grains)
-        .step_by(size)
-        .map(|first| {
-            let last = (first + size).min(grains);
-            Block::empty(first * members_per_grain..last * members_per_grain)
-        })
-        .collect()
+    let count = grains.div_ceil(size);
+    let block = |number: usize| Block {
+        grains: number * size..((number + 1) * size).min(grains),
+        outbox: Outbox { block_size: size, post: vec![Vec::new(); count] },
+        ..Block::default()
+    };
+    (0..count).map(block).collect()
 }

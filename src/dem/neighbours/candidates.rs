@@ -1,102 +1,87 @@
 //! Which pairs could touch before the lists are renewed.
 
-use crate::dem::geometry::point_segment::nearest_on_segment;
+use crate::dem::contact::grain_pairs::gap as grain_gap;
+use crate::dem::contact::ropes::gap as rope_gap;
+use crate::dem::contact::surfaces::gap as surface_gap;
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grains::Member;
+use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::surfaces::Surface;
 
-/// Box around all members of one grain, grown by `margin` (m).
-pub fn grain_box(members: &[Member], margin: f64) -> Box3 {
-    let mut whole = Box3::around(&members[0].centre(), members[0].radius() + margin);
-    for member in &members[1..] {
-        whole = Box3::joining(&whole, &Box3::around(&member.centre(), member.radius() + margin));
-    }
-    whole
+/// Box around all members of the grain in `row`, grown by `margin` (m).
+pub fn grain_box(grains: &GrainTable, row: usize, margin: f64) -> Box3 {
+    let per_grain = grains.shape.members();
+    let member_box = |index: usize| {
+        let (centre, radius) = grains.sphere(index);
+        Box3::around(&centre, radius + margin)
+    };
+    let first = row * per_grain;
+    (first + 1..first + per_grain).fold(member_box(first), |whole, index| Box3::joining(&whole, &member_box(index)))
 }
 
-/// Boxes around all rope segments, grown by half of `skin` (m).
-pub fn segment_boxes(barrier: &Barrier, skin: f64) -> Vec<Box3> {
+/// Boxes around all rope segments, grown by `margin` (m).
+pub fn segment_boxes(barrier: &Barrier, margin: f64) -> Vec<Box3> {
     let grown = |node: u32, reach: f64| Box3::around(&barrier.nodes[node as usize].position, reach);
     (0..barrier.segments.len())
         .map(|index| {
-            let reach = thickness(barrier, index) + 0.5 * skin;
+            let reach = barrier.thickness(index as u32) + margin;
             let [a, b] = barrier.segments[index].nodes;
             Box3::joining(&grown(a, reach), &grown(b, reach))
         })
         .collect()
 }
 
-/// Radius with which grains may touch a segment or either of its nodes (m).
-fn thickness(barrier: &Barrier, segment: usize) -> f64 {
-    let segment = &barrier.segments[segment];
-    let ends = segment.nodes.map(|node| barrier.nodes[node as usize].radius);
-    segment.radius.max(ends[0]).max(ends[1])
-}
-
-/// Files every pair of members nearer than `skin` into the block, or the two blocks, that own them.
-pub fn find_grain_pairs(tree: &mut BoxTree, members: &[Member], per_grain: usize, skin: f64, blocks: &mut [Block]) {
-    let block_size = blocks.first().map_or(1, |block| block.members.len());
+/// Files every pair of members nearer than `skin` with the block of the first.
+pub fn find_grain_pairs(tree: &mut BoxTree, grains: &GrainTable, skin: f64, blocks: &mut [Block]) {
+    let block_size = blocks.first().map_or(1, |block| block.grains.len());
+    let per_grain = grains.shape.members() as u32;
     tree.pairs(|a, b| {
-        let (a, b) = (a.min(b) as usize, a.max(b) as usize);
+        let (a, b) = (a.min(b), a.max(b));
+        let block = &mut blocks[a as usize / block_size];
+        let same = (b as usize) < block.grains.end;
         for first in a * per_grain..(a + 1) * per_grain {
             for second in b * per_grain..(b + 1) * per_grain {
-                if within(&members[first], &members[second], skin) {
-                    file_pair(blocks, block_size, first, second);
+                let gap = grain_gap(grains, [first, second]);
+                if gap < skin {
+                    let list = if same { &mut block.inner } else { &mut block.border };
+                    list.add([first, second], gap);
                 }
             }
         }
     });
 }
 
-fn within(a: &Member, b: &Member, skin: f64) -> bool {
-    let reach = a.place[3] + b.place[3] + skin;
-    (a.centre() - b.centre()).norm_squared() < reach * reach
-}
-
-fn file_pair(blocks: &mut [Block], block_size: usize, first: usize, second: usize) {
-    let (home, other) = (first / block_size, second / block_size);
-    if home == other {
-        blocks[home].inner.push([first as u32, second as u32]);
-    } else {
-        blocks[home].border.push([first as u32, second as u32]);
-        blocks[other].border.push([second as u32, first as u32]);
-    }
-}
-
 /// Files every pair of member and rope segment nearer than `skin`.
 pub fn find_rope_pairs(
     trees: (&BoxTree, &BoxTree),
     barrier: &Barrier,
-    members: &[Member],
-    per_grain: usize,
+    grains: &GrainTable,
     skin: f64,
     blocks: &mut [Block],
 ) {
-    let block_size = blocks.first().map_or(1, |block| block.members.len());
-    let (grains, segments) = trees;
-    grains.pairs_with(segments, |grain, segment| {
-        let rope = thickness(barrier, segment as usize);
-        let [a, b] = barrier.segments[segment as usize].nodes.map(|node| &barrier.nodes[node as usize].position);
-        let first = grain as usize * per_grain;
-        for (index, member) in members.iter().enumerate().skip(first).take(per_grain) {
-            let centre = member.centre();
-            let reach = member.radius() + rope + skin;
-            if (nearest_on_segment(&centre, a, b).point - centre).norm_squared() < reach * reach {
-                blocks[index / block_size].ropes.list.push([index as u32, segment]);
+    let block_size = blocks.first().map_or(1, |block| block.grains.len());
+    let per_grain = grains.shape.members();
+    let (grain_tree, segments) = trees;
+    grain_tree.pairs_with(segments, |row, segment| {
+        let list = &mut blocks[row as usize / block_size].ropes.list;
+        for index in row as usize * per_grain..(row as usize + 1) * per_grain {
+            let gap = rope_gap(grains.sphere(index), segment, barrier);
+            if gap < skin {
+                list.add([index as u32, segment], gap);
             }
         }
     });
 }
 
 /// Files every pair of the block's members and a surface nearer than `skin`.
-pub fn find_surface_pairs(block: &mut Block, members: &[Member], surfaces: &[Surface], skin: f64) {
-    for index in block.members.clone() {
-        let member = &members[index];
+pub fn find_surface_pairs(block: &mut Block, grains: &GrainTable, surfaces: &[Surface], skin: f64) {
+    let per_grain = grains.shape.members();
+    for index in block.grains.start * per_grain..block.grains.end * per_grain {
         for (number, surface) in surfaces.iter().enumerate() {
-            if surface.height_above(&member.centre()).abs() < member.radius() + skin {
-                block.surfaces.push([index as u32, number as u32]);
+            let gap = surface_gap(grains, index as u32, surface);
+            if gap < skin {
+                block.surfaces.add([index as u32, number as u32], gap);
             }
         }
     }

@@ -1,38 +1,25 @@
 //! The common motion of the flow, taken out before it is asked whether a list has expired.
 //!
 //! Grains that fly side by side do not meet, however fast they fly. At a renewal a drift velocity V(x) is
-//! fitted along the channel, piecewise linear with Lipschitz constant S (1/s). After the time τ, grain i has strayed
-//! from it by δ_i = |u_i − V(x_i) τ|, with u_i its displacement. A pair that was further apart than its radii plus the skin
-//! s has come closer by at most δ_i + δ_j + S τ times its distance, so no such pair touches while
-//!
-//! 2 max δ < s − S τ (2 r_max + s), S τ < 1.
+//! fitted along the channel, piecewise linear with Lipschitz constant S (1/s), and every grain is given V at its centre.
+//! After the time τ, a member of grain i has strayed from it by δ_i = |u_i − V_i τ|, with u_i its displacement. A pair of
+//! members whose surfaces were a gap g apart has come closer by at most δ_i + δ_j + S τ (2 r + 2 o + g), with r the largest
+//! radius and o the largest distance of a member from its grain's centre.
 
 use crate::dem::Vec3;
-use crate::dem::tables::grains::Member;
+use crate::dem::tables::grain_table::{GrainTable, Quad};
+use crate::dem::time::integrate::Drifting;
 
 /// Pieces of the drift along the channel.
 const PIECES: usize = 32;
 
-/// Where a member was when its lists were made, and the drift it was given.
+/// How far members have gone since their lists were made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reference {
-    pub place: [f64; 3],
-    pub drift: [f64; 3],
-}
-
-/// How far the members of one block have gone since their reference.
-#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strayed {
-    /// Largest squared displacement (m²).
+    /// Largest displacement (m).
     pub moved: f64,
-    /// Largest squared displacement from the drift (m²).
+    /// Largest displacement from the drift (m).
     pub strayed: f64,
-}
-
-impl Strayed {
-    pub const NOWHERE: Self = Self { moved: 0.0, strayed: 0.0 };
-    /// Expires every list.
-    pub const LOST: Self = Self { moved: f64::INFINITY, strayed: f64::INFINITY };
 }
 
 /// The drift V(x): velocities at evenly spaced places along the channel.
@@ -43,23 +30,25 @@ pub struct Drift {
     velocities: Vec<Vec3>,
     /// Lipschitz constant S (1/s).
     pub steepness: f64,
+    /// Largest drift (m/s).
+    pub fastest: f64,
 }
 
 impl Drift {
-    /// Fits the drift to the members' velocities.
-    pub fn fit(members: &[Member]) -> Self {
-        let low = members.iter().map(|member| member.place[0]).fold(f64::INFINITY, f64::min);
-        let high = members.iter().map(|member| member.place[0]).fold(f64::NEG_INFINITY, f64::max);
-        let widest = members.iter().map(|member| member.place[3]).fold(0.0, f64::max);
+    /// Fits the drift to the velocities of all grains.
+    pub fn fit(grains: &GrainTable) -> Self {
+        let low = grains.place.iter().map(|place| place.0[0]).fold(f64::INFINITY, f64::min);
+        let high = grains.place.iter().map(|place| place.0[0]).fold(f64::NEG_INFINITY, f64::max);
+        let widest = grains.place.iter().map(Quad::fourth).fold(0.0, f64::max);
         if !(high - low).is_finite() {
             return Self::default();
         }
         let spacing = ((high - low) / PIECES as f64).max(4.0 * widest);
         let count = ((high - low) / spacing).ceil() as usize + 1;
         let mut sums = vec![(Vec3::zeros(), 0.0); count];
-        for member in members {
-            let (sum, number) = &mut sums[(((member.place[0] - low) / spacing).round() as usize).min(count - 1)];
-            *sum += member.velocity();
+        for (place, motion) in grains.place.iter().zip(&grains.motion) {
+            let (sum, number) = &mut sums[(((place.0[0] - low) / spacing).round() as usize).min(count - 1)];
+            *sum += motion.vector();
             *number += 1.0;
         }
         let mut velocities: Vec<Vec3> = Vec::with_capacity(count);
@@ -69,38 +58,34 @@ impl Drift {
             velocities.push(if number > 0.0 { sum / number } else { last });
         }
         let steepest = velocities.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
-        Self { low, spacing, velocities, steepness: steepest / spacing }
+        let fastest = velocities.iter().map(Vec3::norm).fold(0.0, f64::max);
+        // Two drifts rounded to single precision, told apart over the smallest distance that matters.
+        let rounding = fastest * f64::from(f32::EPSILON) / widest;
+        Self { low, spacing, velocities, steepness: steepest / spacing + rounding, fastest }
     }
 
-    /// Reference of a member now.
-    pub fn reference(&self, member: &Member) -> Reference {
-        let place = [member.place[0], member.place[1], member.place[2]];
-        let along = ((place[0] - self.low) / self.spacing).max(0.0);
+    /// The drift at place x.
+    pub fn at(&self, x: f64) -> Drifting {
+        let along = ((x - self.low) / self.spacing).max(0.0);
         let index = (along as usize).min(self.velocities.len().saturating_sub(2));
         let drift = match (self.velocities.get(index), self.velocities.get(index + 1)) {
             (Some(a), Some(b)) => a + (b - a) * (along - index as f64).min(1.0),
             (Some(only), None) => *only,
             _ => Vec3::zeros(),
         };
-        Reference { place, drift: drift.into() }
+        [drift.x as f32, drift.y as f32, drift.z as f32, 0.0]
     }
 }
 
-/// How far `members` have gone from their references after `elapsed` (s); infinitely far if any is not finite.
-#[inline(always)]
-pub fn strayed(references: &[Reference], members: &[Member], elapsed: f64) -> Strayed {
-    let (mut moved, mut strayed, mut total) = (0.0, 0.0, 0.0);
-    for (reference, member) in references.iter().zip(members) {
-        let (mut whole, mut rest) = (0.0, 0.0);
-        for axis in 0..3 {
-            let gone = member.place[axis] - reference.place[axis];
-            let off = gone - reference.drift[axis] * elapsed;
-            whole += gone * gone;
-            rest += off * off;
-        }
-        moved = if whole > moved { whole } else { moved };
-        strayed = if rest > strayed { rest } else { strayed };
-        total += whole;
+/// How far members with the given reference places have gone after `elapsed` (s).
+pub fn strayed(references: &[Vec3], grains: &GrainTable, drift: &[Drifting], elapsed: f64) -> Strayed {
+    let per_grain = grains.shape.members();
+    let (mut moved, mut strayed) = (0.0_f64, 0.0_f64);
+    for (index, reference) in references.iter().enumerate() {
+        let gone = grains.sphere(index).0 - reference;
+        let [x, y, z, _] = drift[index / per_grain].map(f64::from);
+        moved = moved.max(gone.norm_squared());
+        strayed = strayed.max((gone - Vec3::new(x, y, z) * elapsed).norm_squared());
     }
-    if total < f64::INFINITY { Strayed { moved, strayed } } else { Strayed::LOST }
+    Strayed { moved: moved.sqrt(), strayed: strayed.sqrt() }
 }

@@ -38,10 +38,10 @@ impl MemoryRows {
         Self { starts, rows }
     }
 
-    /// Memory of the contact between `member` and `other`, if they touched.
-    pub fn recall(&self, [member, other]: [u32; 2]) -> Option<Memory> {
+    /// Memory of the contact between `member` and `other`; empty where they did not touch.
+    pub fn recall(&self, [member, other]: [u32; 2]) -> Memory {
         let range = self.starts[member as usize] as usize..self.starts[member as usize + 1] as usize;
-        self.rows[range].iter().find(|(party, _)| *party == other).map(|(_, memory)| *memory)
+        self.rows[range].iter().find(|(party, _)| *party == other).map_or_else(Memory::default, |(_, memory)| *memory)
     }
 }
 
@@ -66,10 +66,10 @@ mod tests {
             memory: memory(value),
         });
         let rows = MemoryRows::group(&contacts, 4);
-        assert_eq!(rows.recall([2, 7]), Some(memory(1.0)));
-        assert_eq!(rows.recall([2, 5]), Some(memory(3.0)));
-        assert_eq!(rows.recall([0, 7]), Some(memory(2.0)));
-        assert_eq!(rows.recall([1, 7]), None);
-        assert_eq!(rows.recall([3, 5]), None);
+        assert_eq!(rows.recall([2, 7]), memory(1.0));
+        assert_eq!(rows.recall([2, 5]), memory(3.0));
+        assert_eq!(rows.recall([0, 7]), memory(2.0));
+        assert_eq!(rows.recall([1, 7]), Memory::default());
+        assert_eq!(rows.recall([3, 5]), Memory::default());
     }
 }

@@ -6,7 +6,7 @@ use crate::dem::Vec3;
 use crate::dem::net::NetForces;
 use crate::dem::recorders::histories::{Gauge, Histories};
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
-use crate::dem::simulation::Simulation;
+use crate::dem::simulation::{Simulation, Unstable};
 use crate::dem::tables::barrier::{Barrier, SegmentKind};
 use crate::dem::tables::grains::Grain;
 
@@ -92,16 +92,20 @@ impl Recorder {
         }
     }
 
-    /// Takes in the step just made. Returns whether a sample was completed.
-    pub fn observe(&mut self, simulation: &Simulation) -> bool {
-        self.add_step(simulation);
+    /// Makes one step and takes it in. Returns whether a sample was completed.
+    pub fn step(&mut self, simulation: &mut Simulation) -> Result<bool, Unstable> {
         // Half a step of slack: rounding must not move samples about.
-        if self.sum.time + 0.5 * simulation.time_step < self.setup.interval {
-            return false;
+        let complete = self.sum.time + 1.5 * simulation.time_step >= self.setup.interval;
+        if !complete {
+            simulation.step()?;
+            self.add_step(simulation);
+            return Ok(false);
         }
+        simulation.step_and_account()?;
+        self.add_step(simulation);
         self.sample(simulation);
         self.sum = IntervalSum::default();
-        true
+        Ok(true)
     }
 
     fn add_step(&mut self, simulation: &Simulation) {
@@ -141,12 +145,14 @@ impl Recorder {
         if let Some(barrier) = &simulation.model.barrier {
             self.sample_shape(barrier);
         }
+        let grains = simulation.snapshot();
         if simulation.time >= self.next_passage {
-            self.look_for_passed(simulation);
+            self.look_for_passed(simulation, &grains);
             self.next_passage = simulation.time + self.setup.passage_interval;
         }
-        self.sample_grains(simulation);
-        self.sample_gauges(simulation);
+        self.sample_grains(&grains);
+        self.histories.incoming.push(self.setup.incoming.read(&grains));
+        self.histories.barrier_depth.push(self.setup.deposit.depth(&grains));
     }
 
     fn sample_shape(&mut self, barrier: &Barrier) {
@@ -161,13 +167,13 @@ impl Recorder {
         self.histories.top_rope_height.push(lowest);
     }
 
-    fn look_for_passed(&mut self, simulation: &Simulation) {
+    fn look_for_passed(&mut self, simulation: &Simulation, grains: &[Grain]) {
         let screen = match (&simulation.model.barrier, self.setup.wall) {
             (Some(barrier), _) => Screen::of_net(barrier, &self.setup.net_rows),
             (None, Some([height, width])) => Screen::of_wall(height, width),
             (None, None) => return,
         };
-        for grain in &simulation.model.grains {
+        for grain in grains {
             if self.passed.contains_key(&grain.id) {
                 continue;
             }
@@ -180,8 +186,7 @@ impl Recorder {
         }
     }
 
-    fn sample_grains(&mut self, simulation: &Simulation) {
-        let grains = &simulation.model.grains;
+    fn sample_grains(&mut self, grains: &[Grain]) {
         let count = grains.len().max(1) as f64;
         let sum = grains.iter().fold(Vec3::zeros(), |sum, grain| sum + grain.velocity);
         self.histories.velocity.push([sum.x / count, sum.z / count]);
@@ -200,12 +205,6 @@ impl Recorder {
         self.histories.dead.push(if self.impact { dead } else { 0.0 });
         self.histories.moving.push(moving);
         self.histories.lost.push(self.lost);
-    }
-
-    fn sample_gauges(&mut self, simulation: &Simulation) {
-        let grains = &simulation.model.grains;
-        self.histories.incoming.push(self.setup.incoming.read(grains));
-        self.histories.barrier_depth.push(self.setup.deposit.depth(grains));
     }
 }
 

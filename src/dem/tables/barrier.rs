@@ -74,6 +74,13 @@ pub struct Barrier {
 }
 
 impl Barrier {
+    /// Radius with which grains may touch a segment or either of its nodes (m).
+    pub fn thickness(&self, segment: u32) -> f64 {
+        let segment = &self.segments[segment as usize];
+        let ends = segment.nodes.map(|node| self.nodes[node as usize].radius);
+        segment.radius.max(ends[0]).max(ends[1])
+    }
+
     /// Records at every node which segments end there. Call once all segments stand.
     pub fn connect(&mut self) {
         for node in &mut self.nodes {

@@ -31,8 +31,6 @@ pub struct GrainBody {
     pub inertia_axial: f64,
     /// Moment of inertia about any line through the centre across the axis (kg m²).
     pub inertia_transverse: f64,
-    /// Reciprocals of mass, axial and transverse inertia: divisions cost more than all else in a step of a grain.
-    pub inverse: [f64; 3],
 }
 
 impl GrainBody {
@@ -59,8 +57,7 @@ impl GrainBody {
         let length = offset + radius;
         let root = 0.6_f64.sqrt();
         let rule = [(-root, 5.0 / 9.0), (0.0, 8.0 / 9.0), (root, 5.0 / 9.0)];
-        let mut body =
-            Self { radius, offset, mass: 0.0, inertia_axial: 0.0, inertia_transverse: 0.0, inverse: [0.0; 3] };
+        let mut body = Self { radius, offset, mass: 0.0, inertia_axial: 0.0, inertia_transverse: 0.0 };
         for (node, weight) in rule {
             let x = 0.5 * length * (1.0 + node);
             let width_squared = radius * radius - (x - offset).powi(2);
@@ -70,7 +67,6 @@ impl GrainBody {
             body.inertia_axial += factor * 0.5 * width_squared.powi(2);
             body.inertia_transverse += factor * (0.25 * width_squared.powi(2) + width_squared * x * x);
         }
-        body.inverse = [body.mass, body.inertia_axial, body.inertia_transverse].map(f64::recip);
         body
     }
 }
@@ -82,61 +78,16 @@ impl Grain {
     }
 
     /// Angular velocity (rad/s) from angular momentum: ω = L/I_t + (a·L)(1/I_a − 1/I_t) a.
-    #[inline(always)]
     pub fn spin(&self) -> Vec3 {
         let along = self.axis.dot(&self.angular_momentum);
-        let [_, axial, transverse] = self.body.inverse;
+        let (axial, transverse) = (1.0 / self.body.inertia_axial, 1.0 / self.body.inertia_transverse);
         self.angular_momentum * transverse + self.axis * (along * (axial - transverse))
     }
-}
 
-/// One sphere of a grain as the contact loop sees it: everything a contact needs, side by side.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[repr(C, align(32))]
-pub struct Member {
-    /// Centre (m) and radius (m).
-    pub place: [f64; 4],
-    /// Velocity of the centre (m/s) and 1/mass of the whole grain (1/kg).
-    pub motion: [f64; 4],
-    /// Angular velocity of the grain (rad/s); the last entry is unused.
-    pub spin: [f64; 4],
-}
-
-impl Member {
-    pub fn centre(&self) -> Vec3 {
-        Vec3::new(self.place[0], self.place[1], self.place[2])
-    }
-
-    pub fn radius(&self) -> f64 {
-        self.place[3]
-    }
-
-    pub fn velocity(&self) -> Vec3 {
-        Vec3::new(self.motion[0], self.motion[1], self.motion[2])
-    }
-
-    pub fn spin(&self) -> Vec3 {
-        Vec3::new(self.spin[0], self.spin[1], self.spin[2])
-    }
-}
-
-/// Force (N) and torque about its own centre (N m) on one member, summed over its contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[repr(C, align(32))]
-pub struct MemberLoad {
-    pub force: [f64; 4],
-    pub torque: [f64; 4],
-}
-
-impl MemberLoad {
-    /// Adds a force that acts at `arm` from the member's centre.
-    #[inline(always)]
-    pub fn add(&mut self, force: &Vec3, arm: &Vec3) {
-        let torque = arm.cross(force);
-        for axis in 0..3 {
-            self.force[axis] += force[axis];
-            self.torque[axis] += torque[axis];
-        }
+    /// Kinetic energy (J): of the whole motion, and its rotational part.
+    pub fn kinetic_energy(&self) -> [f64; 2] {
+        let rotational = 0.5 * self.spin().dot(&self.angular_momentum);
+        [0.5 * self.body.mass * self.velocity.norm_squared() + rotational, rotational]
     }
 }
 
@@ -154,23 +105,6 @@ impl GrainShape {
             Self::Sphere => 1,
             Self::Clump => 2,
         }
-    }
-}
-
-/// Writes the members of one grain, from its state.
-#[inline(always)]
-pub fn place_members(grain: &Grain, members: &mut [Member]) {
-    let spin = grain.spin();
-    let inverse_mass = grain.body.inverse[0];
-    let mut side = 1.0;
-    for member in members {
-        let arm = grain.axis * (side * grain.body.offset);
-        let centre = grain.position + arm;
-        let velocity = grain.velocity + spin.cross(&arm);
-        member.place = [centre.x, centre.y, centre.z, grain.body.radius];
-        member.motion = [velocity.x, velocity.y, velocity.z, inverse_mass];
-        member.spin = [spin.x, spin.y, spin.z, 0.0];
-        side = -1.0;
     }
 }
 

@@ -45,14 +45,28 @@ impl Span {
 
 impl Surface {
     /// The point of the surface nearest to `point`.
-    #[inline]
+    #[inline(always)]
     pub fn nearest(&self, point: &Vec3) -> Vec3 {
+        if self.unbounded() {
+            return point - self.normal * self.height_above(point);
+        }
         let from_origin = point - self.origin;
         let mut nearest = self.origin;
         for span in &self.spans {
             nearest += span.direction * span.direction.dot(&from_origin).clamp(span.low, span.high);
         }
         nearest
+    }
+
+    /// Square of the distance of `point` from the surface (m²).
+    #[inline(always)]
+    pub fn distance_squared(&self, point: &Vec3) -> f64 {
+        let height = self.height_above(point);
+        if self.unbounded() { height * height } else { (self.nearest(point) - point).norm_squared() }
+    }
+
+    fn unbounded(&self) -> bool {
+        self.spans.iter().all(|span| span.low == f64::NEG_INFINITY && span.high == f64::INFINITY)
     }
 
     /// Signed distance of `point` from the plane the surface lies in (m).

@@ -1,124 +1,201 @@
 //! Leapfrog integration of grains and barrier nodes.
+//!
+//! v(t+½) = v(t−½) + Δt (F/m + g), x(t+Δt) = x(t) + Δt v(t+½), L(t+½) = L(t−½) + Δt T. The axis of a free
+//! axisymmetric body turns about its angular momentum at the rate |L|/I_t exactly, so free rotation keeps
+//! both momentum and energy to rounding.
 
 use crate::dem::Vec3;
 use crate::dem::tables::barrier::Node;
-use crate::dem::tables::grains::{Grain, Member, MemberLoad, place_members};
+use crate::dem::tables::grain_table::{GrainLoad, Quad};
 
-/// Sums over the grains of one block after a step, for the energy account.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MotionSums {
-    /// Kinetic energy at the new half step (J).
-    pub kinetic: f64,
-    /// Its rotational part (J).
-    pub rotational: f64,
-    /// Gravity potential at the old full step (J).
-    pub potential: f64,
-}
-
-impl MotionSums {
-    pub fn add(&mut self, other: &Self) {
-        self.kinetic += other.kinetic;
-        self.rotational += other.rotational;
-        self.potential += other.potential;
-    }
-}
-
-/// Moves one block of grains through one step and rewrites its members.
-///
-/// v(t+½) = v(t−½) + Δt (F/m + g), x(t+Δt) = x(t) + Δt v(t+½), L(t+½) = L(t−½) + Δt T. The axis of a free
-/// axisymmetric body turns about its angular momentum at the rate |L|/I_t exactly, so free rotation keeps
-/// both momentum and energy to rounding. `drag` (1/s) slows everything down; it is zero but in preparation.
-pub fn move_grains(
-    grains: &mut [Grain],
-    members: &mut [Member],
-    loads: &[MemberLoad],
-    gravity: &Vec3,
-    time: Stretch,
-) -> MotionSums {
-    let per_grain = loads.len() / grains.len().max(1);
-    let mut sums = MotionSums::default();
-    let keep = (1.0 - time.drag * time.step).max(0.0);
-    let rows = grains.iter_mut().zip(members.chunks_exact_mut(per_grain)).zip(loads.chunks_exact(per_grain));
-    for ((grain, members), loads) in rows {
-        let (force, torque) = resultant(grain, loads);
-        sums.potential -= grain.body.mass * gravity.dot(&grain.position);
-        grain.velocity = (grain.velocity + (force * grain.body.inverse[0] + gravity) * time.step) * keep;
-        grain.angular_momentum = (grain.angular_momentum + torque * time.step) * keep;
-        let rotational = 0.5 * grain.spin().dot(&grain.angular_momentum);
-        sums.rotational += rotational;
-        sums.kinetic += 0.5 * grain.body.mass * grain.velocity.norm_squared() + rotational;
-        grain.position += grain.velocity * time.step;
-        if grain.body.offset > 0.0 {
-            turn_axis(grain, time.step);
-        }
-        place_members(grain, members);
-    }
-    sums
-}
-
-/// The stretch of time a step covers, and the drag during it.
+/// The stretch of time a step covers, with what acts on all grains alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// s
     pub step: f64,
-    /// 1/s
+    /// Viscous slowing (1/s); zero but in preparation.
     pub drag: f64,
+    /// m/s²
+    pub gravity: Vec3,
 }
 
-/// Force and torque about the grain's centre from its members' loads.
-#[inline(always)]
-fn resultant(grain: &Grain, loads: &[MemberLoad]) -> (Vec3, Vec3) {
-    let vector = |row: &[f64; 4]| Vec3::new(row[0], row[1], row[2]);
-    match loads {
-        [only] => (vector(&only.force), vector(&only.torque)),
-        [front, back] => {
-            let (f, b) = (vector(&front.force), vector(&back.force));
-            let arm = grain.axis * grain.body.offset;
-            (f + b, vector(&front.torque) + vector(&back.torque) + arm.cross(&(f - b)))
+/// The rows of one block of grains, to be moved; `axis` and `momentum` are empty for spheres.
+pub struct MovingRows<'a> {
+    pub place: &'a mut [Quad],
+    pub motion: &'a mut [Quad],
+    pub spin: &'a mut [Quad],
+    pub axis: &'a mut [Quad],
+    pub momentum: &'a mut [Quad],
+    /// Set to zero when used.
+    pub loads: &'a mut [GrainLoad],
+    /// Drift of the flow at each grain (m/s).
+    pub drift: &'a [Drifting],
+}
+
+/// A drift velocity (m/s); the last entry is unused.
+pub type Drifting = [f32; 4];
+
+/// Upper bounds on how fast the grains of a block go (m/s).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pace {
+    /// Of any member's motion relative to its drift; infinite if anything is not finite.
+    pub stray: f64,
+}
+
+impl MovingRows<'_> {
+    /// Moves all grains through one step, with the widest vectors this processor has.
+    pub fn advance(self, time: &Stretch) -> Pace {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if std::arch::is_x86_feature_detected!("avx2") {
+                // SAFETY: the processor was just asked for this feature.
+                return unsafe { self.advance_avx2(time) };
+            }
         }
-        _ => (Vec3::zeros(), Vec3::zeros()),
+        self.advance_rows(time)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn advance_avx2(self, time: &Stretch) -> Pace {
+        self.advance_rows(time)
+    }
+
+    #[inline(always)]
+    fn advance_rows(self, time: &Stretch) -> Pace {
+        if self.axis.is_empty() { self.advance_spheres(time) } else { self.advance_clumps(time) }
+    }
+
+    #[inline(always)]
+    fn advance_spheres(self, time: &Stretch) -> Pace {
+        let step = Steps::of(time);
+        let mut fastest = Fastest::default();
+        let rows = self.place.iter_mut().zip(self.motion).zip(self.spin).zip(self.loads).zip(self.drift);
+        for ((((place, motion), spin), load), drift) in rows {
+            step.translate(place, motion, &load.force);
+            let inverse_inertia = spin.fourth();
+            for entry in 0..4 {
+                spin.0[entry] += load.torque.0[entry] * inverse_inertia * step.time[entry];
+                spin.0[entry] *= step.keep[entry];
+            }
+            *load = GrainLoad::default();
+            fastest.see(motion, drift, 0.0);
+        }
+        fastest.pace()
+    }
+
+    #[inline(always)]
+    fn advance_clumps(self, time: &Stretch) -> Pace {
+        let step = Steps::of(time);
+        let mut fastest = Fastest::default();
+        let rows = self.place.iter_mut().zip(self.motion).zip(self.spin).zip(self.axis).zip(self.momentum);
+        for (((((place, motion), spin), axis), momentum), (load, drift)) in
+            rows.zip(self.loads.iter_mut().zip(self.drift))
+        {
+            step.translate(place, motion, &load.force);
+            for entry in 0..4 {
+                momentum.0[entry] += load.torque.0[entry] * step.time[entry];
+                momentum.0[entry] *= step.keep[entry];
+            }
+            let turning = turn_axis(axis, momentum, time.step);
+            spin_from_momentum(spin, axis, momentum);
+            *load = GrainLoad::default();
+            fastest.see(motion, drift, turning * spin.fourth() * spin.fourth());
+        }
+        fastest.pace()
     }
 }
 
-/// Turns the axis about the angular momentum by the angle of one step (Rodrigues).
-#[inline(always)]
-fn turn_axis(grain: &mut Grain, step: f64) {
-    let momentum = grain.angular_momentum;
-    let magnitude = momentum.norm();
-    if magnitude == 0.0 {
-        return;
+/// Factors for rows of four that leave the fourth entry alone.
+struct Steps {
+    time: [f64; 4],
+    keep: [f64; 4],
+    gravity: [f64; 4],
+}
+
+impl Steps {
+    fn of(time: &Stretch) -> Self {
+        let keep = (1.0 - time.drag * time.step).max(0.0);
+        let (t, g) = (time.step, time.gravity);
+        Self { time: [t, t, t, 0.0], keep: [keep, keep, keep, 1.0], gravity: [g.x, g.y, g.z, 0.0] }
     }
-    let line = momentum / magnitude;
-    // Sine and cosine from their series: the angle of one step is small, and the result is the same on
-    // every machine, which the system's library does not promise.
-    let angle = magnitude * grain.body.inverse[2] * step;
-    let half = small_tangent(0.5 * angle);
-    let scale = 1.0 / (1.0 + half * half);
-    let (sine, one_minus_cosine) = (2.0 * half * scale, 2.0 * half * half * scale);
-    let axis = grain.axis;
-    let turned = axis + line.cross(&axis) * sine + line.cross(&line.cross(&axis)) * one_minus_cosine;
-    grain.axis = turned * (1.5 - 0.5 * turned.norm_squared());
+
+    #[inline(always)]
+    fn translate(&self, place: &mut Quad, motion: &mut Quad, force: &Quad) {
+        let inverse_mass = motion.fourth();
+        for entry in 0..4 {
+            let gained = (force.0[entry] * inverse_mass + self.gravity[entry]) * self.time[entry];
+            motion.0[entry] = (motion.0[entry] + gained) * self.keep[entry];
+            place.0[entry] += motion.0[entry] * self.time[entry];
+        }
+    }
 }
 
-/// tan x by its series up to x⁷; the rotation built from it is exact in length for any argument.
+/// Largest squares met so far.
+#[derive(Default)]
+struct Fastest {
+    stray: f64,
+    turning: f64,
+    total: f64,
+}
+
+impl Fastest {
+    #[inline(always)]
+    fn see(&mut self, motion: &Quad, drift: &Drifting, turning: f64) {
+        let mut square = 0.0;
+        for (velocity, drift) in motion.0.iter().zip(drift).take(3) {
+            let off = velocity - f64::from(*drift);
+            square += off * off;
+        }
+        self.stray = if square > self.stray { square } else { self.stray };
+        self.turning = if turning > self.turning { turning } else { self.turning };
+        self.total += square + turning;
+    }
+
+    fn pace(&self) -> Pace {
+        let stray = self.stray.sqrt() + self.turning.sqrt();
+        Pace { stray: if self.total < f64::INFINITY { stray } else { f64::INFINITY } }
+    }
+}
+
+/// Turns the axis about the angular momentum L by the angle |L| Δt/I_t. Returns the square of the rate (1/s²).
+///
+/// With h = L tan(x)/(|L|), x half the angle, the turned axis is a + 2 h × (a + h × a)/(1 + h²). The tangent comes from its
+/// series up to x⁷: the angle of one step is small, the result keeps the length for any argument, and it is the same on
+/// every machine, which the system's library does not promise.
 #[inline(always)]
-fn small_tangent(x: f64) -> f64 {
-    let square = x * x;
-    x * (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0))))
+fn turn_axis(axis: &mut Quad, momentum: &Quad, step: f64) -> f64 {
+    let inverse_transverse = axis.fourth();
+    let half = momentum.vector() * (0.5 * step * inverse_transverse);
+    let square = half.norm_squared();
+    let series = 1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0)));
+    let line = half * series;
+    let before = axis.vector();
+    let turned = before + line.cross(&(before + line.cross(&before))) * (2.0 / (1.0 + line.norm_squared()));
+    axis.set_vector(&(turned * (1.5 - 0.5 * turned.norm_squared())));
+    4.0 * square / (step * step)
 }
 
-/// Moves the nodes of a barrier through one step; returns their kinetic energy at the new half step (J) and
-/// their gravity potential at the old full step (J).
-pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64) -> MotionSums {
-    let mut sums = MotionSums::default();
+/// ω = L/I_t + (a·L)(1/I_a − 1/I_t) a.
+#[inline(always)]
+fn spin_from_momentum(spin: &mut Quad, axis: &Quad, momentum: &Quad) {
+    let (inverse_transverse, difference) = (axis.fourth(), momentum.fourth());
+    let (axis, momentum) = (axis.vector(), momentum.vector());
+    spin.set_vector(&(momentum * inverse_transverse + axis * (axis.dot(&momentum) * difference)));
+}
+
+/// Moves the nodes of a barrier through one step; returns the square of the largest speed (m²/s²).
+pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64) -> f64 {
+    let mut fastest = 0.0;
     for (node, force) in nodes.iter_mut().zip(forces) {
         if node.fixed {
             continue;
         }
-        sums.potential -= node.mass * gravity.dot(&node.position);
         node.velocity += (force / node.mass + gravity) * step;
-        sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
         node.position += node.velocity * step;
+        let square = node.velocity.norm_squared();
+        // Asked so that a NaN stays.
+        fastest = if square <= fastest { fastest } else { square };
     }
-    sums
+    fastest
 }

@@ -10,24 +10,22 @@ use nalgebra::{Matrix3, Matrix6, SMatrix};
 
 use crate::dem::Vec3;
 use crate::dem::contact::law::LawConstants;
-use crate::dem::contact::ropes::{RopeContext, touch as touch_rope};
+use crate::dem::contact::ropes::{RopeContext, gap as rope_gap, touch as touch_rope};
 use crate::dem::neighbours::blocks::Block;
+use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grains::{Grain, Member};
+use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::surfaces::Surface;
 
 /// All that an audit looks at.
 pub struct Audit<'a> {
-    pub grains: &'a [Grain],
-    pub members: &'a [Member],
-    pub per_grain: usize,
+    pub grains: &'a GrainTable,
     pub surfaces: &'a [Surface],
     pub barrier: Option<&'a Barrier>,
     pub blocks: &'a [Block],
     pub law: LawConstants,
     pub modulus: f64,
     pub friction: f64,
-    pub step: u32,
 }
 
 /// Step over critical step, bounded from above, for the two kinds of bodies.
@@ -80,35 +78,32 @@ impl Audit<'_> {
     }
 
     fn add_pairs(&self, block: &Block, tables: &mut [Matrix6<f64>]) {
-        for list in [&block.inner, &block.border] {
-            let both = std::ptr::eq(list, &block.inner);
-            for (slot, &[first, second]) in list.pairs.iter().enumerate() {
-                if list.touched[slot] != self.step {
-                    continue;
-                }
-                let (a, b) = (&self.members[first as usize], &self.members[second as usize]);
-                let line = b.centre() - a.centre();
-                let normal = line.normalize();
-                let stiffness = 2.0 * self.modulus * a.radius() * b.radius() / (a.radius() + b.radius());
-                let link = Link { normal, stiffness, inverse_mass: a.motion[3] + b.motion[3] };
-                let foot = a.centre() + normal * (0.5 * (line.norm() + a.radius() - b.radius()));
-                self.add_to_grain(first, &foot, &link, tables);
-                if both {
-                    self.add_to_grain(second, &foot, &link, tables);
-                }
+        for &[first, second] in block.inner.touching.iter().chain(&block.border.touching) {
+            let (a, b) = (self.grains.member(first as usize), self.grains.member(second as usize));
+            let line = b.centre - a.centre;
+            let distance = line.norm();
+            if distance >= a.radius + b.radius {
+                continue;
             }
+            let normal = line / distance;
+            let stiffness = 2.0 * self.modulus * a.radius * b.radius / (a.radius + b.radius);
+            let link = Link { normal, stiffness, inverse_mass: a.inverse_mass + b.inverse_mass };
+            let foot = a.centre + normal * (0.5 * (distance + a.radius - b.radius));
+            self.add_to_grain(first, &foot, &link, tables);
+            self.add_to_grain(second, &foot, &link, tables);
         }
     }
 
     fn add_surfaces(&self, block: &Block, tables: &mut [Matrix6<f64>]) {
-        let list = &block.surfaces;
-        for (slot, &[member, surface]) in list.pairs.iter().enumerate() {
-            if list.touched[slot] == self.step {
-                let body = &self.members[member as usize];
-                let foot = self.surfaces[surface as usize].nearest(&body.centre());
-                let normal = (foot - body.centre()).normalize();
-                let link = Link { normal, stiffness: self.modulus * body.radius(), inverse_mass: body.motion[3] };
-                self.add_to_grain(member, &foot, &link, tables);
+        for &[index, surface] in &block.surfaces.touching {
+            let member = self.grains.member(index as usize);
+            let foot = self.surfaces[surface as usize].nearest(&member.centre);
+            let towards = foot - member.centre;
+            let distance = towards.norm();
+            if distance < member.radius && distance > 0.0 {
+                let stiffness = self.modulus * member.radius;
+                let link = Link { normal: towards / distance, stiffness, inverse_mass: member.inverse_mass };
+                self.add_to_grain(index, &foot, &link, tables);
             }
         }
     }
@@ -116,32 +111,32 @@ impl Audit<'_> {
     fn add_ropes(&self, block: &Block, grains: &mut [Matrix6<f64>], nodes: &mut [Matrix3<f64>]) {
         let Some(barrier) = self.barrier else { return };
         let context = RopeContext {
-            members: self.members,
+            grains: self.grains,
             barrier,
             law: self.law,
             grain_modulus: self.modulus,
             grain_friction: self.friction,
-            step: self.step,
+            clock: Clock::default(),
         };
-        let list = &block.ropes.list;
-        for (slot, &[member, segment]) in list.pairs.iter().enumerate() {
-            if list.touched[slot] != self.step {
+        for &[index, segment] in &block.ropes.list.touching {
+            if rope_gap(self.grains.sphere(index as usize), segment, barrier) >= 0.0 {
                 continue;
             }
-            let body = &self.members[member as usize];
-            let Some(contact) = touch_rope(body, segment, &context) else {
+            let member = self.grains.member(index as usize);
+            let Some(contact) = touch_rope(&member, segment, &context) else {
                 continue;
             };
             let normal = Vec3::from(contact.point.normal);
-            let link = Link { normal, stiffness: contact.point.stiffness, inverse_mass: contact.point.inverse_mass };
-            self.add_to_grain(member, &contact.foot, &link, grains);
+            let (stiffness, inverse_mass) = (contact.point.spring.stiffness, contact.inverse_mass);
+            let link = Link { normal, stiffness, inverse_mass };
+            self.add_to_grain(index, &contact.foot, &link, grains);
             let ends = barrier.segments[segment as usize].nodes;
             for (node, share) in ends.into_iter().zip([1.0 - contact.share, contact.share]) {
                 if barrier.nodes[node as usize].fixed || share == 0.0 {
                     continue;
                 }
                 // u = Σ share u_node: k|u|² ≤ k Σ share |u_node|² (shares sum to one).
-                let rope_inverse = link.inverse_mass - body.motion[3];
+                let rope_inverse = link.inverse_mass - member.inverse_mass;
                 let rope_weight = weight(1.0 / rope_inverse, link.inverse_mass);
                 nodes[node as usize] += self.tensor(&link) * (share * rope_weight / barrier.nodes[node as usize].mass);
             }
@@ -184,16 +179,16 @@ impl Audit<'_> {
             + (Matrix3::identity() - along) * (step * step * tangential)
     }
 
-    /// Adds a contact at `foot` to the 6×6 matrix of the member's grain, scaled by mass and inertia.
+    /// Adds a contact at `foot` to the 6×6 matrix of the member's grain, scaled by the roots of mass and inertia.
     fn add_to_grain(&self, member: u32, foot: &Vec3, link: &Link, tables: &mut [Matrix6<f64>]) {
-        let row = member as usize / self.per_grain;
-        let grain = &self.grains[row];
-        let tensor = self.tensor(link) * weight(grain.body.mass, link.inverse_mass);
-        // Displacement at the foot from the grain's own: u + θ × arm = u − [arm]× θ.
-        let lever = -(foot - grain.position).cross_matrix();
-        let linear = 1.0 / grain.body.mass.sqrt();
-        let angular = 1.0 / grain.body.inertia_axial.min(grain.body.inertia_transverse).sqrt();
-        let coupling = tensor * lever * (linear * angular);
+        let row = member as usize / self.grains.shape.members();
+        let body = &self.grains.bodies[row];
+        let tensor = self.tensor(link) * weight(body.mass, link.inverse_mass);
+        // Displacement at the foot from the grain's own: u + θ × arm = u − [arm]× θ, θ scaled by the inertia about each
+        // of its axes.
+        let lever = -(foot - self.grains.place[row].vector()).cross_matrix() * self.inverse_root_inertia(row);
+        let linear = 1.0 / body.mass.sqrt();
+        let coupling = tensor * lever * linear;
         let table = &mut tables[row];
         let mut add = |r: usize, c: usize, part: &Matrix3<f64>| {
             let mut view = table.fixed_view_mut::<3, 3>(r, c);
@@ -202,7 +197,20 @@ impl Audit<'_> {
         add(0, 0, &(tensor * (linear * linear)));
         add(0, 3, &coupling);
         add(3, 0, &coupling.transpose());
-        add(3, 3, &(lever.transpose() * tensor * lever * (angular * angular)));
+        add(3, 3, &(lever.transpose() * tensor * lever));
+    }
+
+    /// I^(−½) of the grain in `row`, in the fixed frame.
+    fn inverse_root_inertia(&self, row: usize) -> Matrix3<f64> {
+        let body = &self.grains.bodies[row];
+        let (axial, transverse) = (body.inertia_axial.sqrt().recip(), body.inertia_transverse.sqrt().recip());
+        match self.grains.axis.get(row) {
+            Some(axis) => {
+                let axis = axis.vector();
+                Matrix3::identity() * transverse + axis * axis.transpose() * (axial - transverse)
+            }
+            None => Matrix3::identity() * axial,
+        }
     }
 }
 

@@ -5,7 +5,9 @@
 //! for clumps) this ends without overlaps.
 
 use crate::dem::Vec3;
-use crate::dem::simulation::{Material, Model, Simulation, Unstable};
+use crate::dem::model::{Material, Model};
+use crate::dem::simulation::{Simulation, Unstable};
+use crate::dem::tables::grain_table::Quad;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 
@@ -77,25 +79,25 @@ fn pack_once(bodies: &[GrainBody], shape: GrainShape, room: PackingBox, seed: u6
     simulation.drag = RELAXATION_DRAG / step;
     for _ in 0..MOST_STEPS {
         simulation.step()?;
-        hold_inside(&mut simulation.model.grains, room);
+        hold_inside(&mut simulation, room);
         if simulation.sums.contacts.overlap_ratio < OVERLAP_ALLOWED {
-            return Ok(at_rest(simulation.model.grains));
+            return Ok(at_rest(simulation.snapshot()));
         }
     }
     Err(PackingError::DoesNotFit { steps: MOST_STEPS, overlap: simulation.sums.contacts.overlap_ratio })
 }
 
 /// Puts grains that were flung through a wall back inside: walls push to the side a grain is on.
-fn hold_inside(grains: &mut [Grain], room: PackingBox) {
-    for grain in grains {
-        for axis in 0..3 {
-            // Both member centres must lie inside, or the wall would push them out.
-            let margin = 0.5 * grain.body.radius + grain.body.offset * grain.axis[axis].abs();
-            let held = grain.position[axis].max(margin).min((room.size[axis] - margin).max(margin));
-            if held != grain.position[axis] {
-                grain.position[axis] = held;
-                grain.velocity = Vec3::zeros();
-            }
+fn hold_inside(simulation: &mut Simulation, room: PackingBox) {
+    for row in 0..simulation.grains.len() {
+        let body = simulation.grains.bodies[row];
+        let axis = simulation.grains.axis.get(row).map_or(Vec3::zeros(), Quad::vector);
+        // Both member centres must lie inside, or the wall would push them out.
+        let margin = Vec3::repeat(0.5 * body.radius) + axis.abs() * body.offset;
+        let position = simulation.grains.place[row].vector();
+        let held = position.sup(&margin).inf(&(room.size - margin).sup(&margin));
+        if held != position {
+            simulation.put(row, &held);
         }
     }
 }

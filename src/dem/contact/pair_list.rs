@@ -1,0 +1,112 @@
+//! Pairs of one kind in one block: those awake are evaluated every step, the others sleep.
+
+use crate::dem::contact::law::Memory;
+use crate::dem::neighbours::alarms::Alarms;
+use crate::dem::neighbours::clocks::Clock;
+use crate::dem::neighbours::memory_rows::{MemoryRows, Remembered};
+
+/// Pairs (member, other party); the other party is a member, a surface or a rope segment.
+#[derive(Clone, Debug, Default)]
+pub struct PairList {
+    /// Pairs in contact.
+    pub touching: Vec<[u32; 2]>,
+    /// Memory of each pair in contact.
+    pub memory: Vec<Memory>,
+    /// Scratch: places in `touching` of the pairs whose contact has ended in the step at hand, in rising order.
+    pub ended: Vec<u32>,
+    /// Pairs that could touch in any step.
+    near: Vec<[u32; 2]>,
+    alarms: Alarms,
+}
+
+impl PairList {
+    /// Forgets all pairs; gaps up to `reach` will be told apart (m).
+    pub fn reset(&mut self, reach: f64) {
+        self.touching.clear();
+        self.memory.clear();
+        self.near.clear();
+        self.alarms.reset(reach);
+    }
+
+    /// Takes in a pair with the given gap, as the clock starts. Call [`Self::settle`] when all are in.
+    pub fn add(&mut self, pair: [u32; 2], gap: f64) {
+        // Asked so that a NaN is seen.
+        if gap >= self.alarms.shortest(&Clock::default()) {
+            self.alarms.set(pair, &Clock::default(), gap);
+        } else if gap >= 0.0 {
+            self.near.push(pair);
+        } else {
+            self.touching.push(pair);
+        }
+    }
+
+    /// Puts the pairs in contact in order and gives them back their memory.
+    pub fn settle(&mut self, memories: &MemoryRows) {
+        self.touching.sort_unstable();
+        self.memory.extend(self.touching.iter().map(|&pair| memories.recall(pair)));
+    }
+
+    /// Wakes the pairs that could soon touch, finds among the near ones those that touch now, and lets those sleep that
+    /// have gone away. `separation` gives a pair's squared distance (m²) and the distance at which it touches (m).
+    #[inline(always)]
+    pub fn sort_near(&mut self, clock: &Clock, separation: impl Fn([u32; 2]) -> (f64, f64)) {
+        let shortest = self.alarms.shortest(clock);
+        while let Some(pairs) = self.alarms.open(clock) {
+            for &pair in &pairs {
+                let (square, reach) = separation(pair);
+                let gap = square.sqrt() - reach;
+                if gap >= shortest {
+                    self.alarms.set(pair, clock, gap);
+                } else {
+                    self.near.push(pair);
+                }
+            }
+            self.alarms.take_back(pairs);
+        }
+        // Twice the shortest sleep, so that pairs do not go to and fro.
+        let far = 2.0 * shortest;
+        let mut place = 0;
+        while let Some(&pair) = self.near.get(place) {
+            let (square, reach) = separation(pair);
+            // Asked so that a NaN is evaluated, and seen.
+            let apart = square >= reach * reach;
+            if apart && square <= (reach + far) * (reach + far) {
+                place += 1;
+                continue;
+            }
+            self.near.swap_remove(place);
+            if apart {
+                self.alarms.set(pair, clock, square.sqrt() - reach);
+            } else {
+                self.touching.push(pair);
+                self.memory.push(Memory::default());
+            }
+        }
+    }
+
+    /// Moves the pairs noted in `ended` back to the near ones.
+    pub fn end_contacts(&mut self) {
+        while let Some(place) = self.ended.pop() {
+            self.near.push(self.touching.swap_remove(place as usize));
+            self.memory.swap_remove(place as usize);
+        }
+    }
+
+    /// All pairs, wherever they stand.
+    pub fn pairs(&self) -> impl Iterator<Item = &[u32; 2]> {
+        self.touching.iter().chain(&self.near).chain(self.alarms.pairs())
+    }
+
+    /// Contacts with what they remember, with the members' rows renamed by `new_rows`; those of members that are
+    /// gone (`u32::MAX`) are left out. `rename` names the other party.
+    pub fn remembered<'a>(
+        &'a self,
+        new_rows: &'a [u32],
+        rename: impl Fn(u32) -> u32 + 'a,
+    ) -> impl Iterator<Item = Remembered> + 'a {
+        self.touching.iter().zip(&self.memory).filter_map(move |(&[member, other], &memory)| {
+            let contact = Remembered { member: new_rows[member as usize], other: rename(other), memory };
+            (contact.member != u32::MAX && contact.other != u32::MAX).then_some(contact)
+        })
+    }
+}
