@@ -4,7 +4,8 @@ mod common;
 
 use approx::assert_relative_eq;
 use barrier_check::dem::Vec3;
-use barrier_check::dem::contact::grain_pairs::gap;
+use barrier_check::dem::contact::grain_pairs::Members;
+use barrier_check::dem::contact::pair_list::Separation;
 use barrier_check::dem::model::Model;
 use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::{Grain, GrainShape};
@@ -116,16 +117,13 @@ fn no_touching_pair_is_missed() {
         for block in &mut simulation.neighbours.blocks {
             let clocks = block.clocks;
             for (list, clock) in [(&mut block.inner, clocks.inner), (&mut block.border, clocks.border)] {
-                list.sort_near(&clock, |[a, b]| {
-                    let ((x, r), (y, s)) = (simulation.grains.sphere(a as usize), simulation.grains.sphere(b as usize));
-                    ((y - x).norm_squared(), r + s)
-                });
+                list.sort_near(&clock, &Members(&simulation.grains));
                 touching_listed.extend(list.touching.iter().map(|[a, b]| (*a.min(b), *a.max(b))));
             }
         }
         for a in 0..simulation.grains.members() as u32 {
             for b in a + 1..simulation.grains.members() as u32 {
-                let touching = a / 2 != b / 2 && gap(&simulation.grains, [a, b]) < 0.0;
+                let touching = a / 2 != b / 2 && Members(&simulation.grains).gap([a, b]) < 0.0;
                 assert!(!touching || touching_listed.contains(&(a, b)), "step {step}: {a} and {b}");
             }
         }

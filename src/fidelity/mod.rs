@@ -43,7 +43,7 @@ pub fn choose(design: &Design) -> Fidelity {
         "{share} of the critical step of {governing} ({:.2e} s); what is really connected is audited during the run",
         grains.min(net)
     );
-    Fidelity { name, time_step, skin_share: 0.3, reason }
+    Fidelity { name, time_step, skin_share: 0.6, reason }
 }
 
 fn critical_step_of_grains(design: &Design) -> f64 {

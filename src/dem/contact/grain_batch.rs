@@ -52,10 +52,10 @@ impl<const CLUMPS: bool> GrainBatch<CLUMPS> {
         if CLUMPS {
             let [arm1, arm2] = [(a, pair[0]), (b, pair[1])].map(|(row, member)| {
                 let length = side(member) * grains.spin[row].0[3];
-                // The fourth entry is not the arm's and must not reach the sum of the radii.
-                grains.axis[row].0.map(|entry| entry * length)
+                let axis = &grains.axis[row].0;
+                [axis[0] * length, axis[1] * length, axis[2] * length, 0.0]
             });
-            for entry in 0..3 {
+            for entry in 0..4 {
                 between[entry] += arm2[entry] - arm1[entry];
             }
             self.arm[0].rows[lane] = Quad(arm1);

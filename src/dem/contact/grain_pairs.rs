@@ -10,7 +10,7 @@ use std::ops::Range;
 use crate::dem::contact::grain_batch::GrainBatch;
 use crate::dem::contact::lanes::{LANES, LaneSums};
 use crate::dem::contact::law::{LawConstants, Memory, add_scaled, dot};
-use crate::dem::contact::pair_list::PairList;
+use crate::dem::contact::pair_list::{PairList, Separation};
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::blocks::Outbox;
 use crate::dem::neighbours::clocks::Clock;
@@ -62,12 +62,6 @@ pub fn load_border(
 ) -> ContactSums {
     let target = |row: usize, load: GrainLoad, _: &mut [GrainLoad]| outbox.post(row, load);
     load(list, context, range.start, loads, target)
-}
-
-/// Distance between the surfaces of two member spheres (m).
-pub fn gap(grains: &GrainTable, [first, second]: [u32; 2]) -> f64 {
-    let ((a, r1), (b, r2)) = (grains.sphere(first as usize), grains.sphere(second as usize));
-    (b - a).norm() - (r1 + r2)
 }
 
 fn load(
@@ -142,7 +136,7 @@ fn load_batches<const CLUMPS: bool>(
     mut second: impl FnMut(usize, GrainLoad, &mut [GrainLoad]),
 ) -> ContactSums {
     let row = |member: u32| if CLUMPS { member as usize / 2 } else { member as usize };
-    list.sort_near(&context.clock, |[first, second]| separation::<CLUMPS>(context.grains, first, second));
+    list.sort_near(&context.clock, &Spheres::<CLUMPS>(context.grains));
     let mut sums = LaneSums::default();
     let PairList { touching, memory, ended, .. } = list;
     let batches = touching.chunks(LANES).zip(memory.chunks_mut(LANES)).enumerate();
@@ -169,13 +163,29 @@ fn load_batches<const CLUMPS: bool>(
     sums.total()
 }
 
-/// Square of the distance of two spheres' centres, and the sum of their radii.
-#[inline(always)]
-fn separation<const CLUMPS: bool>(grains: &GrainTable, first: u32, second: u32) -> (f64, f64) {
-    let (a, r1) = centre::<CLUMPS>(grains, first);
-    let (b, r2) = centre::<CLUMPS>(grains, second);
-    let between = add_scaled(b, -1.0, a);
-    (dot(between, between), r1 + r2)
+/// The member spheres of a table of spheres (`CLUMPS` false) or of clumps.
+struct Spheres<'a, const CLUMPS: bool>(&'a GrainTable);
+
+impl<const CLUMPS: bool> Separation for Spheres<'_, CLUMPS> {
+    #[inline(always)]
+    fn of(&self, [first, second]: [u32; 2]) -> (f64, f64) {
+        let (a, r1) = centre::<CLUMPS>(self.0, first);
+        let (b, r2) = centre::<CLUMPS>(self.0, second);
+        let between = add_scaled(b, -1.0, a);
+        (dot(between, between), r1 + r2)
+    }
+}
+
+/// The member spheres of any table.
+pub struct Members<'a>(pub &'a GrainTable);
+
+impl Separation for Members<'_> {
+    fn of(&self, pair: [u32; 2]) -> (f64, f64) {
+        match self.0.shape {
+            GrainShape::Sphere => Spheres::<false>(self.0).of(pair),
+            GrainShape::Clump => Spheres::<true>(self.0).of(pair),
+        }
+    }
 }
 
 /// Centre and radius of a member sphere.

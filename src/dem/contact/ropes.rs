@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use crate::dem::Vec3;
 use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Spring, respond};
-use crate::dem::contact::pair_list::PairList;
+use crate::dem::contact::pair_list::{PairList, Separation};
 use crate::dem::geometry::point_segment::nearest_on_segment;
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::clocks::Clock;
@@ -57,15 +57,14 @@ impl RopeContacts {
         self.pushes.clear();
         let Self { list, pushes } = self;
         let (grains, barrier) = (context.grains, context.barrier);
-        list.sort_near(&context.clock, |[member, segment]| {
-            separation(grains.sphere(member as usize), segment, barrier)
-        });
+        let on_ropes = OnRopes { grains, barrier };
+        list.sort_near(&context.clock, &on_ropes);
         let per_grain = grains.shape.members();
         let PairList { touching, memory, ended, .. } = list;
         for (place, (pair, memory)) in touching.iter().zip(memory).enumerate() {
             let [index, segment] = *pair;
             let member = grains.member(index as usize);
-            if gap((member.centre, member.radius), segment, barrier) >= 0.0 {
+            if on_ropes.gap(*pair) >= 0.0 {
                 ended.push(place as u32);
                 continue;
             }
@@ -87,17 +86,20 @@ impl RopeContacts {
     }
 }
 
-/// Square of the distance of a sphere's centre from a rope segment (m²), and the distance at which it may touch (m).
-fn separation((centre, radius): (Vec3, f64), segment: u32, barrier: &Barrier) -> (f64, f64) {
-    let [a, b] = barrier.segments[segment as usize].nodes.map(|node| &barrier.nodes[node as usize].position);
-    let nearest = nearest_on_segment(&centre, a, b).point;
-    ((nearest - centre).norm_squared(), radius + barrier.thickness(segment))
+/// Member spheres and rope segments, taken as thick as the thicker of their ends: never closer than they are.
+pub struct OnRopes<'a> {
+    pub grains: &'a GrainTable,
+    pub barrier: &'a Barrier,
 }
 
-/// Distance between a member sphere and a rope segment as thick as the thicker of its ends (m); never more than the true one.
-pub fn gap(sphere: (Vec3, f64), segment: u32, barrier: &Barrier) -> f64 {
-    let (square, reach) = separation(sphere, segment, barrier);
-    square.sqrt() - reach
+impl Separation for OnRopes<'_> {
+    fn of(&self, [member, segment]: [u32; 2]) -> (f64, f64) {
+        let (centre, radius) = self.grains.sphere(member as usize);
+        let ends = self.barrier.segments[segment as usize].nodes;
+        let [a, b] = ends.map(|node| &self.barrier.nodes[node as usize].position);
+        let nearest = nearest_on_segment(&centre, a, b).point;
+        ((nearest - centre).norm_squared(), radius + self.barrier.thickness(segment))
+    }
 }
 
 /// Geometry of sphere against segment, or against the node a segment ends in.

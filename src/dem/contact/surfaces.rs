@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::dem::Vec3;
 use crate::dem::contact::lanes::{LANES, Lane, LaneSums, Quads};
 use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Spring, add_scaled, cross, dot, respond, scaled};
-use crate::dem::contact::pair_list::PairList;
+use crate::dem::contact::pair_list::{PairList, Separation};
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::grain_table::{GrainLoad, GrainTable, Quad};
@@ -81,7 +81,7 @@ pub fn load_surfaces(
     forces: &mut SurfaceForces,
 ) -> ContactSums {
     let (grains, surfaces) = (context.grains, context.surfaces);
-    list.sort_near(&context.clock, |[member, surface]| separation(grains, member, &surfaces[surface as usize]));
+    list.sort_near(&context.clock, &OnSurfaces { grains, surfaces });
     let per_grain = grains.shape.members();
     let mut sums = LaneSums::default();
     let PairList { touching, memory, ended, .. } = list;
@@ -223,15 +223,16 @@ impl SurfaceBatch {
     }
 }
 
-/// Square of the distance of a member sphere's centre from a surface (m²), and its radius (m).
-#[inline(always)]
-fn separation(grains: &GrainTable, member: u32, surface: &Surface) -> (f64, f64) {
-    let (centre, radius) = grains.sphere(member as usize);
-    (surface.distance_squared(&centre), radius)
+/// Member spheres and surfaces.
+pub struct OnSurfaces<'a> {
+    pub grains: &'a GrainTable,
+    pub surfaces: &'a [Surface],
 }
 
-/// Distance between a member sphere and a surface (m).
-pub fn gap(grains: &GrainTable, member: u32, surface: &Surface) -> f64 {
-    let (centre, radius) = grains.sphere(member as usize);
-    surface.distance_squared(&centre).sqrt() - radius
+impl Separation for OnSurfaces<'_> {
+    #[inline(always)]
+    fn of(&self, [member, surface]: [u32; 2]) -> (f64, f64) {
+        let (centre, radius) = self.grains.sphere(member as usize);
+        (self.surfaces[surface as usize].distance_squared(&centre), radius)
+    }
 }

@@ -12,7 +12,7 @@ const SLOTS_IN_REACH: f64 = 256.0;
 const SLOTS: u64 = 258;
 
 /// Steps that a pair must be able to sleep.
-const STEPS_WORTH_SLEEPING: f64 = 3.0;
+const STEPS_WORTH_SLEEPING: f64 = 1.0;
 
 #[derive(Clone, Debug, Default)]
 pub struct Alarms {

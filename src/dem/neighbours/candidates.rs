@@ -1,8 +1,9 @@
 //! Which pairs could touch before the lists are renewed.
 
-use crate::dem::contact::grain_pairs::gap as grain_gap;
-use crate::dem::contact::ropes::gap as rope_gap;
-use crate::dem::contact::surfaces::gap as surface_gap;
+use crate::dem::contact::grain_pairs::Members;
+use crate::dem::contact::pair_list::Separation;
+use crate::dem::contact::ropes::OnRopes;
+use crate::dem::contact::surfaces::OnSurfaces;
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::tables::barrier::Barrier;
@@ -42,7 +43,7 @@ pub fn find_grain_pairs(tree: &mut BoxTree, grains: &GrainTable, skin: f64, bloc
         let same = (b as usize) < block.grains.end;
         for first in a * per_grain..(a + 1) * per_grain {
             for second in b * per_grain..(b + 1) * per_grain {
-                let gap = grain_gap(grains, [first, second]);
+                let gap = Members(grains).gap([first, second]);
                 if gap < skin {
                     let list = if same { &mut block.inner } else { &mut block.border };
                     list.add([first, second], gap);
@@ -66,7 +67,7 @@ pub fn find_rope_pairs(
     grain_tree.pairs_with(segments, |row, segment| {
         let list = &mut blocks[row as usize / block_size].ropes.list;
         for index in row as usize * per_grain..(row as usize + 1) * per_grain {
-            let gap = rope_gap(grains.sphere(index), segment, barrier);
+            let gap = OnRopes { grains, barrier }.gap([index as u32, segment]);
             if gap < skin {
                 list.add([index as u32, segment], gap);
             }
@@ -78,10 +79,11 @@ pub fn find_rope_pairs(
 pub fn find_surface_pairs(block: &mut Block, grains: &GrainTable, surfaces: &[Surface], skin: f64) {
     let per_grain = grains.shape.members();
     for index in block.grains.start * per_grain..block.grains.end * per_grain {
-        for (number, surface) in surfaces.iter().enumerate() {
-            let gap = surface_gap(grains, index as u32, surface);
+        for number in 0..surfaces.len() {
+            let pair = [index as u32, number as u32];
+            let gap = OnSurfaces { grains, surfaces }.gap(pair);
             if gap < skin {
-                block.surfaces.add([index as u32, number as u32], gap);
+                block.surfaces.add(pair, gap);
             }
         }
     }

@@ -5,6 +5,8 @@
 //! both momentum and energy to rounding.
 
 use crate::dem::Vec3;
+use crate::dem::contact::lanes::{LANES, Lane, Quads};
+use crate::dem::contact::law::{add_scaled, cross, dot, scaled};
 use crate::dem::tables::barrier::Node;
 use crate::dem::tables::grain_table::{GrainLoad, Quad};
 
@@ -47,11 +49,21 @@ impl MovingRows<'_> {
     pub fn advance(self, time: &Stretch) -> Pace {
         #[cfg(target_arch = "x86_64")]
         {
+            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512vl") {
+                // SAFETY: the processor was just asked for these features.
+                return unsafe { self.advance_avx512(time) };
+            }
             if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor was just asked for this feature.
+                // SAFETY: as above.
                 return unsafe { self.advance_avx2(time) };
             }
         }
+        self.advance_rows(time)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn advance_avx512(self, time: &Stretch) -> Pace {
         self.advance_rows(time)
     }
 
@@ -79,7 +91,7 @@ impl MovingRows<'_> {
                 spin.0[entry] *= step.keep[entry];
             }
             *load = GrainLoad::default();
-            fastest.see(motion, drift, 0.0);
+            fastest.see(motion, drift);
         }
         fastest.pace()
     }
@@ -88,21 +100,76 @@ impl MovingRows<'_> {
     fn advance_clumps(self, time: &Stretch) -> Pace {
         let step = Steps::of(time);
         let mut fastest = Fastest::default();
-        let rows = self.place.iter_mut().zip(self.motion).zip(self.spin).zip(self.axis).zip(self.momentum);
-        for (((((place, motion), spin), axis), momentum), (load, drift)) in
-            rows.zip(self.loads.iter_mut().zip(self.drift))
-        {
+        let rows = self.place.iter_mut().zip(self.motion).zip(self.loads.iter().zip(self.drift));
+        for ((place, motion), (load, drift)) in rows {
             step.translate(place, motion, &load.force);
-            for entry in 0..4 {
-                momentum.0[entry] += load.torque.0[entry] * step.time[entry];
-                momentum.0[entry] *= step.keep[entry];
-            }
-            let turning = turn_axis(axis, momentum, time.step);
-            spin_from_momentum(spin, axis, momentum);
-            *load = GrainLoad::default();
-            fastest.see(motion, drift, turning * spin.fourth() * spin.fourth());
+            fastest.see(motion, drift);
         }
+        let mut turning = Turning::default();
+        let rows = self.spin.chunks_mut(LANES).zip(self.axis.chunks_mut(LANES)).zip(self.momentum.chunks_mut(LANES));
+        for (((spin, axis), momentum), loads) in rows.zip(self.loads.chunks_mut(LANES)) {
+            turning.gather(axis, momentum, loads);
+            turning.advance(time.step, step.keep[0]);
+            turning.scatter(spin, axis, momentum);
+            fastest.turning = spin.iter().zip(&turning.rate).fold(fastest.turning, |most, (spin, rate)| {
+                let square = rate * spin.fourth() * spin.fourth();
+                // Asked so that a NaN stays.
+                if square <= most { most } else { square }
+            });
+        }
+        fastest.total += fastest.turning;
         fastest.pace()
+    }
+}
+
+/// Clumps that turn, side by side.
+#[derive(Default)]
+struct Turning {
+    axis: Quads,
+    momentum: Quads,
+    torque: Quads,
+    spin: Quads,
+    /// Square of the rate at which each axis turns (1/s²).
+    rate: Lane,
+}
+
+impl Turning {
+    /// Takes the rows in and sets the loads to zero. Lanes left over keep what they had: it goes nowhere.
+    #[inline(always)]
+    fn gather(&mut self, axis: &[Quad], momentum: &[Quad], loads: &mut [GrainLoad]) {
+        self.axis.rows[..axis.len()].copy_from_slice(axis);
+        self.momentum.rows[..momentum.len()].copy_from_slice(momentum);
+        for (torque, load) in self.torque.rows.iter_mut().zip(loads) {
+            *torque = load.torque;
+            *load = GrainLoad::default();
+        }
+        [&mut self.axis, &mut self.momentum, &mut self.torque].into_iter().for_each(Quads::turn_to_columns);
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, step: f64, keep: f64) {
+        for lane in 0..LANES {
+            let momentum = scaled(add_scaled(self.momentum.vector(lane), step, self.torque.vector(lane)), keep);
+            let inverse_transverse = self.axis.fourth(lane);
+            let (axis, rate) = turned(self.axis.vector(lane), momentum, step, inverse_transverse);
+            let difference = self.momentum.fourth(lane);
+            let spin = add_scaled(scaled(momentum, inverse_transverse), dot(axis, momentum) * difference, axis);
+            self.axis.put(lane, axis, inverse_transverse);
+            self.momentum.put(lane, momentum, difference);
+            self.spin.put(lane, spin, 0.0);
+            self.rate[lane] = rate;
+        }
+        [&mut self.axis, &mut self.momentum, &mut self.spin].into_iter().for_each(Quads::turn_to_rows);
+    }
+
+    #[inline(always)]
+    fn scatter(&self, spin: &mut [Quad], axis: &mut [Quad], momentum: &mut [Quad]) {
+        axis.copy_from_slice(&self.axis.rows[..axis.len()]);
+        momentum.copy_from_slice(&self.momentum.rows[..momentum.len()]);
+        for (spin, new) in spin.iter_mut().zip(&self.spin.rows) {
+            let [x, y, z, _] = new.0;
+            *spin = Quad([x, y, z, spin.fourth()]);
+        }
     }
 }
 
@@ -141,15 +208,14 @@ struct Fastest {
 
 impl Fastest {
     #[inline(always)]
-    fn see(&mut self, motion: &Quad, drift: &Drifting, turning: f64) {
+    fn see(&mut self, motion: &Quad, drift: &Drifting) {
         let mut square = 0.0;
         for (velocity, drift) in motion.0.iter().zip(drift).take(3) {
             let off = velocity - f64::from(*drift);
             square += off * off;
         }
         self.stray = if square > self.stray { square } else { self.stray };
-        self.turning = if turning > self.turning { turning } else { self.turning };
-        self.total += square + turning;
+        self.total += square;
     }
 
     fn pace(&self) -> Pace {
@@ -158,30 +224,20 @@ impl Fastest {
     }
 }
 
-/// Turns the axis about the angular momentum L by the angle |L| Δt/I_t. Returns the square of the rate (1/s²).
+/// The axis turned about the angular momentum L by the angle |L| Δt/I_t, and the square of the rate (1/s²).
 ///
-/// With h = L tan(x)/(|L|), x half the angle, the turned axis is a + 2 h × (a + h × a)/(1 + h²). The tangent comes from its
+/// With h = L tan(x)/|L|, x half the angle, the turned axis is a + 2 h × (a + h × a)/(1 + h²). The tangent comes from its
 /// series up to x⁷: the angle of one step is small, the result keeps the length for any argument, and it is the same on
 /// every machine, which the system's library does not promise.
 #[inline(always)]
-fn turn_axis(axis: &mut Quad, momentum: &Quad, step: f64) -> f64 {
-    let inverse_transverse = axis.fourth();
-    let half = momentum.vector() * (0.5 * step * inverse_transverse);
-    let square = half.norm_squared();
+fn turned(axis: [f64; 3], momentum: [f64; 3], step: f64, inverse_transverse: f64) -> ([f64; 3], f64) {
+    let half = scaled(momentum, 0.5 * step * inverse_transverse);
+    let square = dot(half, half);
     let series = 1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0)));
-    let line = half * series;
-    let before = axis.vector();
-    let turned = before + line.cross(&(before + line.cross(&before))) * (2.0 / (1.0 + line.norm_squared()));
-    axis.set_vector(&(turned * (1.5 - 0.5 * turned.norm_squared())));
-    4.0 * square / (step * step)
-}
-
-/// ω = L/I_t + (a·L)(1/I_a − 1/I_t) a.
-#[inline(always)]
-fn spin_from_momentum(spin: &mut Quad, axis: &Quad, momentum: &Quad) {
-    let (inverse_transverse, difference) = (axis.fourth(), momentum.fourth());
-    let (axis, momentum) = (axis.vector(), momentum.vector());
-    spin.set_vector(&(momentum * inverse_transverse + axis * (axis.dot(&momentum) * difference)));
+    let line = scaled(half, series);
+    let across = cross(line, add_scaled(axis, 1.0, cross(line, axis)));
+    let turned = add_scaled(axis, 2.0 / (1.0 + dot(line, line)), across);
+    (scaled(turned, 1.5 - 0.5 * dot(turned, turned)), 4.0 * square / (step * step))
 }
 
 /// Moves the nodes of a barrier through one step; returns the square of the largest speed (m²/s²).

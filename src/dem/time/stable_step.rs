@@ -10,7 +10,8 @@ use nalgebra::{Matrix3, Matrix6, SMatrix};
 
 use crate::dem::Vec3;
 use crate::dem::contact::law::LawConstants;
-use crate::dem::contact::ropes::{RopeContext, gap as rope_gap, touch as touch_rope};
+use crate::dem::contact::pair_list::Separation;
+use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::barrier::Barrier;
@@ -119,7 +120,7 @@ impl Audit<'_> {
             clock: Clock::default(),
         };
         for &[index, segment] in &block.ropes.list.touching {
-            if rope_gap(self.grains.sphere(index as usize), segment, barrier) >= 0.0 {
+            if (OnRopes { grains: self.grains, barrier }).gap([index, segment]) >= 0.0 {
                 continue;
             }
             let member = self.grains.member(index as usize);
