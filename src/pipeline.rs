@@ -148,7 +148,7 @@ fn numerics(event: &Event) -> Numerics {
     Numerics {
         energy_error: event.energy_error,
         overlap: event.simulation.extremes.overlap_ratio,
-        step_ratio: event.simulation.extremes.step_ratio.largest(),
+        step_ratio: event.simulation.extremes.step_ratio.value,
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
             _ => None,

@@ -240,13 +240,14 @@ impl Simulation {
             friction: self.model.material.friction,
         };
         let ratio = audit.ratio();
-        let worst = &mut self.extremes.step_ratio;
-        *worst = StepRatio { grains: worst.grains.max(ratio.grains), nodes: worst.nodes.max(ratio.nodes) };
-        if ratio.largest() > 1.0 {
-            self.time_step *= STEP_AFTER_CUT / ratio.largest();
+        if ratio.value > self.extremes.step_ratio.value {
+            self.extremes.step_ratio = ratio;
+        }
+        if ratio.value > 1.0 {
+            self.time_step *= STEP_AFTER_CUT / ratio.value;
             self.step_cuts += 1;
         }
-        if self.time_step < SHORTEST_STEP * self.first_time_step || !ratio.largest().is_finite() {
+        if self.time_step < SHORTEST_STEP * self.first_time_step || !ratio.value.is_finite() {
             return Err(Unstable::Step { time: self.time, step: self.time_step });
         }
         Ok(())

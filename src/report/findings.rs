@@ -112,8 +112,8 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
             "Time step over critical step",
             format!("{:.2}", numerics.step_ratio),
             format!(
-                "largest upper bound met (grains {:.2}, barrier {:.2}); limit {STEP_LIMIT}",
-                facts.step_ratio.grains, facts.step_ratio.nodes
+                "largest met, of a mode with {:.0} % of its energy in the barrier; limit {STEP_LIMIT}",
+                100.0 * facts.step_ratio.in_barrier
             ),
         ),
         row(

@@ -241,7 +241,7 @@ fn numerics_part(run: &Run) -> NumericsPart {
     NumericsPart {
         steps: facts.steps,
         time_step_s: facts.time_step,
-        time_step_over_critical: facts.step_ratio.largest(),
+        time_step_over_critical: facts.step_ratio.value,
         time_step_cuts: facts.step_cuts,
         energy_error_relative: run.numerics.energy_error,
         overlap_max_relative: run.numerics.overlap,
