@@ -1,18 +1,67 @@
-//! Cost of a step of a sphere, in the dense bed and in the flow, against their number, threads and shape.
+//! Cost of a step: in the dense bed, in the flow and at the impact, against the number of grains, threads and shape.
 //!
-//! After the timings a table tells contacts per sphere, sphere-steps per second, ns per sphere-step and per contact,
-//! bytes per sphere, and what two threads reach against two independent runs of one thread each.
+//!     cargo bench                      timings by criterion, then the table
+//!     cargo bench -- --table           the table alone
+//!
+//! The table tells contacts per sphere z, ns per sphere-step, sphere-steps per second, ns per contact and bytes per sphere;
+//! and what two threads reach against two independent runs of one thread each at the same time, on the same machine.
 
 mod states;
 
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use barrier_check::dem::simulation::Simulation;
+use barrier_check::dem::tables::grains::GrainShape;
 use criterion::{Criterion, Throughput, criterion_group};
-use states::{Phase, flume, run_in};
+use states::{Phase, State};
 
-/// Steps before the clock starts, and steps that are timed, for a state of 5000 spheres.
+/// Steps before the clock starts.
 const RUN_IN: usize = 300;
+/// Sphere-steps that a row of the table times.
+const SPHERE_STEPS: usize = 16_000_000;
+
+/// Counts the bytes in use.
+struct Counting;
+
+static IN_USE: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: hands every call to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        IN_USE.fetch_add(layout.size(), Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+const STATES: [State; 9] = {
+    const fn spheres(phase: Phase, count: usize) -> State {
+        State { shape: GrainShape::Sphere, phase, count }
+    }
+    const fn clumps(phase: Phase) -> State {
+        State { shape: GrainShape::Clump, phase, count: 5406 }
+    }
+    [
+        spheres(Phase::Dense, 5406),
+        spheres(Phase::Dense, 20_000),
+        spheres(Phase::Dense, 100_000),
+        spheres(Phase::Flow, 5406),
+        spheres(Phase::Flow, 20_000),
+        spheres(Phase::Flow, 100_000),
+        clumps(Phase::Dense),
+        clumps(Phase::Flow),
+        clumps(Phase::Impact),
+    ]
+};
 
 fn pool(threads: usize) -> rayon::ThreadPool {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool")
@@ -27,67 +76,98 @@ fn time_steps(simulation: &mut Simulation, steps: usize) -> Duration {
 }
 
 fn throughput(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("throughput");
+    let mut group = criterion.benchmark_group("step");
     group.sample_size(10).warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(3));
-    for phase in [Phase::Dense, Phase::Flow] {
-        for count in [5406, 20_000, 100_000] {
-            let model = flume(count, phase);
-            group.throughput(Throughput::Elements(count as u64));
-            for threads in [1, 2] {
-                let name = format!("spheres_{}_{count}_threads_{threads}", phase.name());
-                group.bench_function(name, |bencher| {
-                    bencher.iter_custom(|steps| {
-                        pool(threads).install(|| {
-                            let mut simulation = run_in(model.clone(), RUN_IN);
-                            time_steps(&mut simulation, steps as usize)
-                        })
-                    });
-                });
-            }
+    for state in STATES {
+        let model = state.model();
+        for threads in [1, 2] {
+            let pool = pool(threads);
+            let mut simulation = pool.install(|| state.run_in(model.clone(), RUN_IN));
+            group.throughput(Throughput::Elements(simulation.grains.members() as u64));
+            group.bench_function(format!("{}/threads_{threads}", state.name()), |bencher| {
+                bencher.iter_custom(|steps| pool.install(|| time_steps(&mut simulation, steps as usize)));
+            });
         }
     }
+}
+
+criterion_group!(benches, throughput);
+
+fn main() {
+    if !std::env::args().any(|argument| argument == "--table") {
+        benches();
+    }
+    println!(
+        "{:<22} {:>7} {:>6} {:>10} {:>10} {:>10} {:>9} {:>9} {:>7}",
+        "state", "threads", "z", "ns/sph-st", "M sph-st/s", "ns/contact", "ms/step", "bytes/sph", "of two"
+    );
+    STATES.iter().for_each(tell);
+}
+
+/// Rows of the table for one state: on one thread, on two, and two runs side by side.
+fn tell(state: &State) {
+    let model = state.model();
+    let spheres = model.grains.len() * model.shape.members();
+    let steps = (SPHERE_STEPS / spheres).max(100);
+    let alone = row(state, 1, steps);
+    let together = row(state, 2, steps);
+    let pair = two_runs(state, steps);
+    let share = pair / together;
+    println!(
+        "{:<22} {:>7} {:>17.1} {:>62.2}   two threads over two runs; one thread {:.2} of them",
+        state.name(),
+        "2 runs",
+        pair * 1e9 / spheres as f64,
+        share,
+        pair / alone
+    );
+}
+
+/// Times one state and prints its row; returns the time of a step (s).
+fn row(state: &State, threads: usize, steps: usize) -> f64 {
+    pool(threads).install(|| {
+        let model = state.model();
+        let before = IN_USE.load(Ordering::Relaxed);
+        let grains = model.grains.len() * size_of_val(&model.grains[0]);
+        let mut simulation = state.run_in(model, RUN_IN);
+        let time = time_steps(&mut simulation, steps).as_secs_f64() / steps as f64;
+        let bytes = IN_USE.load(Ordering::Relaxed) + grains - before;
+        let spheres = simulation.grains.members() as f64;
+        let contacts = touching_pairs(&simulation);
+        println!(
+            "{:<22} {threads:>7} {:>6.2} {:>10.1} {:>10.2} {:>10.1} {:>9.3} {:>9.0}",
+            state.name(),
+            2.0 * contacts / spheres,
+            time * 1e9 / spheres,
+            1e-6 * spheres / time,
+            time * 1e9 / contacts,
+            time * 1e3,
+            bytes as f64 / spheres,
+        );
+        time
+    })
+}
+
+/// Time per step that two runs of one thread each need together, counted as if they shared one run (s).
+fn two_runs(state: &State, steps: usize) -> f64 {
+    let barrier = std::sync::Barrier::new(2);
+    let times: Vec<f64> = std::thread::scope(|scope| {
+        let run = || {
+            pool(1).install(|| {
+                let mut simulation = state.run_in(state.model(), RUN_IN);
+                barrier.wait();
+                time_steps(&mut simulation, steps).as_secs_f64() / steps as f64
+            })
+        };
+        let runs = [scope.spawn(run), scope.spawn(run)];
+        runs.into_iter().map(|run| run.join().expect("run ends")).collect()
+    });
+    // Each made one step in this time: together two, so one in half of it.
+    0.25 * (times[0] + times[1])
 }
 
 /// Pairs of spheres that touch.
 fn touching_pairs(simulation: &Simulation) -> f64 {
     let blocks = simulation.neighbours.blocks.iter();
     blocks.map(|block| block.inner.touching.len() + block.border.touching.len()).sum::<usize>() as f64
-}
-
-criterion_group!(benches, throughput);
-
-fn main() {
-    if std::env::args().any(|argument| argument == "--quick-table") {
-        return table();
-    }
-    benches();
-    table();
-}
-
-fn table() {
-    println!(
-        "{:<24} {:>8} {:>8} {:>10} {:>10} {:>10}",
-        "scene", "threads", "z", "ns/sph-st", "M sph-st/s", "ns/contact"
-    );
-    for phase in [Phase::Dense, Phase::Flow] {
-        for count in [5406, 20_000, 100_000] {
-            let model = flume(count, phase);
-            let steps = (16_000_000 / count).clamp(200, 3000);
-            for threads in [1, 2] {
-                let (time, contacts) = pool(threads).install(|| {
-                    let mut simulation = run_in(model.clone(), RUN_IN);
-                    (time_steps(&mut simulation, steps), touching_pairs(&simulation))
-                });
-                let each = time.as_secs_f64() / steps as f64 / count as f64;
-                let per_sphere = 2.0 * contacts / count as f64;
-                println!(
-                    "{:<24} {threads:>8} {per_sphere:>8.2} {:>10.1} {:>10.2} {:>10.1}",
-                    format!("{} {count}", phase.name()),
-                    each * 1e9,
-                    1e-6 / each,
-                    each * 1e9 / (0.5 * per_sphere),
-                );
-            }
-        }
-    }
 }

@@ -86,12 +86,10 @@ impl<const CLUMPS: bool> GrainBatch<CLUMPS> {
             let force = response.force;
             self.force.put(lane, force, 0.0);
             if CLUMPS {
-                let levers = [0, 1].map(|party| {
-                    let reach = [touch.reach[0], -touch.reach[1]][party];
-                    add_scaled(self.arm[party].vector(lane), reach, touch.point.normal)
-                });
-                self.torque[0].put(lane, cross(levers[0], force), 0.0);
-                self.torque[1].put(lane, cross(force, levers[1]), 0.0);
+                let lever1 = add_scaled(self.arm[0].vector(lane), touch.reach[0], touch.point.normal);
+                let lever2 = add_scaled(self.arm[1].vector(lane), -touch.reach[1], touch.point.normal);
+                self.torque[0].put(lane, cross(lever1, force), 0.0);
+                self.torque[1].put(lane, cross(force, lever2), 0.0);
             } else {
                 self.torque[0].put(lane, cross(touch.point.normal, force), 0.0);
                 self.reach[0][lane] = touch.reach[0];
