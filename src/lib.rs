@@ -42,3 +42,4 @@ pub mod report;
 pub mod scene;
 pub mod sources;
 pub mod units;
+pub mod validation;

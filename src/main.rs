@@ -5,6 +5,7 @@ use std::process;
 
 use barrier_check::commands::check::check;
 use barrier_check::commands::schema::{design_schema, result_schema};
+use barrier_check::commands::validate::{Selection, validate};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Checks a debris-flow barrier: guideline loads, granular-flow simulation, limits, report.
@@ -34,6 +35,20 @@ struct CheckArguments {
 enum Command {
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
+    /// Runs validation cases: scenes with known answers
+    Validate(ValidateArguments),
+}
+
+#[derive(Args)]
+struct ValidateArguments {
+    /// Suites (contact, bulk, wall) or cases (A1, C5, ...) [default: all]
+    names: Vec<String>,
+    /// Only the cases that take seconds
+    #[arg(long)]
+    quick: bool,
+    /// Folder for the report
+    #[arg(long, value_name = "DIR", default_value = "out/validation")]
+    out: PathBuf,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -52,6 +67,9 @@ fn main() {
             };
             println!("{schema:#}");
             0
+        }
+        Some(Command::Validate(ValidateArguments { names, quick, out })) => {
+            validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
             let CheckArguments { design, out, threads } = arguments.check;

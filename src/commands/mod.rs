@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod schema;
+pub mod validate;
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::dem::Vec3;
 use crate::dem::contact::grain_pairs::{PairConstants, PairContext, load_border, load_inner};
 use crate::dem::contact::law::LawConstants;
-use crate::dem::contact::restitution::damping_ratio_for;
 use crate::dem::contact::ropes::RopeContext;
 use crate::dem::contact::surfaces::{SurfaceContext, SurfaceForces, load_surfaces};
 use crate::dem::ledger::{ContactSums, Ledger, MotionEnergy};
@@ -77,7 +76,7 @@ pub struct Simulation {
     /// How often an audit has shortened the time step.
     pub step_cuts: u32,
     first_time_step: f64,
-    damping_ratio: f64,
+    law: LawConstants,
     /// Speed no grain or node can have by honest means (m/s).
     speed_limit: f64,
 }
@@ -98,7 +97,7 @@ impl Simulation {
             extremes: Extremes::default(),
             step_cuts: 0,
             first_time_step: time_step,
-            damping_ratio: damping_ratio_for(model.material.restitution),
+            law: LawConstants::new(model.material.restitution, model.material.tangential_ratio, time_step),
             speed_limit,
             model,
         }
@@ -150,7 +149,7 @@ impl Simulation {
     }
 
     fn law(&self) -> LawConstants {
-        LawConstants::new(self.damping_ratio, self.model.material.tangential_ratio, self.time_step)
+        LawConstants { time_step: self.time_step, ..self.law }
     }
 
     fn find_forces(&mut self) -> Result<(), Unstable> {

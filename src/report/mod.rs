@@ -5,5 +5,6 @@ pub mod findings;
 pub mod json;
 pub mod plots;
 pub mod render;
+pub mod validation;
 pub mod view;
 pub mod write;

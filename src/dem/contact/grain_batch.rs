@@ -122,7 +122,7 @@ impl<const CLUMPS: bool> GrainBatch<CLUMPS> {
     /// Normal along the line of centres, contact half-way into the overlap.
     ///
     /// All reciprocals come from one: with X = r₁+r₂, Y = 2E r₁r₂, Z = 1/m₁+1/m₂ and the distance d, 1/(X Y Z d) gives
-    /// k = Y/X, 1/k, k m_r = Y/(X Z) and 1/d by products.
+    /// k = Y/X, 1/k, 1/Z and 1/d by products.
     #[inline(always)]
     fn touch(&self, lane: usize, constants: &PairConstants) -> Touch {
         let between = self.between.vector(lane);
@@ -146,15 +146,18 @@ impl<const CLUMPS: bool> GrainBatch<CLUMPS> {
             velocity = add_scaled(velocity, -1.0, cross(spin1, self.arm[0].vector(lane)));
         }
         let larger = if r1 > r2 { r1 } else { r2 };
+        let stiffness = but_spring * product * product;
+        let frequency = (stiffness * inverse_mass).sqrt();
         let point = ContactPoint {
             normal,
             overlap,
             velocity,
             twist: 0.5 * dot(add_scaled(spin1, 1.0, spin2), normal),
             spring: Spring {
-                stiffness: but_spring * product * product,
+                stiffness,
                 compliance: but_spring * sum * sum,
-                impedance: (but_distance * product * product).sqrt(),
+                frequency,
+                impedance: frequency * (but_distance * (sum * product)),
             },
             friction: constants.friction,
         };

@@ -1,12 +1,13 @@
 //! The one contact law: linear spring with a dashpot that never pulls, and Coulomb friction.
 //!
-//! Normal force   F_n = max(0, k u + γ u̇),  γ = 2 ζ √(k m_r)
+//! Normal force   F_n = max(0, k u + γ u̇),  γ = 2 ζ √(k m_r), ζ from the restitution and the step
 //! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = (2/7) k
 //!
 //! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step.
 //! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
 //! Written without branches so that a loop over contacts becomes vector instructions.
 
+use crate::dem::contact::restitution::{StepCorrection, damping_ratio_for};
 use crate::dem::tables::grain_table::Quad;
 
 /// Where and how two bodies touch: what geometry hands to the law. The second body is "the other one".
@@ -32,6 +33,8 @@ pub struct Spring {
     pub stiffness: f64,
     /// 1/k (m/N).
     pub compliance: f64,
+    /// ω0 = √(k/m_r) (1/s).
+    pub frequency: f64,
     /// √(k m_r) (N s/m).
     pub impedance: f64,
 }
@@ -39,7 +42,8 @@ pub struct Spring {
 impl Spring {
     /// A spring of stiffness k (N/m) between bodies with 1/m_1 + 1/m_2 = `inverse_mass` (1/kg).
     pub fn new(stiffness: f64, inverse_mass: f64) -> Self {
-        Self { stiffness, compliance: 1.0 / stiffness, impedance: (stiffness / inverse_mass).sqrt() }
+        let frequency = (stiffness * inverse_mass).sqrt();
+        Self { stiffness, compliance: 1.0 / stiffness, frequency, impedance: frequency / inverse_mass }
     }
 }
 
@@ -70,8 +74,10 @@ impl Memory {
 /// Constants shared by all contacts of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawConstants {
-    /// Damping ratio ζ.
+    /// Damping ratio ζ for short steps.
     pub damping_ratio: f64,
+    /// What it needs in steps of finite length.
+    pub correction: StepCorrection,
     /// k_t / k_n.
     pub tangential_ratio: f64,
     /// ½ k_n / k_t.
@@ -81,8 +87,22 @@ pub struct LawConstants {
 }
 
 impl LawConstants {
-    pub fn new(damping_ratio: f64, tangential_ratio: f64, time_step: f64) -> Self {
-        Self { damping_ratio, tangential_ratio, half_tangential_compliance: 0.5 / tangential_ratio, time_step }
+    pub fn new(restitution: f64, tangential_ratio: f64, time_step: f64) -> Self {
+        Self {
+            damping_ratio: damping_ratio_for(restitution),
+            correction: StepCorrection::of(restitution),
+            tangential_ratio,
+            half_tangential_compliance: 0.5 / tangential_ratio,
+            time_step,
+        }
+    }
+
+    /// γ of a contact (N s/m).
+    #[inline(always)]
+    pub fn damping(&self, spring: &Spring) -> f64 {
+        let x = spring.frequency * self.time_step;
+        let corrected = self.damping_ratio * (1.0 + x * (self.correction.linear + x * self.correction.quadratic));
+        2.0 * corrected * spring.impedance
     }
 }
 
@@ -140,7 +160,7 @@ pub fn respond(point: &ContactPoint, memory: &Memory, constants: &LawConstants) 
     let stiffness = on * point.spring.stiffness;
     let separation_rate = dot(point.velocity, n);
     let spring = stiffness * point.overlap;
-    let damping = 2.0 * constants.damping_ratio * on * point.spring.impedance;
+    let damping = on * constants.damping(&point.spring);
     let normal_force = larger(0.0, spring - damping * separation_rate);
     let dashpot = normal_force - spring;
     let lost_damping = -0.5 * (memory.dashpot + dashpot) * separation_rate * step;

@@ -9,7 +9,7 @@
 use nalgebra::Matrix3;
 
 use crate::dem::Vec3;
-use crate::dem::contact::law::LawConstants;
+use crate::dem::contact::law::{LawConstants, Spring};
 use crate::dem::contact::pair_list::Separation;
 use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::dem::neighbours::blocks::Block;
@@ -208,7 +208,7 @@ impl Audit<'_> {
     /// A contact with its normal spring and dashpot, and its friction spring.
     fn contact(&self, ends: Vec<End>, normal: &Vec3, stiffness: f64, inverse_mass: f64) -> Link {
         let along = normal * normal.transpose();
-        let damping = 2.0 * self.law.damping_ratio * (stiffness / inverse_mass).sqrt();
+        let damping = self.law.damping(&Spring::new(stiffness, inverse_mass));
         let across = (Matrix3::identity() - along) * (self.law.tangential_ratio * stiffness);
         Link { ends, stiffness: along * stiffness + across, damping: along * damping }
     }

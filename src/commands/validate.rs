@@ -1,0 +1,112 @@
+//! `barrier-check validate`: runs validation cases, prints them as a table and writes a report.
+
+use std::io::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::commands::ExitCode;
+use crate::report::validation::{Row, render, verdict_line};
+use crate::report::write::write_all;
+use crate::validation::CASES;
+use crate::validation::case::{Broken, Case, Cost, Finding, Suite};
+
+/// A case that has run.
+pub struct Ran {
+    pub case: &'static Case,
+    pub outcome: Result<Vec<Finding>, Broken>,
+    pub time: Duration,
+}
+
+impl Ran {
+    pub fn passed(&self) -> bool {
+        self.outcome.as_ref().is_ok_and(|findings| findings.iter().all(Finding::holds))
+    }
+}
+
+/// Which cases to run.
+pub struct Selection<'a> {
+    /// Suites and ids; empty for all.
+    pub names: &'a [String],
+    pub quick_only: bool,
+}
+
+impl Selection<'_> {
+    /// The cases selected, or the names that select nothing.
+    pub fn cases(&self) -> Result<Vec<&'static Case>, Vec<String>> {
+        let named = |case: &Case, name: &str| {
+            name.eq_ignore_ascii_case(case.id) || name.eq_ignore_ascii_case(case.suite.word())
+        };
+        let unknown: Vec<String> =
+            self.names.iter().filter(|name| !CASES.iter().any(|case| named(case, name))).cloned().collect();
+        if !unknown.is_empty() {
+            return Err(unknown);
+        }
+        let wanted = |case: &Case| self.names.is_empty() || self.names.iter().any(|name| named(case, name));
+        Ok(CASES
+            .iter()
+            .copied()
+            .filter(|case| wanted(case) && (!self.quick_only || case.cost == Cost::Quick))
+            .collect())
+    }
+}
+
+/// Runs the selected cases and writes their report to `folder`.
+pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
+    let cases = match selection.cases() {
+        Ok(cases) => cases,
+        Err(unknown) => {
+            let suites = Suite::ALL.map(Suite::word).join(", ");
+            let ids: Vec<&str> = CASES.iter().map(|case| case.id).collect();
+            eprintln!("error: no such suite or case: {}", unknown.join(", "));
+            eprintln!("suites: {suites}; cases: {}", ids.join(", "));
+            return ExitCode::Undecided;
+        }
+    };
+    let mut ran = Vec::new();
+    for case in cases {
+        let done = run_case(case);
+        tell(&done);
+        ran.push(done);
+    }
+    let rows: Vec<Row> = ran.iter().map(Row::of).collect();
+    let _ = writeln!(std::io::stdout(), "{}", verdict_line(&rows));
+    let written = render(&rows)
+        .map_err(|error| error.to_string())
+        .and_then(|files| write_all(folder, &files).map_err(|error| error.to_string()));
+    match written {
+        Ok(()) => println!("report: {}", folder.join("validation.html").display()),
+        Err(error) => {
+            eprintln!("error: the report could not be written to {}: {error}", folder.display());
+            return ExitCode::Undecided;
+        }
+    }
+    if ran.iter().all(Ran::passed) { ExitCode::Pass } else { ExitCode::Fail }
+}
+
+/// Runs one case.
+pub fn run_case(case: &'static Case) -> Ran {
+    let started = Instant::now();
+    // Inside a pool no step has to enter one; cases that gain from more threads make their own.
+    let outcome = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(case.run),
+        Err(error) => Err(Broken::Scene(error.to_string())),
+    };
+    Ran { case, outcome, time: started.elapsed() }
+}
+
+/// One line for the case, and one for each finding.
+fn tell(ran: &Ran) {
+    let row = Row::of(ran);
+    let mut out = std::io::stdout().lock();
+    let _ = writeln!(out, "{:<4} {:<4} {} ({}, {})", row.verdict.to_uppercase(), row.id, row.title, row.tier, row.time);
+    for finding in &row.findings {
+        let _ = writeln!(
+            out,
+            "     {:<4} {:<52} {:>12}   {}",
+            finding.verdict, finding.what, finding.measured, finding.wanted
+        );
+    }
+    if let Some(broken) = &row.broken {
+        let _ = writeln!(out, "     {broken}");
+    }
+}

@@ -1,0 +1,102 @@
+//! The report of validation cases.
+
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use crate::commands::validate::Ran;
+use crate::report::write::ReportFile;
+use crate::validation::case::{Finding, Wanted};
+
+const HTML: &str = include_str!("../../templates/validation.html");
+const MARKDOWN: &str = include_str!("../../templates/validation.md");
+
+/// One case, ready to be shown.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    pub id: &'static str,
+    pub suite: &'static str,
+    pub title: &'static str,
+    pub source: &'static str,
+    pub tier: &'static str,
+    pub weakness: &'static str,
+    /// `pass` or `fail`.
+    pub verdict: &'static str,
+    pub time: String,
+    pub findings: Vec<FindingRow>,
+    /// Why there are no findings.
+    pub broken: Option<String>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct FindingRow {
+    pub what: String,
+    pub measured: String,
+    pub wanted: String,
+    /// `ok`, `FAIL` or `told`.
+    pub verdict: &'static str,
+}
+
+impl Row {
+    pub fn of(ran: &Ran) -> Self {
+        let case = ran.case;
+        Self {
+            id: case.id,
+            suite: case.suite.word(),
+            title: case.title,
+            source: case.source,
+            tier: case.tier.word(),
+            weakness: case.weakness,
+            verdict: if ran.passed() { "pass" } else { "fail" },
+            time: format!("{:.1} s", ran.time.as_secs_f64()),
+            findings: ran.outcome.iter().flatten().map(FindingRow::of).collect(),
+            broken: ran.outcome.as_ref().err().map(ToString::to_string),
+        }
+    }
+}
+
+impl FindingRow {
+    fn of(finding: &Finding) -> Self {
+        let wanted = match finding.wanted {
+            Wanted::Near { value, tolerance } => format!("{} ± {}", number(value), number(tolerance)),
+            Wanted::Between { low, high } => format!("{} to {}", number(low), number(high)),
+            Wanted::Nothing => "not judged".to_string(),
+        };
+        let verdict = match (finding.wanted, finding.holds()) {
+            (Wanted::Nothing, true) => "told",
+            (_, true) => "ok",
+            (_, false) => "FAIL",
+        };
+        Self { what: finding.what.clone(), measured: number(finding.measured), wanted, verdict }
+    }
+}
+
+/// Four significant digits.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_string()
+    } else if (1e-3..1e5).contains(&size) {
+        let digits = (3 - size.log10().floor() as i32).max(0) as usize;
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+/// How many cases hold.
+pub fn verdict_line(rows: &[Row]) -> String {
+    let passed = rows.iter().filter(|row| row.verdict == "pass").count();
+    format!("{passed} of {} cases hold", rows.len())
+}
+
+/// The report as HTML and as Markdown.
+pub fn render(rows: &[Row]) -> Result<Vec<ReportFile>, tera::Error> {
+    let mut tera = Tera::default();
+    tera.add_raw_templates(vec![("validation.html", HTML), ("validation.md", MARKDOWN)])?;
+    let mut context = Context::new();
+    context.insert("cases", rows);
+    context.insert("verdict_line", &verdict_line(rows));
+    context.insert("version", env!("CARGO_PKG_VERSION"));
+    let file = |name| tera.render(name, &context).map(|text| ReportFile { name, text });
+    Ok(vec![file("validation.html")?, file("validation.md")?])
+}

@@ -1,0 +1,34 @@
+//! Validation: scenes with known answers, each in its own file, run by `barrier-check validate`.
+//!
+//! The names A1, B4, C5 … are those of the project's list of verification cases.
+
+pub mod bulk;
+pub mod case;
+pub mod contact;
+pub mod scenes;
+pub mod wall;
+
+use case::Case;
+
+/// All cases, in the order in which they are run.
+pub const CASES: &[&Case] = &[
+    &contact::restitution::CASE,
+    &contact::wall_restitution::CASE,
+    &contact::transient::CASE,
+    &contact::bounces::CASE,
+    &contact::weight::CASE,
+    &contact::rolling::SLIP,
+    &contact::oblique::CLOSED_FORM,
+    &contact::oblique::ALUMINIUM_OXIDE,
+    &contact::oblique::SLIDING,
+    &contact::oblique::SPINNING,
+    &contact::gears::CASE,
+    &contact::clump_body::BODY,
+    &contact::rolling::SLOPE,
+    &contact::clump_body::CONSERVED,
+    &contact::energy::DRIFT,
+    &contact::energy::LEDGER,
+    &contact::cooling::CASE,
+    &contact::energy::FRAME,
+    &contact::chain::CASE,
+];

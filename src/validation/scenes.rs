@@ -1,0 +1,134 @@
+//! Small scenes and steps that several cases share.
+
+use crate::dem::Vec3;
+use crate::dem::model::{Material, Model};
+use crate::dem::simulation::{Simulation, Unstable};
+use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
+use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
+
+/// m/s²
+pub const GRAVITY: f64 = crate::units::GRAVITY;
+
+/// The contact modulus of the small scenes (Pa).
+pub const MODULUS: f64 = 1e8;
+
+pub fn material(restitution: f64, friction: f64) -> Material {
+    Material { modulus: MODULUS, restitution, tangential_ratio: 2.0 / 7.0, friction }
+}
+
+/// A ball at rest.
+pub fn ball(id: u32, position: Vec3, radius: f64, density: f64) -> Grain {
+    Grain::at(id, position, Vec3::x(), GrainBody::sphere(radius, density))
+}
+
+/// Grains in empty space, without gravity.
+pub fn free_model(grains: Vec<Grain>, shape: GrainShape) -> Model {
+    Model {
+        shape,
+        grains,
+        surfaces: Vec::new(),
+        barrier: None,
+        material: material(0.3, 0.5),
+        gravity: Vec3::zeros(),
+        wall_levels: Vec::new(),
+        outlet: f64::INFINITY,
+    }
+}
+
+/// An unbounded plane through `origin`.
+pub fn plane(role: SurfaceRole, origin: Vec3, normal: Vec3, friction: f64) -> Surface {
+    // Two directions that complete the normal to a frame.
+    let helper = if normal.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
+    let first = normal.cross(&helper).normalize();
+    let spans = [Span::unbounded(first), Span::unbounded(normal.cross(&first))];
+    Surface { role, origin, normal, spans, friction }
+}
+
+/// The plane z = 0.
+pub fn floor(friction: f64) -> Surface {
+    plane(SurfaceRole::Base, Vec3::zeros(), Vec3::z(), friction)
+}
+
+/// Six frictionless walls around a box from the origin to `size` (m).
+pub fn closed_box(size: Vec3) -> Vec<Surface> {
+    [Vec3::x(), Vec3::y(), Vec3::z()]
+        .into_iter()
+        .flat_map(|axis| {
+            let far = axis.component_mul(&size);
+            [(Vec3::zeros(), axis), (far, -axis)].map(|(origin, normal)| plane(SurfaceRole::Side, origin, normal, 0.0))
+        })
+        .collect()
+}
+
+/// Duration π √(m_r/k) of an undamped contact (s).
+pub fn contact_time(stiffness: f64, reduced_mass: f64) -> f64 {
+    std::f64::consts::PI * (reduced_mass / stiffness).sqrt()
+}
+
+/// A simulation whose lists reach a fifth of `radius` further than contacts.
+pub fn simulate(model: Model, step: f64, radius: f64) -> Simulation {
+    Simulation::new(model, step, 0.2 * radius, 1e6)
+}
+
+pub fn run(simulation: &mut Simulation, steps: usize) -> Result<(), Unstable> {
+    (0..steps).try_for_each(|_| simulation.step())
+}
+
+/// Runs until the simulation's clock shows `time` (s).
+pub fn run_until(simulation: &mut Simulation, time: f64) -> Result<(), Unstable> {
+    while simulation.time < time {
+        simulation.step()?;
+    }
+    Ok(())
+}
+
+/// Linear and angular momentum of all grains about the origin.
+pub fn momenta(grains: &[Grain]) -> (Vec3, Vec3) {
+    grains.iter().fold((Vec3::zeros(), Vec3::zeros()), |(linear, angular), grain| {
+        let momentum = grain.velocity * grain.body.mass;
+        (linear + momentum, angular + grain.position.cross(&momentum) + grain.angular_momentum)
+    })
+}
+
+/// A cloud of clumps thrown together: `count` grains on a jittered grid, flying towards the middle.
+pub fn cloud(count: usize, seed: u64) -> Vec<Grain> {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let side = (count as f64).cbrt().ceil() as usize;
+    let spacing = 0.03;
+    let middle = Vec3::repeat(0.5 * spacing * side as f64);
+    (0..count)
+        .map(|index| {
+            let cell = Vec3::new((index % side) as f64, (index / side % side) as f64, (index / side / side) as f64);
+            let jitter = Vec3::from_fn(|_, _| 0.2 * random.f64());
+            let direction = Vec3::from_fn(|_, _| random.f64() - 0.5).normalize();
+            let body = GrainBody::clump(0.015 + 0.008 * random.f64(), 1.5, 2600.0);
+            let mut grain = Grain::at(index as u32, (cell + jitter) * spacing, direction, body);
+            grain.velocity = (middle - grain.position) * 4.0;
+            grain.angular_momentum = Vec3::from_fn(|_, _| random.f64() - 0.5) * (body.inertia_axial * 20.0);
+            grain
+        })
+        .collect()
+}
+
+/// Runs jobs side by side on all cores, each in a pool of one thread of its own; results in the order of the jobs.
+pub fn side_by_side<T: Send>(count: usize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(count.max(1));
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else { return done };
+        loop {
+            let index = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            if index >= count {
+                return done;
+            }
+            done.push((index, pool.install(|| job(index))));
+        }
+    };
+    let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+    });
+    results.sort_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
+}

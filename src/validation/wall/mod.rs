@@ -1,0 +1,1 @@
+//! Grains on rigid walls.

@@ -1,0 +1,35 @@
+//! The quick validation cases hold.
+
+use barrier_check::commands::validate::{Selection, run_case};
+use barrier_check::report::validation::Row;
+
+fn holds(suite: &str) {
+    let names = [suite.to_string()];
+    let cases = Selection { names: &names, quick_only: true }.cases().expect("suite is known");
+    for case in cases {
+        let ran = run_case(case);
+        assert!(ran.passed(), "{:#?}", Row::of(&ran));
+    }
+}
+
+#[test]
+fn contact_cases_hold() {
+    holds("contact");
+}
+
+#[test]
+fn bulk_cases_hold() {
+    holds("bulk");
+}
+
+#[test]
+fn wall_cases_hold() {
+    holds("wall");
+}
+
+#[test]
+fn unknown_names_are_told() {
+    let names = ["contact".to_string(), "A99".to_string()];
+    let unknown = Selection { names: &names, quick_only: false }.cases().err();
+    assert_eq!(unknown, Some(vec!["A99".to_string()]));
+}
