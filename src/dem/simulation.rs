@@ -55,6 +55,18 @@ pub struct StepSums {
     pub net: NetForces,
 }
 
+/// A contact of a grain with a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceContact {
+    /// Row of the grain.
+    pub row: usize,
+    pub role: SurfaceRole,
+    /// Force on the grain (N).
+    pub force: Vec3,
+    /// m
+    pub place: Vec3,
+}
+
 pub struct Simulation {
     /// All but the grains; those are in `grains`.
     pub model: Model,
@@ -126,6 +138,21 @@ impl Simulation {
     /// All grains as they are now.
     pub fn snapshot(&self) -> Vec<Grain> {
         self.grains.grains()
+    }
+
+    /// All contacts of grains with surfaces, with the forces of the step just made and the places after it.
+    pub fn surface_contacts(&self) -> impl Iterator<Item = SurfaceContact> {
+        let lists = self.neighbours.blocks.iter().map(|block| &block.surfaces);
+        lists.flat_map(|list| list.touching.iter().zip(&list.memory)).map(|(pair, memory)| {
+            let surface = &self.model.surfaces[pair[1] as usize];
+            let row = pair[0] as usize / self.grains.shape.members();
+            let (centre, radius) = self.grains.sphere(pair[0] as usize);
+            let towards = surface.nearest(&centre) - centre;
+            let overlap = (radius - towards.norm()).max(0.0);
+            let normal_force = (self.model.material.modulus * radius * overlap + memory.dashpot).max(0.0);
+            let force = Vec3::from(memory.tangential) - towards.normalize() * normal_force;
+            SurfaceContact { row, role: surface.role, force, place: centre + towards }
+        })
     }
 
     /// Puts the grain in `row` somewhere else, at rest.

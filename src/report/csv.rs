@@ -32,6 +32,7 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("top_rope_height_m".into(), histories.top_rope_height.clone());
     add("velocity_mean_x_m_s".into(), histories.velocity.iter().map(|velocity| velocity[0]).collect());
     add("velocity_mean_z_m_s".into(), histories.velocity.iter().map(|velocity| velocity[1]).collect());
+    add("push_at_rest_n".into(), histories.push_at_rest.clone());
     add("dead_share".into(), histories.dead.clone());
     add("moving_share".into(), histories.moving.clone());
     for (index, way) in ["through", "under", "beside", "over"].into_iter().enumerate() {

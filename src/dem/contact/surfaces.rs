@@ -30,6 +30,8 @@ pub struct SurfaceContext<'a> {
 pub struct SurfaceForces {
     /// Force on the base (N).
     pub base: Vec3,
+    /// Force on the side walls, the back wall and the gate (N).
+    pub sides: Vec3,
     /// Force on the rigid wall (N).
     pub wall: Vec3,
     /// Moment of the wall's normal force about its toe (N m).
@@ -41,6 +43,7 @@ pub struct SurfaceForces {
 impl SurfaceForces {
     pub fn reset(&mut self, segments: usize) {
         self.base = Vec3::zeros();
+        self.sides = Vec3::zeros();
         self.wall = Vec3::zeros();
         self.wall_moment = 0.0;
         self.wall_segments.clear();
@@ -49,6 +52,7 @@ impl SurfaceForces {
 
     pub fn add(&mut self, other: &Self) {
         self.base += other.base;
+        self.sides += other.sides;
         self.wall += other.wall;
         self.wall_moment += other.wall_moment;
         for (mine, theirs) in self.wall_segments.iter_mut().zip(&other.wall_segments) {
@@ -59,7 +63,7 @@ impl SurfaceForces {
     fn record(&mut self, role: SurfaceRole, force: Vec3, normal_force: f64, height: f64, levels: &[f64]) {
         match role {
             SurfaceRole::Base => self.base += force,
-            SurfaceRole::Side | SurfaceRole::Gate => {}
+            SurfaceRole::Side | SurfaceRole::Gate => self.sides += force,
             SurfaceRole::Wall => {
                 self.wall += force;
                 self.wall_moment += normal_force * height;

@@ -34,6 +34,8 @@ pub struct Histories {
     pub top_rope_height: Vec<f64>,
     /// Mean velocity of the grains along the channel and normal to the bed (m/s).
     pub velocity: Vec<[f64; 2]>,
+    /// Push of the grains at rest on a rigid wall (N), by their static equilibrium; empty for a net.
+    pub push_at_rest: Vec<f64>,
     /// Share of the mass that has come to rest at the barrier.
     pub dead: Vec<f64>,
     /// Share of the mass still moving upstream of the barrier.

@@ -1,5 +1,6 @@
 //! What is written down while a model runs.
 
+pub mod dead_zone;
 pub mod histories;
 pub mod passage;
 pub mod recorder;

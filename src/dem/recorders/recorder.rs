@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::dem::Vec3;
 use crate::dem::net::NetForces;
+use crate::dem::recorders::dead_zone::push_at_rest;
 use crate::dem::recorders::histories::{Gauge, Histories};
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
 use crate::dem::simulation::{Simulation, Unstable};
@@ -151,6 +152,11 @@ impl Recorder {
             self.next_passage = simulation.time + self.setup.passage_interval;
         }
         self.sample_grains(&grains);
+        if self.setup.wall.is_some() {
+            let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
+            let dead = |grain: &Grain| self.impact && grain.velocity.norm_squared() <= limit;
+            self.histories.push_at_rest.push(push_at_rest(simulation, &grains, dead));
+        }
         self.histories.incoming.push(self.setup.incoming.read(&grains));
         self.histories.barrier_depth.push(self.setup.deposit.depth(&grains));
     }

@@ -1,1 +1,5 @@
 //! Many grains.
+
+pub mod collapse;
+pub mod packing;
+pub mod silo;

@@ -1,1 +1,7 @@
 //! Grains on rigid walls.
+
+pub mod calibration;
+pub mod impulse;
+pub mod laboratory;
+pub mod slopes;
+pub mod variants;

@@ -1,0 +1,42 @@
+//! The push of the grains at rest on a rigid wall, from the static equilibrium of the zone they form.
+//!
+//! The zone of weight G rests on a bed at slope α with the reaction R₁ and leans on the wall normal to the bed with R₂. With
+//! δ₁ = atan(R₁t/R₁n) and δ₂ = atan(R₂t/R₂n), both positive where friction holds the zone back (up the slope, and up the
+//! wall), equilibrium gives the normal part of R₂:
+//!
+//! F_g = G sin(α − δ₁) cos δ₂ / cos(δ₁ + δ₂)
+//!
+//! (Albaba 2015, section 3.3.3, with the vertical equilibrium corrected). What is more than F_g on the wall is due to the
+//! moving flow. Friction on side walls is left out, so F_g is too large by what they hold.
+
+use crate::dem::Vec3;
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::grains::Grain;
+use crate::dem::tables::surfaces::SurfaceRole;
+
+/// F_g of the grains that `is_dead` names (N); `grains` are those of the simulation in the order of its rows.
+pub fn push_at_rest(simulation: &Simulation, grains: &[Grain], is_dead: impl Fn(&Grain) -> bool) -> f64 {
+    let gravity = simulation.model.gravity;
+    let dead: Vec<bool> = grains.iter().map(is_dead).collect();
+    let mass: f64 = grains.iter().zip(&dead).filter(|(_, dead)| **dead).map(|(grain, _)| grain.body.mass).sum();
+    let (mut base, mut wall) = (Vec3::zeros(), Vec3::zeros());
+    for contact in simulation.surface_contacts() {
+        if !dead[contact.row] {
+            continue;
+        }
+        match contact.role {
+            SurfaceRole::Base => base += contact.force,
+            SurfaceRole::Wall => wall += contact.force,
+            SurfaceRole::Side | SurfaceRole::Gate => {}
+        }
+    }
+    let slope = gravity.x.atan2(-gravity.z);
+    // On the grains: the base pushes up (z) and holds back (−x); the wall pushes back (−x) and holds up (z).
+    let base_angle = (-base.x).atan2(base.z);
+    let wall_angle = if wall.x == 0.0 { 0.0 } else { (wall.z / -wall.x).atan() };
+    let weight = mass * gravity.norm();
+    if base.z <= 0.0 || mass == 0.0 {
+        return 0.0;
+    }
+    weight * (slope - base_angle).sin() * wall_angle.cos() / (base_angle + wall_angle).cos()
+}

@@ -1,0 +1,123 @@
+//! B1 and B8: columns that collapse on a level floor.
+
+use crate::dem::Vec3;
+use crate::dem::model::Model;
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
+use crate::dem::tables::surfaces::SurfaceRole;
+use crate::scene::flow::packing::{PackingBox, pack};
+use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
+use crate::validation::scenes::{GRAVITY, floor, free_model, material, plane, run_until, side_by_side};
+
+pub const COLUMN: Case = Case {
+    id: "B1",
+    suite: Suite::Bulk,
+    title: "Run-out of a round column",
+    source: "(R∞ − R0)/R0 = 1.24 a (a < 1.7), 1.6 √a above (Lube et al. 2004); 1.0 a (a < 0.74), 2.0 √a (Lajeunesse et al. \
+             2004); another DEM 1.25 and 3.42 at a = 1 and 3",
+    tier: Tier::SecondHand,
+    weakness: "24 grains across; where the deposit ends is a matter of definition (here half a grain of mean depth)",
+    cost: Cost::Long,
+    run: column,
+};
+
+pub const DAM: Case = Case {
+    id: "B8",
+    suite: Suite::Bulk,
+    title: "Dam break of a sand column",
+    source: "Lethe documentation after Evangelista 2014: height 0.20 m at x = 0.4 m falls to about 0.025 m at 0.8 m",
+    tier: Tier::Published,
+    weakness: "10 mm clumps for 1.6 mm sand; final profile only",
+    cost: Cost::Long,
+    run: dam,
+};
+
+const DIAMETER: f64 = 0.01;
+const DENSITY: f64 = 2600.0;
+const STEP: f64 = 2e-5;
+/// Tangents of the friction between grains, and on the floor.
+const FRICTION: f64 = 0.5;
+
+/// Clumps packed into a box with a corner at the origin.
+fn packed(size: Vec3, seed: u64) -> Result<Vec<Grain>, Broken> {
+    let body = GrainBody::clump(DIAMETER, 1.5, DENSITY);
+    let count = (0.60 * size.product() * DENSITY / body.mass) as usize;
+    let room = PackingBox { size };
+    let (grains, _) =
+        pack(&vec![body; count], GrainShape::Clump, room, seed).map_err(|error| Broken::Scene(error.to_string()))?;
+    Ok(grains)
+}
+
+fn on_floor(grains: Vec<Grain>) -> Model {
+    let mut model = Model {
+        material: material(0.3, FRICTION),
+        gravity: Vec3::z() * -GRAVITY,
+        ..free_model(grains, GrainShape::Clump)
+    };
+    model.surfaces = vec![floor(FRICTION)];
+    model
+}
+
+fn column() -> Result<Vec<Finding>, Broken> {
+    let aspects = [0.5, 1.0, 3.0];
+    let runouts = side_by_side(aspects.len(), |index| runout(aspects[index]));
+    let mut findings = Vec::new();
+    for (aspect, runout) in aspects.into_iter().zip(runouts) {
+        let lube = if aspect < 1.7 { 1.24 * aspect } else { 1.6 * f64::sqrt(aspect) };
+        let lajeunesse = if aspect < 0.74 { aspect } else { 2.0 * f64::sqrt(aspect) };
+        let (low, high) = (0.85 * lube.min(lajeunesse), 1.15 * lube.max(lajeunesse));
+        findings.push(Finding::between(format!("a = {aspect}: (R∞ − R0)/R0"), runout?, low, high));
+    }
+    Ok(findings)
+}
+
+/// (R∞ − R0)/R0 of a column of height a R0.
+fn runout(aspect: f64) -> Result<f64, Broken> {
+    let radius = 12.0 * DIAMETER;
+    let height = aspect * radius;
+    let middle = Vec3::new(radius, radius, 0.0);
+    let flat = |grain: &Grain| (grain.position - middle).xy().norm();
+    let mut grains = packed(Vec3::new(2.0 * radius, 2.0 * radius, height), 3)?;
+    grains.retain(|grain| flat(grain) < radius - 0.5 * DIAMETER);
+    let start = 1.0_f64.max((height / GRAVITY).sqrt() * 8.0);
+    let mut simulation = Simulation::new(on_floor(grains), STEP, 0.3 * DIAMETER, 1e3);
+    run_until(&mut simulation, start)?;
+    let grains = simulation.snapshot();
+    // Depth of solid over rings of one diameter, outwards from the middle.
+    let solid = |inner: f64| {
+        let outer = inner + DIAMETER;
+        let mass: f64 =
+            grains.iter().filter(|grain| (inner..outer).contains(&flat(grain))).map(|grain| grain.body.mass).sum();
+        mass / (DENSITY * 0.6 * std::f64::consts::PI * (outer * outer - inner * inner))
+    };
+    let mut end = 0.0;
+    while solid(end) > 0.5 * DIAMETER {
+        end += DIAMETER;
+    }
+    Ok((end - radius) / radius)
+}
+
+fn dam() -> Result<Vec<Finding>, Broken> {
+    let (length, height, width) = (0.60, 0.20, 0.08);
+    let grains = packed(Vec3::new(length, width, height), 8)?;
+    let mut model = on_floor(grains);
+    model.surfaces.extend([
+        plane(SurfaceRole::Side, Vec3::zeros(), Vec3::x(), 0.3),
+        plane(SurfaceRole::Side, Vec3::zeros(), Vec3::y(), 0.0),
+        plane(SurfaceRole::Side, Vec3::y() * width, -Vec3::y(), 0.0),
+    ]);
+    let mut simulation = Simulation::new(model, STEP, 0.3 * DIAMETER, 1e3);
+    run_until(&mut simulation, 1.5)?;
+    let grains = simulation.snapshot();
+    let surface = |x: f64| {
+        let near = grains.iter().filter(|grain| (grain.position.x - x).abs() < DIAMETER);
+        let mut heights: Vec<f64> = near.map(|grain| grain.position.z + 0.5 * DIAMETER).collect();
+        heights.sort_by(f64::total_cmp);
+        heights.get(heights.len().saturating_sub(heights.len() / 20 + 1)).copied().unwrap_or(0.0)
+    };
+    Ok(vec![
+        Finding::close("height at x = 0.4 m (m)", surface(0.4), 0.20, 0.03),
+        Finding::close("height at x = 0.8 m (m)", surface(0.8), 0.025, 0.02),
+        Finding::told("height at x = 0.6 m (m)", surface(0.6)),
+    ])
+}

@@ -1,0 +1,129 @@
+//! B4: a tall column between rubbing walls (Janssen).
+
+use crate::dem::Vec3;
+use crate::dem::model::Model;
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::grains::{GrainBody, GrainShape};
+use crate::dem::tables::surfaces::SurfaceRole;
+use crate::scene::flow::packing::{PackingBox, pack};
+use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
+use crate::validation::scenes::{GRAVITY, floor, free_model, material, plane, run_until};
+
+pub const CASE: Case = Case {
+    id: "B4",
+    suite: Suite::Bulk,
+    title: "A tall column between rubbing walls: the walls take what the floor does not",
+    source: "Janssen: σ(h) = ρ g λ (1 − e^(−h/λ)), λ = D/(4 μ_w K)",
+    tier: Tier::ClosedForm,
+    weakness: "K is fitted; friction is mobilised by letting the floor down a little",
+    cost: Cost::Long,
+    run,
+};
+
+const RADIUS: f64 = 0.005;
+const SIDE: f64 = 0.08;
+const FRICTION: f64 = 0.5;
+const WALL_FRICTION: f64 = 0.4;
+const COUNT: usize = 5600;
+/// How far the floor goes down, and how fast (m, m/s).
+const LOWERING: f64 = 0.004;
+const LOWERING_SPEED: f64 = 0.02;
+
+fn run() -> Result<Vec<Finding>, Broken> {
+    let mut simulation = filled()?;
+    let weight: f64 = simulation.snapshot().iter().map(|grain| grain.body.mass).sum::<f64>() * GRAVITY;
+    let before = -simulation.sums.surfaces.base.z / weight;
+    lower_floor(&mut simulation)?;
+    let forces = &simulation.sums.surfaces;
+    let carried = -(forces.base.z + forces.sides.z) / weight;
+    let floor_share = -forces.base.z / weight;
+    let profile = profile(&simulation);
+    let (earth_pressure, quality) = fit(&profile);
+    Ok(vec![
+        Finding::near("floor and walls together over weight", carried, 1.0, 1e-3),
+        Finding::told("floor's share as filled", before),
+        Finding::between("floor's share after lowering", floor_share, 0.05, 0.8),
+        Finding::between("K of the best fit (0.4 to 1.2)", earth_pressure, 0.4, 1.2),
+        Finding::between("R² of the fit", quality, 0.98, 1.0),
+    ])
+}
+
+fn filled() -> Result<Simulation, Broken> {
+    let bodies = vec![GrainBody::sphere(RADIUS, 2600.0); COUNT];
+    let height = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / (0.57 * SIDE * SIDE);
+    let room = PackingBox { size: Vec3::new(SIDE, SIDE, height) };
+    let (grains, length) =
+        pack(&bodies, GrainShape::Sphere, room, 4).map_err(|error| Broken::Scene(error.to_string()))?;
+    let mut model = Model {
+        material: material(0.3, FRICTION),
+        gravity: Vec3::z() * -GRAVITY,
+        ..free_model(grains, GrainShape::Sphere)
+    };
+    let side = |origin: Vec3, normal: Vec3| plane(SurfaceRole::Side, origin, normal, WALL_FRICTION);
+    model.surfaces = vec![
+        floor(FRICTION),
+        side(Vec3::zeros(), Vec3::x()),
+        side(Vec3::x() * length, -Vec3::x()),
+        side(Vec3::zeros(), Vec3::y()),
+        side(Vec3::y() * SIDE, -Vec3::y()),
+    ];
+    let mut simulation = Simulation::new(model, 1e-5, 0.5 * RADIUS, 1e3);
+    simulation.drag = 5.0;
+    run_until(&mut simulation, 0.5)?;
+    Ok(simulation)
+}
+
+fn lower_floor(simulation: &mut Simulation) -> Result<(), Broken> {
+    // Pair lists may not outlive a motion of the floor they do not know of.
+    let steps_per_list = 50;
+    let steps = (LOWERING / LOWERING_SPEED / simulation.time_step) as usize;
+    for step in 0..steps {
+        simulation.model.surfaces[0].origin.z -= LOWERING_SPEED * simulation.time_step;
+        if step % steps_per_list == 0 {
+            simulation.neighbours.lose();
+        }
+        simulation.step()?;
+    }
+    simulation.drag = 20.0;
+    let end = simulation.time + 0.4;
+    run_until(simulation, end)?;
+    Ok(())
+}
+
+/// Depth below the top (m) and mean vertical stress there (Pa), from the weight above less what the walls hold.
+fn profile(simulation: &Simulation) -> Vec<(f64, f64)> {
+    let grains = simulation.snapshot();
+    let top = grains.iter().map(|grain| grain.position.z).fold(0.0, f64::max);
+    let low = simulation.model.surfaces[0].origin.z;
+    let walls: Vec<(f64, f64)> = simulation
+        .surface_contacts()
+        .filter(|contact| contact.role == SurfaceRole::Side)
+        .map(|contact| (contact.place.z, contact.force.z))
+        .collect();
+    let levels = 24;
+    (1..levels)
+        .map(|level| {
+            let z = top - (top - low) * f64::from(level) / f64::from(levels);
+            let weight: f64 = grains.iter().filter(|grain| grain.position.z > z).map(|grain| grain.body.mass).sum();
+            let held: f64 = walls.iter().filter(|(place, _)| *place > z).map(|(_, force)| force).sum();
+            (top - z, (weight * GRAVITY - held) / (SIDE * SIDE))
+        })
+        .collect()
+}
+
+/// K of the best Janssen curve, and its R².
+fn fit(profile: &[(f64, f64)]) -> (f64, f64) {
+    let mean = profile.iter().map(|(_, stress)| stress).sum::<f64>() / profile.len() as f64;
+    let all: f64 = profile.iter().map(|(_, stress)| (stress - mean).powi(2)).sum();
+    let left = |length: f64| {
+        // For a given length the best weight ρ g follows by least squares.
+        let shape = |depth: f64| length * (1.0 - (-depth / length).exp());
+        let (up, down) = profile.iter().fold((0.0, 0.0), |(up, down), (depth, stress)| {
+            (up + shape(*depth) * stress, down + shape(*depth).powi(2))
+        });
+        profile.iter().map(|(depth, stress)| (stress - up / down * shape(*depth)).powi(2)).sum::<f64>()
+    };
+    let lengths = (1..2000).map(|index| SIDE * 0.005 * f64::from(index));
+    let best = lengths.min_by(|a, b| left(*a).total_cmp(&left(*b))).unwrap_or(SIDE);
+    (SIDE / (4.0 * WALL_FRICTION * best), 1.0 - left(best) / all)
+}

@@ -1,0 +1,138 @@
+//! The laboratory wall of Jiang & Towhata 2013 as in Albaba 2015, chapter 3: one way to run it, and its variants.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::dem::recorders::histories::{Histories, smoothed};
+use crate::demand::from_histories::{Observed, Reading};
+use crate::demand::from_loads::guideline;
+use crate::design::read::read_design;
+use crate::design::sizes::SizeCurve;
+use crate::design::{Arrival, Design};
+use crate::fidelity::choose;
+use crate::scene::build::{SAMPLES_PER_WINDOW, build};
+use crate::scene::event::{Ending, Watch, run};
+use crate::validation::case::Broken;
+
+const DESIGN: &str = include_str!("../../../designs/flume_l44_h15_a40.yaml");
+/// Length of the chute (m).
+const CHUTE: f64 = 2.19;
+/// Width and height of the sample box of the design (m), and the weight of the sample (N/m³).
+const WIDTH: f64 = 0.30;
+const HEIGHT: f64 = 0.15;
+const UNIT_WEIGHT: f64 = 13.5e3;
+
+/// A variant of the test.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    /// Length of the sample box (m).
+    pub length: f64,
+    /// rad
+    pub slope: f64,
+    pub restitution: f64,
+    /// 1 for spheres.
+    pub aspect: f64,
+    /// All grain sizes over those of the design.
+    pub coarser: f64,
+    pub seed: u64,
+}
+
+impl Variant {
+    /// The calibration test L44-H15-α40.
+    pub fn calibration(seed: u64) -> Self {
+        Self { length: 0.44, slope: 40_f64.to_radians(), restitution: 0.3, aspect: 1.5, coarser: 1.0, seed }
+    }
+
+    /// The test L34-H15-α45, a prediction.
+    pub fn prediction(seed: u64) -> Self {
+        Self { length: 0.34, slope: 45_f64.to_radians(), ..Self::calibration(seed) }
+    }
+}
+
+/// What one run showed. Forces per metre of width.
+pub struct Run {
+    pub observed: Observed,
+    pub histories: Histories,
+    pub design: Design,
+    /// Samples in the smoothing window.
+    pub window: usize,
+    pub energy_error: f64,
+}
+
+impl Run {
+    /// Total force normal to the wall, raw (N/m).
+    pub fn force(&self) -> Vec<f64> {
+        self.histories.force.iter().map(|force| force.x / WIDTH).collect()
+    }
+
+    pub fn peak(&self) -> f64 {
+        self.observed.force_peak / WIDTH
+    }
+
+    pub fn residual(&self) -> f64 {
+        self.observed.force_residual / WIDTH
+    }
+
+    /// Rotational over kinetic energy of the flow before it meets the wall, mean over the last 0.3 s.
+    pub fn rotational_share(&self) -> f64 {
+        let first = self.histories.force.iter().position(|force| force.norm() > 0.0).unwrap_or(0);
+        let from = self.histories.time[first] - 0.3;
+        let samples =
+            self.histories.time.iter().zip(&self.histories.ledger).take(first).filter(|(time, _)| **time > from);
+        let (sum, count) = samples
+            .fold((0.0, 0.0), |(sum, count), (_, ledger)| (sum + ledger.rotational / ledger.kinetic, count + 1.0));
+        sum / count
+    }
+
+    /// Largest deviation of the raw total force from its smoothed course (N/m).
+    pub fn fluctuation(&self) -> f64 {
+        let raw = self.force();
+        let smooth = smoothed(&raw, 3 * self.window);
+        raw.iter().zip(&smooth).map(|(raw, smooth)| (raw - smooth).abs()).fold(0.0, f64::max)
+    }
+
+    /// Share of the push of the grains at rest in the total force, at its peak and at the end.
+    pub fn share_at_rest(&self) -> [f64; 2] {
+        let total = smoothed(&self.force(), self.window);
+        let at_rest = smoothed(&self.histories.push_at_rest, self.window);
+        let last = total.len() - 1;
+        let peak = (0..=last).max_by(|a, b| total[*a].total_cmp(&total[*b])).unwrap_or(last);
+        [peak, last].map(|index| at_rest[index] / WIDTH / total[index])
+    }
+}
+
+/// Runs one variant from packing to rest.
+pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
+    let file = read_design("flume", DESIGN.as_bytes()).map_err(|problems| Broken::Scene(problems.to_string()))?;
+    let mut design = file.design;
+    design.flow.mass = variant.length * WIDTH * HEIGHT * UNIT_WEIGHT / crate::units::GRAVITY;
+    design.channel.slope = variant.slope;
+    design.flow.restitution = variant.restitution;
+    design.flow.aspect = variant.aspect;
+    if let Arrival::DamBreak(release) = &mut design.flow.arrival {
+        release.length = variant.length;
+        release.distance = CHUTE - variant.length;
+    }
+    if let SizeCurve::ByNumber { smallest, largest } = &mut design.flow.sizes {
+        *smallest *= variant.coarser;
+        *largest *= variant.coarser;
+    }
+    let scene = build(&design, &choose(&design), variant.seed).map_err(|error| Broken::Scene(error.to_string()))?;
+    let window = SAMPLES_PER_WINDOW as usize;
+    let reading = Reading { window, tail: scene.samples_of_rest() };
+    let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false) };
+    let event = run(scene, design.simulation.longest, &watch);
+    if let Ending::BrokeDown(unstable) = event.ending {
+        return Err(unstable.into());
+    }
+    let observed = Observed::read(&event.histories, &design, &guideline(&design), reading);
+    Ok(Run { observed, histories: event.histories, design, window, energy_error: event.energy_error })
+}
+
+/// Mean and standard deviation of a quantity over runs.
+pub fn spread(runs: &[Run], quantity: impl Fn(&Run) -> f64) -> (f64, f64) {
+    let values: Vec<f64> = runs.iter().map(quantity).collect();
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    (mean, square.sqrt())
+}

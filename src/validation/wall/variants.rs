@@ -1,0 +1,134 @@
+//! C6, C8, C11, C14: what the laboratory wall says when one thing is changed.
+
+use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
+use crate::validation::scenes::side_by_side;
+use crate::validation::wall::calibration;
+use crate::validation::wall::laboratory::{Run, Variant, run_variant, spread};
+
+pub const PREDICTION: Case = Case {
+    id: "C6",
+    suite: Suite::Wall,
+    title: "Laboratory wall L34-H15-α45, a prediction",
+    source: "Albaba 2015 section 3.5.2.1: F1 396 N/m (model), ≈350 (experiment); F2 256; at rest F1 145 (model), 175",
+    tier: Tier::SecondHand,
+    weakness: "single segments scatter by a third from start to start",
+    cost: Cost::Long,
+    run: prediction,
+};
+
+pub const SHAPE: Case = Case {
+    id: "C8",
+    suite: Suite::Wall,
+    title: "Clumps against spheres: how much of the motion is rotation",
+    source: "Albaba 2015 section 3.4.1: clumps reduce E_rot/E_kin by 70 %",
+    tier: Tier::SecondHand,
+    weakness: "the published histories exist as a figure only; here the mean of the last 0.3 s before the wall is met",
+    cost: Cost::Long,
+    run: shape,
+};
+
+pub const RESTITUTION: Case = Case {
+    id: "C11",
+    suite: Suite::Wall,
+    title: "Restitution from 0.1 to 0.9",
+    source: "Albaba 2015 section 3.4.2: above 0.5 the flow disperses and thickens, the mean speed changes little",
+    tier: Tier::SecondHand,
+    weakness: "qualitative",
+    cost: Cost::Long,
+    run: restitution,
+};
+
+pub const FLUCTUATION: Case = Case {
+    id: "C14",
+    suite: Suite::Wall,
+    title: "Fluctuation of the force against the size of the grains",
+    source: "independent contacts: A_max ∝ d50, exponent −1 in H_w/d50; Albaba 2015 section 3.6.2 shows the trend",
+    tier: Tier::ClosedForm,
+    weakness: "an extreme of few starts; coarse grains fill the box less evenly",
+    cost: Cost::Long,
+    run: fluctuation,
+};
+
+fn all(variants: &[Variant]) -> Result<Vec<Run>, Broken> {
+    side_by_side(variants.len(), |index| run_variant(&variants[index])).into_iter().collect()
+}
+
+fn prediction() -> Result<Vec<Finding>, Broken> {
+    let runs = all(&[1, 2, 3].map(Variant::prediction))?;
+    let segment = |index: usize| spread(&runs, |run| run.observed.segment_peak[index]).0;
+    let (rest, _) = spread(&runs, |run| run.observed.segment_residual[0]);
+    let (peak, peak_spread) = spread(&runs, Run::peak);
+    Ok(vec![
+        Finding::near("largest force on segment 1 (N/m)", segment(0), 396.0, 0.35),
+        Finding::near("largest force on segment 2 (N/m)", segment(1), 256.0, 0.35),
+        Finding::near("force on segment 1 at rest (N/m)", rest, 145.0, 0.35),
+        Finding::told("largest total force (N/m)", peak),
+        Finding::told("  standard deviation", peak_spread),
+        Finding::told("total force at rest (N/m)", spread(&runs, Run::residual).0),
+    ])
+}
+
+fn shape() -> Result<Vec<Finding>, Broken> {
+    let spheres = all(&[1, 2].map(|seed| Variant { aspect: 1.0, ..Variant::calibration(seed) }))?;
+    let (clump, _) = spread(calibration::runs()?, Run::rotational_share);
+    let (sphere, _) = spread(&spheres, Run::rotational_share);
+    Ok(vec![
+        Finding::told("E_rot/E_kin of clumps", clump),
+        Finding::told("E_rot/E_kin of spheres", sphere),
+        Finding::close("clumps over spheres", clump / sphere, 0.3, 0.1),
+        Finding::told("largest force of spheres (N/m)", spread(&spheres, Run::peak).0),
+        Finding::told("force of spheres at rest (N/m)", spread(&spheres, Run::residual).0),
+    ])
+}
+
+fn restitution() -> Result<Vec<Finding>, Broken> {
+    let values = [0.1, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
+    let runs = all(&values.map(|restitution| Variant { restitution, ..Variant::calibration(1) }))?;
+    let reference = &calibration::runs()?[0];
+    let thickness = |run: &Run| 100.0 * run.observed.incoming_at_peak.thickness;
+    let speed = |run: &Run| run.observed.velocity_peak;
+    let mut findings = vec![Finding::told("ε = 0.3: flow thickness (cm)", thickness(reference))];
+    for (value, run) in values.iter().zip(&runs) {
+        findings.push(Finding::told(format!("ε = {value}: flow thickness (cm)"), thickness(run)));
+    }
+    for (value, run) in values.iter().zip(&runs) {
+        let what = format!("ε = {value}: highest mean speed over that at 0.3");
+        findings.push(Finding::close(what, speed(run) / speed(reference), 1.0, 0.15));
+        findings.push(Finding::told(format!("ε = {value}: lost over the wall"), 1.0 - run.observed.retained));
+    }
+    findings.push(Finding::between(
+        "thickness at 0.9 over that at 0.3",
+        thickness(&runs[7]) / thickness(reference),
+        1.2,
+        10.0,
+    ));
+    Ok(findings)
+}
+
+fn fluctuation() -> Result<Vec<Finding>, Broken> {
+    let coarser = [1.3, 1.7, 2.2];
+    let starts: Vec<Variant> = coarser
+        .into_iter()
+        .flat_map(|coarser| (1..=4).map(move |seed| Variant { coarser, ..Variant::calibration(seed) }))
+        .collect();
+    let runs = all(&starts)?;
+    let mut points = vec![(1.0_f64, spread(calibration::runs()?, Run::fluctuation).0)];
+    for (index, coarser) in coarser.into_iter().enumerate() {
+        points.push((coarser, spread(&runs[4 * index..4 * index + 4], Run::fluctuation).0));
+    }
+    let mut findings: Vec<Finding> = points
+        .iter()
+        .map(|(coarser, amplitude)| Finding::told(format!("H_w/d50 = {:.1}: A_max (N/m)", 26.2 / coarser), *amplitude))
+        .collect();
+    findings.push(Finding::close("exponent of A_max in H_w/d50", -slope(&points), -1.0, 0.5));
+    Ok(findings)
+}
+
+/// Slope of the straight line through the points' logarithms.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let logs = points.iter().map(|(x, y)| (x.ln(), y.ln()));
+    let (sx, sy) = logs.clone().fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x / count, sy + y / count));
+    let (xy, xx) = logs.fold((0.0, 0.0), |(xy, xx), (x, y)| (xy + (x - sx) * (y - sy), xx + (x - sx).powi(2)));
+    xy / xx
+}
