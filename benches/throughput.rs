@@ -12,6 +12,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use barrier_check::dem::crew::gather;
 use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::GrainShape;
 use criterion::{Criterion, Throughput, criterion_group};
@@ -85,7 +86,7 @@ fn throughput(criterion: &mut Criterion) {
             let mut simulation = pool.install(|| state.run_in(model.clone(), RUN_IN));
             group.throughput(Throughput::Elements(simulation.grains.members() as u64));
             group.bench_function(format!("{}/threads_{threads}", state.name()), |bencher| {
-                bencher.iter_custom(|steps| pool.install(|| time_steps(&mut simulation, steps as usize)));
+                bencher.iter_custom(|steps| pool.install(|| gather(|| time_steps(&mut simulation, steps as usize))));
             });
         }
     }
@@ -125,7 +126,7 @@ fn tell(state: &State) {
 
 /// Times one state and prints its row; returns the time of a step (s).
 fn row(state: &State, threads: usize, steps: usize) -> f64 {
-    pool(threads).install(|| {
+    let timed = || {
         let model = state.model();
         let before = IN_USE.load(Ordering::Relaxed);
         let grains = model.grains.len() * size_of_val(&model.grains[0]);
@@ -145,7 +146,8 @@ fn row(state: &State, threads: usize, steps: usize) -> f64 {
             bytes as f64 / spheres,
         );
         time
-    })
+    };
+    pool(threads).install(|| gather(timed))
 }
 
 /// Time per step that two runs of one thread each need together, counted as if they shared one run (s).

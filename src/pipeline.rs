@@ -5,6 +5,7 @@ use std::time::Instant;
 use crate::checks::check_all;
 use crate::checks::credibility::{Numerics, doubts};
 use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::dem::crew;
 use crate::dem::recorders::histories::Histories;
 use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Demands;
@@ -93,6 +94,10 @@ pub enum RunError {
 
 /// Runs one design from words to verdict. Call inside the thread pool that shall do the work.
 pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
+    crew::gather(|| run_with_crew(file, watch))
+}
+
+fn run_with_crew(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
     let started = Instant::now();
     let design = &file.design;
     let fidelity = choose(design);

@@ -6,6 +6,7 @@ use approx::assert_relative_eq;
 use barrier_check::dem::Vec3;
 use barrier_check::dem::contact::grain_pairs::Members;
 use barrier_check::dem::contact::pair_list::Separation;
+use barrier_check::dem::crew::gather;
 use barrier_check::dem::model::Model;
 use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::{Grain, GrainShape};
@@ -59,7 +60,7 @@ fn the_energy_account_closes() {
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let finish = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-        pool.install(|| {
+        let run = || {
             let mut model =
                 Model { gravity: Vec3::new(1.0, 0.0, -9.81), ..free_model(cloud(1500, 7), GrainShape::Clump) };
             model.surfaces = vec![floor(0.4)];
@@ -68,7 +69,8 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
                 simulation.step().expect("stable");
             }
             simulation.snapshot().iter().map(|g| (g.id, g.position, g.angular_momentum)).collect::<Vec<_>>()
-        })
+        };
+        pool.install(|| gather(run))
     };
     let one = finish(1);
     assert_eq!(one, finish(2));

@@ -2,6 +2,7 @@
 //! nothing of designs, guidelines or reports.
 
 pub mod contact;
+pub mod crew;
 pub mod elements;
 pub mod geometry;
 pub mod ledger;

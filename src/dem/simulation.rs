@@ -1,17 +1,17 @@
 //! A model in motion: one step after the other.
 
-use rayon::prelude::*;
-
 use crate::dem::Vec3;
 use crate::dem::contact::grain_pairs::{PairConstants, PairContext, load_border, load_inner};
 use crate::dem::contact::law::LawConstants;
 use crate::dem::contact::ropes::RopeContext;
 use crate::dem::contact::surfaces::{SurfaceContext, SurfaceForces, load_surfaces};
+use crate::dem::crew;
 use crate::dem::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::dem::model::Model;
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
 use crate::dem::net::{NetForces, pull_all, slide_all};
+use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::{GrainLoad, GrainTable};
 use crate::dem::tables::grains::Grain;
 use crate::dem::tables::surfaces::SurfaceRole;
@@ -223,13 +223,14 @@ impl Simulation {
         let Self { model, grains, loads, neighbours, sums, .. } = self;
         let forces = BlockForces { model, grains, law };
         let rows = block_rows(&neighbours.blocks);
-        let (net, ()) = rayon::join(
-            || model.barrier.as_ref().map(|barrier| pull_all(barrier, law.time_step)),
-            || {
-                let blocks = loads.par_chunks_mut(rows).zip(neighbours.blocks.par_iter_mut());
-                blocks.for_each(|(loads, block)| forces.load_block(block, loads));
-            },
-        );
+        let mut net = None;
+        let elements = model.barrier.as_ref().map(|barrier| LoadPart::Elements(barrier, &mut net));
+        let blocks = neighbours.blocks.iter_mut().zip(loads.chunks_mut(rows));
+        let parts = elements.into_iter().chain(blocks.map(|(block, loads)| LoadPart::Block(block, loads)));
+        crew::for_each(parts, |_, part| match part {
+            LoadPart::Elements(barrier, net) => *net = Some(pull_all(barrier, law.time_step)),
+            LoadPart::Block(block, loads) => forces.load_block(block, loads),
+        });
         sums.net = net.unwrap_or_default();
     }
 
@@ -290,11 +291,10 @@ impl Simulation {
         }
         let blocks = &self.neighbours.blocks;
         let rows = self.grains.rows_by_block(&mut self.loads, &self.neighbours.drift, block_rows(blocks));
-        let paces = rows.into_par_iter().enumerate().map(|(number, rows)| {
+        let paces: Vec<Pace> = crew::map(rows, |number, rows| {
             take_post(blocks, number, rows.loads);
             rows.advance(&time)
         });
-        let paces: Vec<Pace> = paces.collect();
         let stray = paces.iter().map(|pace| pace.stray).fold(0.0, f64::max);
         let Neighbours { clocks, blocks, .. } = &mut self.neighbours;
         clocks.tick(time.step, stray, fastest_node);
@@ -355,6 +355,12 @@ fn take_post(blocks: &[Block], number: usize, loads: &mut [GrainLoad]) {
             loads[*row as usize - start].join(load);
         }
     }
+}
+
+/// A part of the loading of a step.
+enum LoadPart<'a> {
+    Elements(&'a Barrier, &'a mut Option<NetForces>),
+    Block(&'a mut Block, &'a mut [GrainLoad]),
 }
 
 /// What every block reads while it is loaded.

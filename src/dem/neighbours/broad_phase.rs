@@ -34,9 +34,11 @@ impl Box3 {
 }
 
 /// A tree over boxes numbered from 0.
+#[derive(Default)]
 pub struct BoxTree {
     tree: Bvh,
     workspace: BvhWorkspace,
+    count: usize,
 }
 
 impl BoxTree {
@@ -44,12 +46,20 @@ impl BoxTree {
     pub fn new(boxes: &[Box3]) -> Self {
         debug_assert!(boxes.iter().all(Box3::is_finite));
         let leaves: Vec<Aabb> = boxes.iter().map(|b| b.to_aabb()).collect();
-        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves), workspace: BvhWorkspace::default() }
+        Self {
+            tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves),
+            workspace: BvhWorkspace::default(),
+            count: boxes.len(),
+        }
     }
 
-    /// Moves the boxes without changing the tree's structure; cheaper than a new tree, good while neighbours
-    /// stay neighbours.
-    pub fn refit(&mut self, boxes: &[Box3]) {
+    /// Takes in the boxes: into the tree as it stands if there are as many as before, which is cheaper and good while
+    /// neighbours stay neighbours; into a new one otherwise.
+    pub fn fit(&mut self, boxes: &[Box3]) {
+        if self.count != boxes.len() {
+            *self = Self::new(boxes);
+            return;
+        }
         for (index, b) in boxes.iter().enumerate() {
             self.tree.insert_or_update_partially(b.to_aabb(), index as u32, 0.0);
         }

@@ -1,7 +1,7 @@
 //! Which pairs could touch before the lists are renewed.
 
 use crate::dem::contact::grain_pairs::Members;
-use crate::dem::contact::pair_list::Separation;
+use crate::dem::contact::pair_list::{PairList, Separation};
 use crate::dem::contact::ropes::OnRopes;
 use crate::dem::contact::surfaces::OnSurfaces;
 use crate::dem::neighbours::blocks::Block;
@@ -33,43 +33,48 @@ pub fn segment_boxes(barrier: &Barrier, margin: f64) -> Vec<Box3> {
         .collect()
 }
 
-/// Files every pair of members nearer than `skin` with the block of the first.
-pub fn find_grain_pairs(tree: &mut BoxTree, grains: &GrainTable, skin: f64, blocks: &mut [Block]) {
-    let block_size = blocks.first().map_or(1, |block| block.grains.len());
-    let per_grain = grains.shape.members() as u32;
-    tree.pairs(|a, b| {
-        let (a, b) = (a.min(b), a.max(b));
-        let block = &mut blocks[a as usize / block_size];
-        let same = (b as usize) < block.grains.end;
-        for first in a * per_grain..(a + 1) * per_grain {
-            for second in b * per_grain..(b + 1) * per_grain {
-                let gap = Members(grains).gap([first, second]);
-                if gap < skin {
-                    let list = if same { &mut block.inner } else { &mut block.border };
-                    list.add([first, second], gap);
-                }
-            }
-        }
-    });
+/// Files every pair of members of one block nearer than `skin`; the boxes of `tree` are those of the block's grains.
+pub fn find_inner_pairs(tree: &mut BoxTree, grains: &GrainTable, skin: f64, block: &mut Block) {
+    let start = block.grains.start as u32;
+    tree.pairs(|a, b| add_near(&mut block.inner, grains, [start + a.min(b), start + a.max(b)], skin));
 }
 
-/// Files every pair of member and rope segment nearer than `skin`.
+/// Files every pair nearer than `skin` of a member of `block` and one of a later block, whose rows begin at `other_start`.
+pub fn find_border_pairs(trees: [&BoxTree; 2], other_start: usize, grains: &GrainTable, skin: f64, block: &mut Block) {
+    let (start, other) = (block.grains.start as u32, other_start as u32);
+    trees[0].pairs_with(trees[1], |a, b| add_near(&mut block.border, grains, [start + a, other + b], skin));
+}
+
+/// Adds the pairs of members of two grains that are nearer than `skin`.
+fn add_near(list: &mut PairList, grains: &GrainTable, [a, b]: [u32; 2], skin: f64) {
+    let per_grain = grains.shape.members() as u32;
+    for first in a * per_grain..(a + 1) * per_grain {
+        for second in b * per_grain..(b + 1) * per_grain {
+            let gap = Members(grains).gap([first, second]);
+            if gap < skin {
+                list.add([first, second], gap);
+            }
+        }
+    }
+}
+
+/// Files every pair of a member of the block and a rope segment nearer than `skin`.
 pub fn find_rope_pairs(
-    trees: (&BoxTree, &BoxTree),
+    tree: &BoxTree,
+    segments: &BoxTree,
     barrier: &Barrier,
     grains: &GrainTable,
     skin: f64,
-    blocks: &mut [Block],
+    block: &mut Block,
 ) {
-    let block_size = blocks.first().map_or(1, |block| block.grains.len());
     let per_grain = grains.shape.members();
-    let (grain_tree, segments) = trees;
-    grain_tree.pairs_with(segments, |row, segment| {
-        let list = &mut blocks[row as usize / block_size].ropes.list;
-        for index in row as usize * per_grain..(row as usize + 1) * per_grain {
+    let start = block.grains.start;
+    tree.pairs_with(segments, |row, segment| {
+        let first = (start + row as usize) * per_grain;
+        for index in first..first + per_grain {
             let gap = OnRopes { grains, barrier }.gap([index as u32, segment]);
             if gap < skin {
-                list.add([index as u32, segment], gap);
+                block.ropes.list.add([index as u32, segment], gap);
             }
         }
     });

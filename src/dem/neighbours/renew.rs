@@ -1,12 +1,11 @@
 //! Renewal of the pair lists, with the memory of touching pairs carried over.
 
-use rayon::prelude::*;
-
 use crate::dem::Vec3;
+use crate::dem::crew;
 use crate::dem::neighbours::blocks::{Block, make_blocks};
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::neighbours::candidates::{
-    find_grain_pairs, find_rope_pairs, find_surface_pairs, grain_box, segment_boxes,
+    find_border_pairs, find_inner_pairs, find_rope_pairs, find_surface_pairs, grain_box, segment_boxes,
 };
 use crate::dem::neighbours::clocks::Clocks;
 use crate::dem::neighbours::drift::{Drift, strayed};
@@ -38,7 +37,8 @@ pub struct Neighbours {
     node_reference: Vec<Vec3>,
     /// Grain numbers in the order of the rows the lists speak of.
     row_ids: Vec<u32>,
-    tree: Option<BoxTree>,
+    /// A tree over the grains of each block.
+    trees: Vec<BoxTree>,
     lost: bool,
 }
 
@@ -67,7 +67,7 @@ impl Neighbours {
             references: Vec::new(),
             node_reference: Vec::new(),
             row_ids: Vec::new(),
-            tree: None,
+            trees: Vec::new(),
             lost: true,
         }
     }
@@ -124,7 +124,7 @@ impl Neighbours {
         let memories = self.collect(&new_rows, grains.members());
         if self.row_ids != grains.ids {
             self.row_ids.clone_from(&grains.ids);
-            self.tree = None;
+            self.trees.clear();
         }
         self.fill(bodies, &memories);
         self.restart(bodies);
@@ -185,24 +185,29 @@ impl Neighbours {
         if self.blocks.last().map_or(0, |block| block.grains.end) != grains.len() {
             self.blocks = make_blocks(grains.len());
         }
-        let blocks = &mut self.blocks;
-        blocks.iter_mut().for_each(|block| block.reset(skin, fixed_skin));
-        let boxes: Vec<Box3> = (0..grains.len()).map(|row| grain_box(grains, row, 0.5 * skin)).collect();
-        let tree = match self.tree.take() {
-            Some(mut tree) => {
-                tree.refit(&boxes);
-                self.tree.insert(tree)
-            }
-            None => self.tree.insert(BoxTree::new(&boxes)),
-        };
-        find_grain_pairs(tree, grains, skin, blocks);
-        if let Some(barrier) = bodies.barrier.filter(|barrier| !barrier.segments.is_empty()) {
-            // The boxes of the grains do not reach as far as these lists, so those of the segments do.
-            let ropes = BoxTree::new(&segment_boxes(barrier, fixed_skin));
-            find_rope_pairs((tree, &ropes), barrier, grains, fixed_skin, blocks);
+        if self.trees.len() != self.blocks.len() {
+            self.trees.clear();
+            self.trees.resize_with(self.blocks.len(), BoxTree::default);
         }
-        blocks.par_iter_mut().for_each(|block| {
+        crew::for_each(self.blocks.iter_mut().zip(&mut self.trees), |_, (block, tree)| {
+            block.reset(skin, fixed_skin);
+            let boxes: Vec<Box3> = block.grains.clone().map(|row| grain_box(grains, row, 0.5 * skin)).collect();
+            tree.fit(&boxes);
+            find_inner_pairs(tree, grains, skin, block);
             find_surface_pairs(block, grains, bodies.surfaces, fixed_skin);
+        });
+        let barrier = bodies.barrier.filter(|barrier| !barrier.segments.is_empty());
+        // The boxes of the grains do not reach as far as these lists, so those of the segments do.
+        let ropes = barrier.map(|barrier| (barrier, BoxTree::new(&segment_boxes(barrier, fixed_skin))));
+        let starts: Vec<usize> = self.blocks.iter().map(|block| block.grains.start).collect();
+        let trees = &self.trees;
+        crew::for_each(&mut self.blocks, |number, block| {
+            for other in number + 1..trees.len() {
+                find_border_pairs([&trees[number], &trees[other]], starts[other], grains, skin, block);
+            }
+            if let Some((barrier, ropes)) = &ropes {
+                find_rope_pairs(&trees[number], ropes, barrier, grains, fixed_skin, block);
+            }
             block.inner.settle(&memories.grains);
             block.border.settle(&memories.grains);
             block.surfaces.settle(&memories.surfaces);

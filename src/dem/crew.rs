@@ -1,0 +1,235 @@
+//! A standing crew of threads that shares the work of every step.
+//!
+//! A step has two short stretches of parallel work, some hundred microseconds each. Handing each of them to sleeping threads
+//! costs as much as the work; so the crew stays awake for as long as a run lasts, and takes the parts of a stretch one by one
+//! until none is left. Which thread takes which part does not matter for the result. Outside [`gather`] every stretch is
+//! worked off by the calling thread alone.
+
+use std::cell::{Cell, UnsafeCell};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::time::Duration;
+
+/// Looks for work before an idle helper lets others have the core, and before it naps.
+const LOOKS_BEFORE_YIELD: u32 = 2_000;
+const LOOKS_BEFORE_NAP: u32 = 20_000;
+const NAP: Duration = Duration::from_micros(50);
+
+/// Bits of the state: whether a stretch is open, how many helpers are inside, and the number of the stretch.
+const OPEN: u64 = 1;
+const INSIDE: u64 = 2;
+const INSIDE_MASK: u64 = 0xffff << 1;
+const STRETCH: u64 = 1 << 17;
+
+type Part<'a> = dyn Fn(usize) + Sync + 'a;
+
+/// What helpers and leader share.
+struct Crew {
+    state: AtomicU64,
+    /// Part to be taken next, and the number of parts.
+    next: AtomicUsize,
+    parts: AtomicUsize,
+    /// The stretch at hand; written by the leader while it is closed and nobody is inside.
+    work: UnsafeCell<Option<&'static Part<'static>>>,
+    failed: AtomicBool,
+    dismissed: AtomicBool,
+}
+
+// SAFETY: `work` is written only while no helper is inside a stretch and read only by helpers inside one; `state` orders
+// the two.
+unsafe impl Sync for Crew {}
+
+thread_local! {
+    /// The crew that this thread leads, for as long as [`gather`] lasts.
+    static LED: Cell<Option<&'static Crew>> = const { Cell::new(None) };
+}
+
+/// Calls `body` with all threads of the present rayon pool standing by.
+pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
+    let crew = Crew {
+        state: AtomicU64::new(0),
+        next: AtomicUsize::new(0),
+        parts: AtomicUsize::new(0),
+        work: UnsafeCell::new(None),
+        failed: AtomicBool::new(false),
+        dismissed: AtomicBool::new(false),
+    };
+    rayon::in_place_scope(|scope| {
+        for _ in 1..rayon::current_num_threads() {
+            scope.spawn(|_| crew.help());
+        }
+        // SAFETY: the reference is taken away again before `crew` goes, by the guard, also when `body` panics.
+        let leader = Leader::of(unsafe { std::mem::transmute::<&Crew, &'static Crew>(&crew) });
+        let result = body();
+        drop(leader);
+        result
+    })
+}
+
+/// Calls `work` for every item, by all of the crew; items go out in their order.
+pub fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) + Sync) {
+    let Some(crew) = LED.get() else {
+        items.into_iter().enumerate().for_each(|(number, item)| work(number, item));
+        return;
+    };
+    let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
+    crew.share(items.len(), &|number| {
+        let item = items[number].lock().ok().and_then(|mut item| item.take());
+        if let Some(item) = item {
+            work(number, item);
+        }
+    });
+}
+
+/// Calls `work` for every item, by all of the crew; results in the order of the items.
+pub fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) -> R + Sync) -> Vec<R> {
+    let items: Vec<T> = items.into_iter().collect();
+    let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
+    for_each(items.into_iter().zip(&mut results), |number, (item, result)| *result = Some(work(number, item)));
+    results.into_iter().flatten().collect()
+}
+
+/// Leads a crew until dropped; then dismisses it.
+struct Leader(&'static Crew);
+
+impl Leader {
+    fn of(crew: &'static Crew) -> Self {
+        LED.set(Some(crew));
+        Self(crew)
+    }
+}
+
+impl Drop for Leader {
+    fn drop(&mut self) {
+        LED.set(None);
+        self.0.dismissed.store(true, Ordering::Release);
+    }
+}
+
+/// Closes a stretch when dropped and waits until every helper has left it, so that what it borrows outlives its use.
+struct Closing<'a>(&'a Crew);
+
+impl Drop for Closing<'_> {
+    fn drop(&mut self) {
+        // No more parts, also if the leader left early by a panic.
+        self.0.next.store(usize::MAX / 2, Ordering::Relaxed);
+        self.0.state.fetch_and(!OPEN, Ordering::AcqRel);
+        let mut looks = 0;
+        while self.0.state.load(Ordering::Acquire) & INSIDE_MASK != 0 {
+            wait(&mut looks);
+        }
+    }
+}
+
+impl Crew {
+    /// Works off `parts` parts with whoever of the crew comes.
+    fn share(&self, parts: usize, work: &Part) {
+        if parts < 2 {
+            (0..parts).for_each(work);
+            return;
+        }
+        // SAFETY: the stretch is closed and nobody is inside (`Closing` has waited for that), so nobody reads `work`;
+        // it is not read any more when `Closing` is dropped, before the borrow ends.
+        unsafe { *self.work.get() = Some(std::mem::transmute::<&Part, &'static Part<'static>>(work)) };
+        self.parts.store(parts, Ordering::Relaxed);
+        self.next.store(0, Ordering::Relaxed);
+        let stretch = self.state.load(Ordering::Relaxed) & !(STRETCH - 1);
+        self.state.store((stretch.wrapping_add(STRETCH)) | OPEN, Ordering::Release);
+        let closing = Closing(self);
+        self.take_parts(work);
+        drop(closing);
+        assert!(!self.failed.load(Ordering::Relaxed), "a helper of the crew has failed");
+    }
+
+    fn take_parts(&self, work: &Part) {
+        loop {
+            let part = self.next.fetch_add(1, Ordering::Relaxed);
+            if part >= self.parts.load(Ordering::Relaxed) {
+                return;
+            }
+            work(part);
+        }
+    }
+
+    /// What a helper does until it is dismissed.
+    fn help(&self) {
+        let (mut seen, mut looks) = (0, 0);
+        while !self.dismissed.load(Ordering::Acquire) {
+            let state = self.state.load(Ordering::Acquire);
+            let stretch = state & !(STRETCH - 1);
+            if state & OPEN == 0 || stretch == seen {
+                wait(&mut looks);
+                continue;
+            }
+            if self.state.compare_exchange_weak(state, state + INSIDE, Ordering::AcqRel, Ordering::Relaxed).is_err() {
+                continue;
+            }
+            (seen, looks) = (stretch, 0);
+            // SAFETY: we are inside an open stretch: the leader has written `work` and does not touch it until we leave.
+            let work = unsafe { *self.work.get() };
+            if let Some(work) = work
+                && catch_unwind(AssertUnwindSafe(|| self.take_parts(work))).is_err()
+            {
+                self.failed.store(true, Ordering::Relaxed);
+            }
+            self.state.fetch_sub(INSIDE, Ordering::AcqRel);
+        }
+    }
+}
+
+/// One look for work in vain: spins at first, then lets others have the core, then naps.
+fn wait(looks: &mut u32) {
+    *looks = looks.saturating_add(1);
+    if *looks < LOOKS_BEFORE_YIELD {
+        std::hint::spin_loop();
+    } else if *looks < LOOKS_BEFORE_NAP {
+        std::thread::yield_now();
+    } else {
+        std::thread::sleep(NAP);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pool(threads: usize) -> rayon::ThreadPool {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool")
+    }
+
+    #[test]
+    fn every_part_is_worked_once_and_in_place() {
+        for threads in [1, 2, 5] {
+            let sums: Vec<Vec<u64>> = pool(threads).install(|| {
+                gather(|| {
+                    (0..300_u64)
+                        .map(|round| {
+                            let mut rows = vec![0; 17];
+                            for_each(rows.iter_mut(), |number, row| *row += round * 100 + number as u64);
+                            map(rows, |_, row| row + 1)
+                        })
+                        .collect()
+                })
+            });
+            for (round, rows) in sums.iter().enumerate() {
+                let expected: Vec<u64> = (0..17).map(|number| round as u64 * 100 + number + 1).collect();
+                assert_eq!(rows, &expected);
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_crew_the_caller_works_alone() {
+        assert_eq!(map([1, 2, 3], |number, item| item * 10 + number), [10, 21, 32]);
+    }
+
+    #[test]
+    fn a_panic_in_a_part_reaches_the_leader() {
+        let outcome = std::panic::catch_unwind(|| {
+            pool(2).install(|| gather(|| for_each(0..100, |_, item: i32| assert!(item != 57, "part 57"))));
+        });
+        assert!(outcome.is_err());
+        assert!(LED.get().is_none());
+    }
+}
