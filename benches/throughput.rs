@@ -2,10 +2,12 @@
 //!
 //!     cargo bench                      timings by criterion, then the table
 //!     cargo bench -- --table           the table alone
+//!     benches/peers/compare.sh         beside LAMMPS, on the same states
 //!
 //! The table tells contacts per sphere z, ns per sphere-step, sphere-steps per second, ns per contact and bytes per sphere;
 //! and what two threads reach against two independent runs of one thread each at the same time, on the same machine.
 
+mod cells;
 mod states;
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -13,10 +15,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use barrier_check::dem::crew::gather;
+use barrier_check::dem::neighbours::broad_phase::{Box3, BoxTree};
 use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::GrainShape;
 use criterion::{Criterion, Throughput, criterion_group};
-use states::{Phase, State};
+use states::{Phase, RADIUS, SKIN, State};
 
 /// Steps before the clock starts.
 const RUN_IN: usize = 300;
@@ -95,6 +98,10 @@ fn throughput(criterion: &mut Criterion) {
 criterion_group!(benches, throughput);
 
 fn main() {
+    let mut arguments = std::env::args().skip_while(|argument| argument != "--one").skip(1);
+    if let Some(name) = arguments.next() {
+        return tell_one(&name);
+    }
     if !std::env::args().any(|argument| argument == "--table") {
         benches();
     }
@@ -103,6 +110,63 @@ fn main() {
         "state", "threads", "z", "ns/sph-st", "M sph-st/s", "ns/contact", "ms/step", "bytes/sph", "of two"
     );
     STATES.iter().for_each(tell);
+    println!(
+        "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
+    );
+    STATES.iter().filter(|state| state.shape == GrainShape::Sphere).for_each(tell_broad_phase);
+}
+
+/// What the search for neighbours costs, by rapier's tree and by a cell list, and its share of a run.
+fn tell_broad_phase(state: &State) {
+    let grains = state.model().grains;
+    let (reach, half) = (2.0 * RADIUS * (1.0 + 0.5 * SKIN), RADIUS * (1.0 + 0.5 * SKIN));
+    let boxes: Vec<Box3> = grains.iter().map(|grain| Box3::around(&grain.position, half)).collect();
+    let mut tree = BoxTree::default();
+    let mut search = |tree: &mut BoxTree| {
+        let mut near = 0;
+        tree.fit(&boxes);
+        tree.pairs(|a, b| {
+            let between = grains[a as usize].position - grains[b as usize].position;
+            near += usize::from(between.norm_squared() < reach * reach);
+        });
+        near
+    };
+    let timed = |work: &mut dyn FnMut() -> usize| {
+        let start = Instant::now();
+        let found = work();
+        (start.elapsed().as_secs_f64(), found)
+    };
+    let (anew, by_tree) = timed(&mut || search(&mut tree));
+    let (refitted, again) = timed(&mut || search(&mut tree));
+    let (cells, by_cells) = timed(&mut || cells::pairs(&grains, reach).len());
+    assert!(by_tree == by_cells && again == by_cells, "tree {by_tree}, {again} and cells {by_cells} disagree");
+    let (steps, mut simulation) = ((SPHERE_STEPS / grains.len()).max(100), state.run_in(state.model(), RUN_IN));
+    let before = simulation.neighbours.renewals;
+    let run = pool(1).install(|| time_steps(&mut simulation, steps)).as_secs_f64();
+    let share = (simulation.neighbours.renewals - before) as f64 * refitted / run;
+    println!(
+        "{:<22} {:>9.2} {:>9.2} {:>9.2}   {:>5.1} %",
+        state.name(),
+        anew * 1e3,
+        refitted * 1e3,
+        cells * 1e3,
+        100.0 * share
+    );
+}
+
+/// ns per sphere-step of one state on one thread, for scripts.
+fn tell_one(name: &str) {
+    let Some(state) = STATES.iter().find(|state| state.name() == name) else {
+        eprintln!("no such state: {name}");
+        std::process::exit(2);
+    };
+    pool(1).install(|| {
+        let mut simulation = state.run_in(state.model(), RUN_IN);
+        let spheres = simulation.grains.members();
+        let steps = (SPHERE_STEPS / spheres).max(100);
+        let time = time_steps(&mut simulation, steps).as_secs_f64();
+        println!("{:.1} ns per sphere-step", time / steps as f64 / spheres as f64 * 1e9);
+    });
 }
 
 /// Rows of the table for one state: on one thread, on two, and two runs side by side.

@@ -228,7 +228,7 @@ impl State {
 }
 
 /// Reach of the pair lists over the radius.
-const SKIN: f64 = 0.6;
+pub const SKIN: f64 = 0.6;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("../bench_states")

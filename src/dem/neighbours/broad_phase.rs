@@ -1,5 +1,7 @@
 //! Broad phase: which boxes overlap. The only file that names rapier (through its bounding-volume tree).
 
+use std::cell::RefCell;
+
 use rapier3d::math::Vector;
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
@@ -33,11 +35,15 @@ impl Box3 {
     }
 }
 
+thread_local! {
+    // As large as a tree itself, so the trees that one thread works on share it.
+    static WORKSPACE: RefCell<BvhWorkspace> = RefCell::default();
+}
+
 /// A tree over boxes numbered from 0.
 #[derive(Default)]
 pub struct BoxTree {
     tree: Bvh,
-    workspace: BvhWorkspace,
     count: usize,
 }
 
@@ -46,11 +52,7 @@ impl BoxTree {
     pub fn new(boxes: &[Box3]) -> Self {
         debug_assert!(boxes.iter().all(Box3::is_finite));
         let leaves: Vec<Aabb> = boxes.iter().map(|b| b.to_aabb()).collect();
-        Self {
-            tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves),
-            workspace: BvhWorkspace::default(),
-            count: boxes.len(),
-        }
+        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves), count: boxes.len() }
     }
 
     /// Takes in the boxes: into the tree as it stands if there are as many as before, which is cheaper and good while
@@ -63,12 +65,12 @@ impl BoxTree {
         for (index, b) in boxes.iter().enumerate() {
             self.tree.insert_or_update_partially(b.to_aabb(), index as u32, 0.0);
         }
-        self.tree.refit(&mut self.workspace);
+        WORKSPACE.with_borrow_mut(|workspace| self.tree.refit(workspace));
     }
 
     /// Calls `visit` once for every pair of overlapping boxes of this tree.
     pub fn pairs(&mut self, mut visit: impl FnMut(u32, u32)) {
-        self.tree.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut visit);
+        WORKSPACE.with_borrow_mut(|workspace| self.tree.traverse_bvtt_single_tree::<false>(workspace, &mut visit));
     }
 
     /// Calls `visit` once for every pair of a box of this tree and a box of the other that overlap.
