@@ -122,7 +122,7 @@ fn tell_broad_phase(state: &State) {
     let (reach, half) = (2.0 * RADIUS * (1.0 + 0.5 * SKIN), RADIUS * (1.0 + 0.5 * SKIN));
     let boxes: Vec<Box3> = grains.iter().map(|grain| Box3::around(&grain.position, half)).collect();
     let mut tree = BoxTree::default();
-    let mut search = |tree: &mut BoxTree| {
+    let search = |tree: &mut BoxTree| {
         let mut near = 0;
         tree.fit(&boxes);
         tree.pairs(|a, b| {
