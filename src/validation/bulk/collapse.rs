@@ -122,7 +122,7 @@ fn dam() -> Result<Vec<Finding>, Broken> {
         heights.get(heights.len().saturating_sub(heights.len() / 20 + 1)).copied().unwrap_or(0.0)
     };
     Ok(vec![
-        Finding::close("height at x = 0.4 m (m)", surface(0.4), 0.20, 0.03),
+        Finding::close("height at x = 0.4 m (m)", surface(0.4), 0.20, 0.02),
         Finding::close("height at x = 0.8 m (m)", surface(0.8), 0.025, 0.02),
         Finding::told("height at x = 0.6 m (m)", surface(0.6)),
     ])
