@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use crate::dem::ledger::Ledger;
 use crate::dem::recorders::histories::{Histories, smoothed};
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::guideline;
@@ -72,15 +73,17 @@ impl Run {
         self.observed.force_residual / WIDTH
     }
 
-    /// Rotational over kinetic energy of the flow before it meets the wall, mean over the last 0.3 s.
-    pub fn rotational_share(&self) -> f64 {
-        let first = self.histories.force.iter().position(|force| force.norm() > 0.0).unwrap_or(0);
-        let from = self.histories.time[first] - 0.3;
-        let samples =
-            self.histories.time.iter().zip(&self.histories.ledger).take(first).filter(|(time, _)| **time > from);
-        let (sum, count) = samples
-            .fold((0.0, 0.0), |(sum, count), (_, ledger)| (sum + ledger.rotational / ledger.kinetic, count + 1.0));
-        sum / count
+    /// Time integral of the rotational over that of the kinetic energy: of the flow until it meets the wall, and while it
+    /// runs over the deposit, 0.15 s before and after the largest force.
+    pub fn rotational_shares(&self) -> [f64; 2] {
+        let met = self.histories.force.iter().position(|force| force.norm() > 0.0).unwrap_or(0);
+        let at = |time: f64| self.histories.time.partition_point(|t| *t < time);
+        let peak = self.observed.force_peak_time;
+        [0..met, at(peak - 0.15)..at(peak + 0.15)].map(|stage| {
+            let ledgers = &self.histories.ledger[stage];
+            let sum = |part: fn(&Ledger) -> f64| ledgers.iter().map(part).sum::<f64>();
+            sum(|ledger| ledger.rotational) / sum(|ledger| ledger.kinetic)
+        })
     }
 
     /// Largest deviation of the raw total force from its smoothed course (N/m).
