@@ -33,7 +33,7 @@
 //! * The channel frame: x down the slope with the barrier's foot at 0, y across, z normal to the bed.
 //! * A run that becomes unstable or breaks a limit of [`checks::credibility`] never passes.
 //! * Only [`commands`] and the report's writer touch files; only one file names the broad-phase library; `unsafe` stands in
-//!   [`dem::crew`] and where vector instructions are chosen.
+//!   [`dem::crew`], [`dem::tables::prefetch`] and where vector instructions are chosen.
 
 pub mod checks;
 pub mod commands;

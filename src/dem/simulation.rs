@@ -14,12 +14,13 @@ use crate::dem::net::{NetForces, pull_all, slide_all};
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::{GrainLoad, GrainTable};
 use crate::dem::tables::grains::Grain;
+use crate::dem::tables::prefetch::prefetch;
 use crate::dem::tables::surfaces::SurfaceRole;
 use crate::dem::time::integrate::{Pace, Stretch, move_nodes};
 use crate::dem::time::stable_step::{Audit, StepRatio};
 
 /// Steps between two audits of the stable step.
-const STEPS_PER_AUDIT: u64 = 250;
+const STEPS_PER_AUDIT: u64 = 500;
 
 /// Step over critical step to which the time step is cut when an audit finds it beyond the critical step.
 const STEP_AFTER_CUT: f64 = 0.95;
@@ -376,6 +377,10 @@ impl BlockForces<'_> {
         let clocks = block.clocks;
         let material = &model.material;
         block.outbox.clear();
+        for rows in [&grains.place, &grains.motion, &grains.spin] {
+            prefetch(&rows[block.grains.clone()]);
+        }
+        prefetch(loads);
         let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
         let pairs = |clock| PairContext { grains, constants, clock };
         let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads);

@@ -12,6 +12,8 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         add(format!("force_{name}_n"), histories.force.iter().map(|force| force[axis]).collect());
     }
+    add("force_x_largest_of_a_step_n".into(), histories.force_instant.clone());
+    add("force_x_scatter_of_steps_n".into(), histories.force_scatter.clone());
     add("wall_moment_n_m".into(), histories.moment.clone());
     let groups = [
         ("wall_segment", "n", &histories.segments),

@@ -10,6 +10,10 @@ pub struct Histories {
     pub time: Vec<f64>,
     /// Force of the grains on the barrier, wall or net (N).
     pub force: Vec<Vec3>,
+    /// Largest force of a single step in the interval, along the channel (N).
+    pub force_instant: Vec<f64>,
+    /// Standard deviation of that force over the steps of the interval (N).
+    pub force_scatter: Vec<f64>,
     /// Moment of the normal force on a rigid wall about its toe (N m).
     pub moment: Vec<f64>,
     /// Normal force on each segment of a rigid wall (N), a row for each segment.

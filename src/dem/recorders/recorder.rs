@@ -68,6 +68,8 @@ struct IntervalSum {
     steps: u32,
     time: f64,
     force: Vec3,
+    force_instant: f64,
+    force_square: f64,
     moment: f64,
     segments: Vec<f64>,
     rope_mean: Vec<f64>,
@@ -114,7 +116,10 @@ impl Recorder {
         sum.steps += 1;
         sum.time += simulation.time_step;
         let surfaces = &simulation.sums.surfaces;
-        sum.force += simulation.sums.net.from_grains + surfaces.wall;
+        let force = simulation.sums.net.from_grains + surfaces.wall;
+        sum.force += force;
+        sum.force_instant = sum.force_instant.max(force.x);
+        sum.force_square += force.x * force.x;
         sum.moment += surfaces.wall_moment;
         add_rows(&mut sum.segments, &surfaces.wall_segments);
         if let Some(barrier) = &simulation.model.barrier {
@@ -130,6 +135,9 @@ impl Recorder {
         let histories = &mut self.histories;
         histories.time.push(simulation.time);
         histories.force.push(self.sum.force * mean);
+        histories.force_instant.push(self.sum.force_instant);
+        let variance = self.sum.force_square * mean - (self.sum.force.x * mean).powi(2);
+        histories.force_scatter.push(variance.max(0.0).sqrt());
         histories.moment.push(self.sum.moment * mean);
         push_rows(&mut histories.segments, &self.sum.segments, mean);
         push_rows(&mut histories.rope_mean, &self.sum.rope_mean, mean);

@@ -3,4 +3,5 @@
 pub mod barrier;
 pub mod grain_table;
 pub mod grains;
+pub mod prefetch;
 pub mod surfaces;

@@ -19,7 +19,7 @@ use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::surfaces::Surface;
 
 /// Rounds of the power iteration.
-const ITERATIONS: usize = 24;
+const ITERATIONS: usize = 16;
 /// What is added to the largest eigenvalue for what the iteration may still have missed.
 const MARGIN: f64 = 1.10;
 

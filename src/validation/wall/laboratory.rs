@@ -86,11 +86,17 @@ impl Run {
         })
     }
 
-    /// Largest deviation of the raw total force from its smoothed course (N/m).
-    pub fn fluctuation(&self) -> f64 {
-        let raw = self.force();
-        let smooth = smoothed(&raw, 3 * self.window);
-        raw.iter().zip(&smooth).map(|(raw, smooth)| (raw - smooth).abs()).fold(0.0, f64::max)
+    /// Fluctuation of the force from step to step in the 0.43 s before and the 0.07 s after its peak (N/m): standard
+    /// deviation, and largest deviation above the smoothed force.
+    pub fn fluctuation(&self) -> [f64; 2] {
+        let smooth = smoothed(&self.force(), self.window);
+        let at = |time: f64| self.histories.time.partition_point(|t| *t < time);
+        let peak = self.observed.force_peak_time;
+        let stretch = at(peak - 0.43)..at(peak + 0.07);
+        let count = stretch.len() as f64;
+        let squares: f64 = stretch.clone().map(|index| self.histories.force_scatter[index].powi(2)).sum();
+        let above = stretch.map(|index| self.histories.force_instant[index] / WIDTH - smooth[index]);
+        [(squares / count).sqrt() / WIDTH, above.fold(0.0, f64::max)]
     }
 
     /// Share of the push of the grains at rest in the total force, at its peak and at the end.
