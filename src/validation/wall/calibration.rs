@@ -50,9 +50,9 @@ fn run() -> Result<Vec<Finding>, Broken> {
     let (velocity, _) = spread(runs, |run| run.observed.incoming_at_peak.velocity);
     let mut findings = vec![
         Finding::near("largest force (N/m)", peak, 735.0, 0.15),
-        Finding::told("  standard deviation", peak_spread),
+        Finding::told("largest force: standard deviation over the starts (N/m)", peak_spread),
         Finding::near("force at rest (N/m)", residual, 576.0, 0.10),
-        Finding::told("  standard deviation", residual_spread),
+        Finding::told("force at rest: standard deviation over the starts (N/m)", residual_spread),
         Finding::close("largest over rest", peak / residual, 1.28, 0.15),
         Finding::near("largest moment at the toe (N m/m)", moment, 80.0, 0.20),
         Finding::close("flow thickness 40 to 50 cm upstream (cm)", 100.0 * thickness, 3.9, 0.6),

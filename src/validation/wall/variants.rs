@@ -22,8 +22,8 @@ pub const SHAPE: Case = Case {
     title: "Clumps against spheres: how much of the motion is rotation",
     source: "Albaba 2015 section 3.4.1: clumps reduce E_rot/E_kin by 70 %",
     tier: Tier::SecondHand,
-    weakness: "published as a figure without its window; judged while the flow runs over the deposit, where rolling is what \
-               the shape is to hold back; on the way down the ratio is nearer to 0.45",
+    weakness: "published as a figure without its window; judged where rolling over the deposit is what the shape is to \
+               hold back; before, the ratio is nearer to 0.45",
     cost: Cost::Long,
     run: shape,
 };
@@ -65,7 +65,7 @@ fn prediction() -> Result<Vec<Finding>, Broken> {
         Finding::near("largest force on segment 2 (N/m)", segment(1), 256.0, 0.35),
         Finding::near("force on segment 1 at rest (N/m)", rest, 145.0, 0.35),
         Finding::told("largest total force (N/m)", peak),
-        Finding::told("  standard deviation", peak_spread),
+        Finding::told("largest force: standard deviation over the starts (N/m)", peak_spread),
         Finding::told("total force at rest (N/m)", spread(&runs, Run::residual).0),
     ])
 }
@@ -74,14 +74,14 @@ fn shape() -> Result<Vec<Finding>, Broken> {
     let spheres = all(&[1, 2].map(|seed| Variant { aspect: 1.0, ..Variant::calibration(seed) }))?;
     let clumps = calibration::runs()?;
     let mut findings = Vec::new();
-    for (stage, name) in ["on the way", "over the deposit"].into_iter().enumerate() {
+    for (stage, name) in ["on the way", "up to the largest force", "over the deposit"].into_iter().enumerate() {
         let share = |runs: &[Run]| spread(runs, |run| run.rotational_shares()[stage]).0;
         let (clump, sphere) = (share(clumps), share(&spheres));
         findings.push(Finding::told(format!("{name}: E_rot/E_kin of spheres"), sphere));
         let what = format!("{name}: clumps over spheres");
         findings.push(match stage {
-            0 => Finding::told(what, clump / sphere),
-            _ => Finding::close(what, clump / sphere, 0.3, 0.1),
+            2 => Finding::close(what, clump / sphere, 0.3, 0.1),
+            _ => Finding::told(what, clump / sphere),
         });
     }
     findings.push(Finding::told("largest force of spheres (N/m)", spread(&spheres, Run::peak).0));
