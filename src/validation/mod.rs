@@ -40,6 +40,7 @@ pub const CASES: &[&Case] = &[
     &wall::impulse::BEAM,
     &wall::impulse::IDENTITY,
     &wall::calibration::CASE,
+    &wall::calibration::HEAP,
     &wall::variants::PREDICTION,
     &wall::variants::SHAPE,
     &wall::variants::RESTITUTION,

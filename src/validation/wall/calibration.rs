@@ -29,6 +29,18 @@ pub const SLIDE: Case = Case {
     run: slide,
 };
 
+pub const HEAP: Case = Case {
+    id: "C7",
+    suite: Suite::Wall,
+    title: "Where the force acts, and the heap that the flow becomes (C10)",
+    source: "Jiang 2020: point of action of the normal force within 20 %, here of 80/735 m; Pudasaini 2007: a thin fast flow \
+             becomes a thick heap at the wall",
+    tier: Tier::SecondHand,
+    weakness: "qualitative: the heap is only told from the flow",
+    cost: Cost::Long,
+    run: heap,
+};
+
 const STARTS: usize = 5;
 
 /// The five runs, made once.
@@ -75,6 +87,16 @@ fn run() -> Result<Vec<Finding>, Broken> {
     Ok(findings)
 }
 
+fn heap() -> Result<Vec<Finding>, Broken> {
+    let runs = runs()?;
+    let (arm, _) = spread(runs, |run| run.observed.moment_peak / run.peak());
+    let (rise, _) = spread(runs, |run| run.observed.deposit_depth / run.observed.incoming_at_peak.thickness);
+    Ok(vec![
+        Finding::near("height at which the largest force acts (m)", arm, 80.0 / 735.0, 0.2),
+        Finding::between("depth at the wall over thickness of the flow", rise, 3.0, 15.0),
+    ])
+}
+
 fn slide() -> Result<Vec<Finding>, Broken> {
     let runs = runs()?;
     let slope = 40_f64.to_radians();
@@ -86,10 +108,10 @@ fn slide() -> Result<Vec<Finding>, Broken> {
         let gained = run.histories.velocity[to][0] - run.histories.velocity[from][0];
         gained / (run.histories.time[to] - run.histories.time[from])
     });
-    Ok(vec![Finding::between(
-        "acceleration of the mean velocity (m/s²)",
-        acceleration,
-        0.90 * expected,
-        1.05 * expected,
-    )])
+    let friction = (GRAVITY * slope.sin() - acceleration) / (GRAVITY * slope.cos());
+    Ok(vec![
+        Finding::between("acceleration of the mean velocity (m/s²)", acceleration, 0.90 * expected, 1.05 * expected),
+        // B11: the bed's own 0.466, and a little for the side walls; never more than tan 40°.
+        Finding::between("effective friction of bed and sides (B11)", friction, 0.44, 0.60),
+    ])
 }
