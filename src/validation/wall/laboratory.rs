@@ -73,17 +73,12 @@ impl Run {
         self.observed.force_residual / WIDTH
     }
 
-    /// Time integral of the rotational over that of the kinetic energy: of the flow until it meets the wall, from then to the
-    /// largest force, and in the 0.2 s after it, when the rear of the flow rolls over the deposit.
-    pub fn rotational_shares(&self) -> [f64; 3] {
-        let met = self.histories.force.iter().position(|force| force.norm() > 0.0).unwrap_or(0);
+    /// Time integral of the rotational over that of the kinetic energy between two times after the release (s).
+    pub fn rotational_share(&self, from: f64, to: f64) -> f64 {
         let at = |time: f64| self.histories.time.partition_point(|t| *t < time);
-        let peak = self.observed.force_peak_time;
-        [0..met, met..at(peak), at(peak)..at(peak + 0.2)].map(|stage| {
-            let ledgers = &self.histories.ledger[stage];
-            let sum = |part: fn(&Ledger) -> f64| ledgers.iter().map(part).sum::<f64>();
-            sum(|ledger| ledger.rotational) / sum(|ledger| ledger.kinetic)
-        })
+        let ledgers = &self.histories.ledger[at(from)..at(to)];
+        let sum = |part: fn(&Ledger) -> f64| ledgers.iter().map(part).sum::<f64>();
+        sum(|ledger| ledger.rotational) / sum(|ledger| ledger.kinetic)
     }
 
     /// Fluctuation of the force from step to step in the 0.43 s before and the 0.07 s after its peak (N/m): standard
