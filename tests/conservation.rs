@@ -8,7 +8,7 @@ use barrier_check::dem::contact::grain_pairs::Members;
 use barrier_check::dem::contact::pair_list::Separation;
 use barrier_check::dem::crew::gather;
 use barrier_check::dem::model::Model;
-use barrier_check::dem::simulation::Simulation;
+use barrier_check::dem::simulation::{Simulation, Unstable};
 use barrier_check::dem::tables::grains::GrainShape;
 use common::{cloud, floor, free_model, material};
 
@@ -108,5 +108,21 @@ fn balls_from_outside_the_list_meet_without_a_jump() {
     for grain in simulation.snapshot() {
         assert_relative_eq!(grain.velocity.norm(), speed, max_relative = 1e-3);
         assert!(grain.velocity.x * grain.position.x > 0.0, "the balls did not bounce");
+    }
+}
+
+/// A value that is not finite must end the run at once, wherever it comes in; it must never be carried on, or hang.
+#[test]
+fn a_value_that_is_not_finite_ends_the_run() {
+    for wrong in [f64::NAN, f64::INFINITY, 1e300] {
+        for shape in [GrainShape::Sphere, GrainShape::Clump] {
+            let mut model = free_model(cloud(50, 15), shape);
+            model.surfaces = vec![floor(0.4)];
+            let mut simulation = Simulation::new(model, 2e-5, 0.002, 1e6);
+            (0..50).for_each(|_| simulation.step().expect("stable"));
+            simulation.grains.motion[7].0[1] = wrong;
+            let outcome = (0..3).try_for_each(|_| simulation.step());
+            assert!(matches!(outcome, Err(Unstable::Grain { .. })), "{wrong} {shape:?}: {outcome:?}");
+        }
     }
 }

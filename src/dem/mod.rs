@@ -16,3 +16,9 @@ pub mod time;
 
 /// A vector in the channel frame: x down the slope, y across, z normal to the bed (m, m/s, N, as used).
 pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// The larger of two numbers; NaN if either is, so that a run that has lost its footing is noticed.
+#[inline(always)]
+pub fn larger_or_nan(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}

@@ -6,9 +6,9 @@
 //! members whose surfaces were a gap g apart has come closer by at most δ_i + δ_j + S τ (2 r + 2 o + g), with r the largest
 //! radius and o the largest distance of a member from its grain's centre.
 
-use crate::dem::Vec3;
 use crate::dem::tables::grain_table::{GrainTable, Quad};
 use crate::dem::time::integrate::Drifting;
+use crate::dem::{Vec3, larger_or_nan};
 
 /// Pieces of the drift along the channel.
 const PIECES: usize = 32;
@@ -77,15 +77,15 @@ impl Drift {
     }
 }
 
-/// How far members with the given reference places have gone after `elapsed` (s).
+/// How far members with the given reference places have gone after `elapsed` (s); NaN if one is nowhere.
 pub fn strayed(references: &[Vec3], grains: &GrainTable, drift: &[Drifting], elapsed: f64) -> Strayed {
     let per_grain = grains.shape.members();
     let (mut moved, mut strayed) = (0.0_f64, 0.0_f64);
     for (index, reference) in references.iter().enumerate() {
         let gone = grains.sphere(index).0 - reference;
         let [x, y, z, _] = drift[index / per_grain].map(f64::from);
-        moved = moved.max(gone.norm_squared());
-        strayed = strayed.max((gone - Vec3::new(x, y, z) * elapsed).norm_squared());
+        moved = larger_or_nan(moved, gone.norm_squared());
+        strayed = larger_or_nan(strayed, (gone - Vec3::new(x, y, z) * elapsed).norm_squared());
     }
     Strayed { moved: moved.sqrt(), strayed: strayed.sqrt() }
 }

@@ -1,6 +1,5 @@
 //! Renewal of the pair lists, with the memory of touching pairs carried over.
 
-use crate::dem::Vec3;
 use crate::dem::crew;
 use crate::dem::neighbours::blocks::{Block, make_blocks};
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
@@ -15,6 +14,7 @@ use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::surfaces::Surface;
 use crate::dem::time::integrate::Drifting;
+use crate::dem::{Vec3, larger_or_nan};
 
 /// Reach of the lists of surfaces and ropes over that of the lists of grains.
 const FIXED_SKIN: f64 = 3.0;
@@ -111,7 +111,7 @@ impl Neighbours {
     fn node_way(&self, barrier: Option<&Barrier>) -> f64 {
         let nodes = barrier.into_iter().flat_map(|barrier| barrier.nodes.iter().zip(&self.node_reference));
         let ways = nodes.map(|(node, old)| (node.position - old).norm());
-        ways.fold(0.0, |longest, way| if way <= longest { longest } else { way })
+        ways.fold(0.0, larger_or_nan)
     }
 
     /// Renews all lists. The grain table may have been thinned out since the last time.

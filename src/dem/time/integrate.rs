@@ -4,11 +4,11 @@
 //! axisymmetric body turns about its angular momentum at the rate |L|/I_t exactly, so free rotation keeps
 //! both momentum and energy to rounding.
 
-use crate::dem::Vec3;
 use crate::dem::contact::lanes::{LANES, Lane, Quads};
 use crate::dem::contact::law::{add_scaled, cross, dot, scaled};
 use crate::dem::tables::barrier::Node;
 use crate::dem::tables::grain_table::{GrainLoad, Quad};
+use crate::dem::{Vec3, larger_or_nan};
 
 /// The stretch of time a step covers, with what acts on all grains alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,11 +111,10 @@ impl MovingRows<'_> {
             turning.gather(axis, momentum, loads);
             turning.advance(time.step, step.keep[0]);
             turning.scatter(spin, axis, momentum);
-            fastest.turning = spin.iter().zip(&turning.rate).fold(fastest.turning, |most, (spin, rate)| {
-                let square = rate * spin.fourth() * spin.fourth();
-                // Asked so that a NaN stays.
-                if square <= most { most } else { square }
-            });
+            fastest.turning = spin
+                .iter()
+                .zip(&turning.rate)
+                .fold(fastest.turning, |most, (spin, rate)| larger_or_nan(most, rate * spin.fourth() * spin.fourth()));
         }
         fastest.total += fastest.turning;
         fastest.pace()
@@ -249,9 +248,7 @@ pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64
         }
         node.velocity += (force / node.mass + gravity) * step;
         node.position += node.velocity * step;
-        let square = node.velocity.norm_squared();
-        // Asked so that a NaN stays.
-        fastest = if square <= fastest { fastest } else { square };
+        fastest = larger_or_nan(fastest, node.velocity.norm_squared());
     }
     fastest
 }
