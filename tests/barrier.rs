@@ -3,8 +3,6 @@
 
 #![allow(clippy::field_reassign_with_default)] // a barrier is put together part by part
 
-mod common;
-
 use approx::assert_relative_eq;
 use barrier_check::dem::Vec3;
 use barrier_check::dem::elements::dissipator::Dissipator;
@@ -13,7 +11,7 @@ use barrier_check::dem::model::Model;
 use barrier_check::dem::simulation::{Simulation, Unstable};
 use barrier_check::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
 use barrier_check::dem::tables::grains::GrainShape;
-use common::{ball, free_model};
+use barrier_check::validation::scenes::{ball, free_model};
 
 const AXIAL_STIFFNESS: f64 = 3.21699e6;
 

@@ -1,7 +1,5 @@
 //! What a result must not depend on. (What must be conserved are validation cases.)
 
-mod common;
-
 use approx::assert_relative_eq;
 use barrier_check::dem::Vec3;
 use barrier_check::dem::contact::grain_pairs::Members;
@@ -10,7 +8,7 @@ use barrier_check::dem::crew::gather;
 use barrier_check::dem::model::Model;
 use barrier_check::dem::simulation::{Simulation, Unstable};
 use barrier_check::dem::tables::grains::GrainShape;
-use common::{cloud, floor, free_model, material};
+use barrier_check::validation::scenes::{ball, cloud, floor, free_model, material};
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
@@ -96,8 +94,8 @@ fn renewing_the_lists_changes_nothing() {
 #[test]
 fn balls_from_outside_the_list_meet_without_a_jump() {
     let (radius, skin, speed) = (0.01, 0.004, 1.0);
-    let mut left = common::ball(0, Vec3::new(-radius - 0.6 * skin, 0.0, 0.0), radius, 2600.0);
-    let mut right = common::ball(1, Vec3::new(radius + 0.6 * skin, 0.0, 0.0), radius, 2600.0);
+    let mut left = ball(0, Vec3::new(-radius - 0.6 * skin, 0.0, 0.0), radius, 2600.0);
+    let mut right = ball(1, Vec3::new(radius + 0.6 * skin, 0.0, 0.0), radius, 2600.0);
     left.velocity.x = speed;
     right.velocity.x = -speed;
     let model = Model { material: material(1.0, 0.0), ..free_model(vec![left, right], GrainShape::Sphere) };

@@ -62,6 +62,10 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
             return ExitCode::Undecided;
         }
     };
+    if cases.is_empty() {
+        eprintln!("error: --quick leaves nothing of {}; run without it", selection.names.join(", "));
+        return ExitCode::Undecided;
+    }
     let mut ran = Vec::new();
     for case in cases {
         let done = run_case(case);

@@ -156,7 +156,7 @@ impl Simulation {
         })
     }
 
-    /// Puts the grain in `row` somewhere else, at rest.
+    /// Puts the grain in `row` somewhere else, without velocity; it spins on.
     pub fn put(&mut self, row: usize, position: &Vec3) {
         self.grains.place[row].set_vector(position);
         self.grains.motion[row].set_vector(&Vec3::zeros());

@@ -1,4 +1,5 @@
-//! Pairs of one kind in one block: those awake are evaluated every step, the others sleep.
+//! Pairs of one kind in one block: those in contact are evaluated in every step, those near are looked at, the others
+//! sleep until they could touch.
 
 use crate::dem::contact::law::Memory;
 use crate::dem::neighbours::alarms::Alarms;

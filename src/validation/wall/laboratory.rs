@@ -6,9 +6,9 @@ use crate::dem::ledger::Ledger;
 use crate::dem::recorders::histories::{Histories, smoothed};
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::guideline;
+use crate::design::Arrival;
 use crate::design::read::read_design;
 use crate::design::sizes::SizeCurve;
-use crate::design::{Arrival, Design};
 use crate::fidelity::choose;
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Watch, run};
@@ -53,7 +53,6 @@ impl Variant {
 pub struct Run {
     pub observed: Observed,
     pub histories: Histories,
-    pub design: Design,
     /// Samples in the smoothing window.
     pub window: usize,
     pub energy_error: f64,
@@ -129,7 +128,7 @@ pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
         return Err(unstable.into());
     }
     let observed = Observed::read(&event.histories, &design, &guideline(&design), reading);
-    Ok(Run { observed, histories: event.histories, design, window, energy_error: event.energy_error })
+    Ok(Run { observed, histories: event.histories, window, energy_error: event.energy_error })
 }
 
 /// Mean and standard deviation of a quantity over runs.
