@@ -7,8 +7,8 @@
 
 use std::cell::{Cell, UnsafeCell};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// Looks for work before an idle helper lets others have the core, and before it naps.
@@ -82,12 +82,65 @@ pub fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize
     });
 }
 
+/// Calls `first` for every item, by all of the crew, and `second` for each once `first` is through with it and all items
+/// before it.
+pub fn wave<T: Send>(
+    items: impl IntoIterator<Item = T>,
+    first: impl Fn(&mut T) + Sync,
+    second: impl Fn(&mut T) + Sync,
+) {
+    let Some(crew) = LED.get() else {
+        for mut item in items {
+            first(&mut item);
+            second(&mut item);
+        }
+        return;
+    };
+    let items: Vec<Mutex<T>> = items.into_iter().map(Mutex::new).collect();
+    // A lock is poisoned only when a part has failed, and then the stretch fails as a whole.
+    let turn = |number: usize, work: &(dyn Fn(&mut T) + Sync)| {
+        work(&mut items[number].lock().unwrap_or_else(PoisonError::into_inner));
+    };
+    let front = Front::over(items.len());
+    crew.share(items.len(), &|number| {
+        turn(number, &first);
+        front.pass(number, |ready| turn(ready, &second));
+    });
+}
+
 /// Calls `work` for every item, by all of the crew; results in the order of the items.
 pub fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) -> R + Sync) -> Vec<R> {
     let items: Vec<T> = items.into_iter().collect();
     let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
     for_each(items.into_iter().zip(&mut results), |number, (item, result)| *result = Some(work(number, item)));
     results.into_iter().flatten().collect()
+}
+
+/// How far a wave has come: every item up to the front is through its first half.
+struct Front {
+    through: Vec<AtomicBool>,
+    next: AtomicUsize,
+}
+
+impl Front {
+    fn over(items: usize) -> Self {
+        Self { through: (0..items).map(|_| AtomicBool::new(false)).collect(), next: AtomicUsize::new(0) }
+    }
+
+    /// Notes that item `number` is through, and calls `work` for every item that the front may pass now. All orderings
+    /// are sequential: of two threads that note neighbouring items at the same time, one must see both.
+    fn pass(&self, number: usize, work: impl Fn(usize)) {
+        self.through[number].store(true, Ordering::SeqCst);
+        loop {
+            let next = self.next.load(Ordering::SeqCst);
+            if !self.through.get(next).is_some_and(|through| through.load(Ordering::SeqCst)) {
+                return;
+            }
+            if self.next.compare_exchange(next, next + 1, Ordering::SeqCst, Ordering::SeqCst).is_ok() {
+                work(next);
+            }
+        }
+    }
 }
 
 /// Leads a crew until dropped; then dismisses it.
@@ -216,6 +269,34 @@ mod tests {
                 let expected: Vec<u64> = (0..17).map(|number| round as u64 * 100 + number + 1).collect();
                 assert_eq!(rows, &expected);
             }
+        }
+    }
+
+    #[test]
+    fn a_wave_moves_on_only_behind_its_front() {
+        for threads in [1, 2, 5] {
+            pool(threads).install(|| {
+                gather(|| {
+                    for round in 0..300_usize {
+                        let through = AtomicUsize::new(0);
+                        let mut counts = vec![(0, 0); 1 + round % 17];
+                        let all = counts.len();
+                        wave(
+                            counts.iter_mut().enumerate(),
+                            |(number, count)| {
+                                count.0 += 1;
+                                through.fetch_or(1 << *number, Ordering::SeqCst);
+                            },
+                            |(number, count)| {
+                                let needed = (2 << *number) - 1;
+                                assert_eq!(through.load(Ordering::SeqCst) & needed, needed);
+                                count.1 += 1;
+                            },
+                        );
+                        assert_eq!(counts, vec![(1, 1); all]);
+                    }
+                });
+            });
         }
     }
 

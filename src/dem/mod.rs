@@ -10,7 +10,9 @@ pub mod model;
 pub mod neighbours;
 pub mod net;
 pub mod recorders;
+pub mod simd;
 pub mod simulation;
+pub mod sweep;
 pub mod tables;
 pub mod time;
 

@@ -1,22 +1,18 @@
 //! A model in motion: one step after the other.
 
 use crate::dem::Vec3;
-use crate::dem::contact::grain_pairs::{PairConstants, PairContext, load_border, load_inner};
-use crate::dem::contact::law::LawConstants;
-use crate::dem::contact::ropes::RopeContext;
-use crate::dem::contact::surfaces::{SurfaceContext, SurfaceForces, load_surfaces};
-use crate::dem::crew;
+use crate::dem::contact::law::{LawConstants, Memory};
+use crate::dem::contact::surfaces::SurfaceForces;
 use crate::dem::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::dem::model::Model;
-use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
-use crate::dem::net::{NetForces, pull_all, slide_all};
-use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grain_table::{GrainLoad, GrainTable};
+use crate::dem::net::{NetForces, slide_all};
+use crate::dem::sweep::sweep;
+use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::grains::Grain;
-use crate::dem::tables::prefetch::prefetch;
+use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::tables::surfaces::SurfaceRole;
-use crate::dem::time::integrate::{Pace, Stretch, move_nodes};
+use crate::dem::time::integrate::{Stretch, move_nodes};
 use crate::dem::time::stable_step::{Audit, StepRatio};
 
 /// Steps between two audits of the stable step.
@@ -72,7 +68,7 @@ pub struct Simulation {
     /// All but the grains; those are in `grains`.
     pub model: Model,
     pub grains: GrainTable,
-    loads: Vec<GrainLoad>,
+    sheets: LoadSheets,
     pub neighbours: Neighbours,
     /// Time step (s).
     pub time_step: f64,
@@ -99,7 +95,7 @@ impl Simulation {
         let grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
         Self {
             grains,
-            loads: Vec::new(),
+            sheets: LoadSheets::default(),
             neighbours: Neighbours::new(skin),
             time_step,
             drag: 0.0,
@@ -118,7 +114,7 @@ impl Simulation {
 
     /// Advances the model by one step.
     pub fn step(&mut self) -> Result<(), Unstable> {
-        self.find_forces()?;
+        self.prepare()?;
         self.advance();
         Ok(())
     }
@@ -126,7 +122,7 @@ impl Simulation {
     /// Advances the model by one step and closes the energy account of the instant its forces belong to: motion at the
     /// half steps before and after counts half each.
     pub fn step_and_account(&mut self) -> Result<(), Unstable> {
-        self.find_forces()?;
+        self.prepare()?;
         let before = self.motion_now();
         self.advance();
         let after = self.motion_now();
@@ -146,8 +142,9 @@ impl Simulation {
         let lists = self.neighbours.blocks.iter().map(|block| &block.surfaces);
         lists.flat_map(|list| list.touching.iter().zip(&list.memory)).map(|(pair, memory)| {
             let surface = &self.model.surfaces[pair[1] as usize];
+            let memory = Memory::from_quad(*memory);
             let row = pair[0] as usize / self.grains.shape.members();
-            let (centre, radius) = self.grains.sphere(pair[0] as usize);
+            let (centre, radius) = self.grains.rows().sphere(pair[0] as usize);
             let towards = surface.nearest(&centre) - centre;
             let overlap = (radius - towards.norm()).max(0.0);
             let normal_force = (self.model.material.modulus * radius * overlap + memory.dashpot).max(0.0);
@@ -180,15 +177,13 @@ impl Simulation {
         LawConstants { time_step: self.time_step, ..self.law }
     }
 
-    fn find_forces(&mut self) -> Result<(), Unstable> {
+    /// Sees to it that lists and time step are good for the step to come.
+    fn prepare(&mut self) -> Result<(), Unstable> {
         if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
             self.check_finite()?;
             self.renew();
         }
-        self.steps += 1;
-        self.load();
-        self.gather_sums();
-        if self.steps.is_multiple_of(STEPS_PER_AUDIT) && self.drag == 0.0 {
+        if (self.steps + 1).is_multiple_of(STEPS_PER_AUDIT) && self.drag == 0.0 {
             self.audit()?;
         }
         Ok(())
@@ -199,7 +194,6 @@ impl Simulation {
         let mut bodies =
             Bodies { grains: &mut self.grains, surfaces: &self.model.surfaces, barrier: self.model.barrier.as_ref() };
         self.neighbours.renew(&mut bodies);
-        self.loads.resize(self.grains.len(), GrainLoad::default());
     }
 
     /// Removes grains beyond the outlet and books the energy they carry.
@@ -216,23 +210,6 @@ impl Simulation {
             self.ledger.carried_out += kinetic - grain.body.mass * self.model.gravity.dot(&grain.position);
         }
         self.grains.arrange(&stay);
-    }
-
-    /// Forces of all contacts and elements, at the present places.
-    fn load(&mut self) {
-        let law = self.law();
-        let Self { model, grains, loads, neighbours, sums, .. } = self;
-        let forces = BlockForces { model, grains, law };
-        let rows = block_rows(&neighbours.blocks);
-        let mut net = None;
-        let elements = model.barrier.as_ref().map(|barrier| LoadPart::Elements(barrier, &mut net));
-        let blocks = neighbours.blocks.iter_mut().zip(loads.chunks_mut(rows));
-        let parts = elements.into_iter().chain(blocks.map(|(block, loads)| LoadPart::Block(block, loads)));
-        crew::for_each(parts, |_, part| match part {
-            LoadPart::Elements(barrier, net) => *net = Some(pull_all(barrier, law.time_step)),
-            LoadPart::Block(block, loads) => forces.load_block(block, loads),
-        });
-        sums.net = net.unwrap_or_default();
     }
 
     /// Adds up the blocks in their fixed order.
@@ -284,24 +261,18 @@ impl Simulation {
     /// Moves everything through the step.
     fn advance(&mut self) {
         let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
+        let law = self.law();
+        let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, &time);
+        self.sums.net = net;
+        self.gather_sums();
         let mut fastest_node = 0.0;
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_dissipators += self.sums.net.slip_dissipators(barrier);
             self.ledger.lost_friction += slide_all(barrier);
             fastest_node = move_nodes(&mut barrier.nodes, &self.sums.net.forces, &time.gravity, time.step).sqrt();
         }
-        let blocks = &self.neighbours.blocks;
-        let rows = self.grains.rows_by_block(&mut self.loads, &self.neighbours.drift, block_rows(blocks));
-        let paces: Vec<Pace> = crew::map(rows, |number, rows| {
-            take_post(blocks, number, rows.loads);
-            rows.advance(&time)
-        });
-        let stray = paces.iter().map(|pace| pace.stray).fold(0.0, f64::max);
-        let Neighbours { clocks, blocks, .. } = &mut self.neighbours;
-        clocks.tick(time.step, stray, fastest_node);
-        for (block, pace) in blocks.iter_mut().zip(&paces) {
-            clocks.tick_block(&mut block.clocks, time.step, pace.stray, stray, fastest_node);
-        }
+        self.neighbours.tick(&paces, time.step, fastest_node);
+        self.steps += 1;
         self.time += self.time_step;
     }
 
@@ -340,74 +311,5 @@ impl Simulation {
             }
         }
         Ok(())
-    }
-}
-
-/// Rows of the grain table in each block but the last.
-fn block_rows(blocks: &[Block]) -> usize {
-    blocks.first().map_or(1, |block| block.grains.len().max(1))
-}
-
-/// Adds what earlier blocks have posted for the grains of block `number`, in the order of the blocks.
-fn take_post(blocks: &[Block], number: usize, loads: &mut [GrainLoad]) {
-    let start = blocks[number].grains.start;
-    for sender in &blocks[..number] {
-        for (row, load) in sender.outbox.for_block(number) {
-            loads[*row as usize - start].join(load);
-        }
-    }
-}
-
-/// A part of the loading of a step.
-enum LoadPart<'a> {
-    Elements(&'a Barrier, &'a mut Option<NetForces>),
-    Block(&'a mut Block, &'a mut [GrainLoad]),
-}
-
-/// What every block reads while it is loaded.
-struct BlockForces<'a> {
-    model: &'a Model,
-    grains: &'a GrainTable,
-    law: LawConstants,
-}
-
-impl BlockForces<'_> {
-    fn load_block(&self, block: &mut Block, loads: &mut [GrainLoad]) {
-        let Self { model, grains, law } = *self;
-        let clocks = block.clocks;
-        let material = &model.material;
-        block.outbox.clear();
-        for rows in [&grains.place, &grains.motion, &grains.spin] {
-            prefetch(&rows[block.grains.clone()]);
-        }
-        prefetch(loads);
-        let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
-        let pairs = |clock| PairContext { grains, constants, clock };
-        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads);
-        let border = &mut block.border;
-        sums.add(&load_border(border, &pairs(clocks.border), &block.grains, loads, &mut block.outbox));
-        let surfaces = SurfaceContext {
-            grains,
-            surfaces: &model.surfaces,
-            law,
-            modulus: material.modulus,
-            grain_friction: material.friction,
-            clock: clocks.fixed,
-            wall_levels: &model.wall_levels,
-        };
-        block.surface_forces.reset(model.wall_levels.len());
-        sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.grains, loads, &mut block.surface_forces));
-        if let Some(barrier) = &model.barrier {
-            let context = RopeContext {
-                grains,
-                barrier,
-                law,
-                grain_modulus: material.modulus,
-                grain_friction: material.friction,
-                clock: clocks.fixed,
-            };
-            sums.add(&block.ropes.load(&context, &block.grains, loads));
-        }
-        block.sums = sums;
     }
 }

@@ -4,24 +4,21 @@
 //! across its border the load of the other grain goes to an outbox, which the other block empties in a fixed order. So no
 //! two blocks ever write the same row and the result does not depend on how many threads run.
 
-use std::cell::RefCell;
 use std::ops::Range;
 
-use crate::dem::contact::grain_batch::GrainBatch;
-use crate::dem::contact::lanes::{LANES, LaneSums};
-use crate::dem::contact::law::{LawConstants, Memory, add_scaled, dot};
-use crate::dem::contact::pair_list::{PairList, Separation};
+use crate::dem::contact::grain_touch::GrainTouch;
+use crate::dem::contact::lane_sums::LaneSums;
+use crate::dem::contact::law::{LawConstants, Response, respond};
+use crate::dem::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::dem::ledger::ContactSums;
-use crate::dem::neighbours::blocks::Outbox;
+use crate::dem::neighbours::blocks::{Letter, Outbox};
 use crate::dem::neighbours::clocks::Clock;
-use crate::dem::tables::grain_table::{GrainLoad, GrainTable, side};
+use crate::dem::simd::eight::{Eight, Row, each_lane};
+use crate::dem::simd::real::{add_scaled, dot, minus};
+use crate::dem::simd::widest::{Work, with_widest};
+use crate::dem::tables::grain_rows::GrainRows;
+use crate::dem::tables::grain_table::{GrainLoad, side};
 use crate::dem::tables::grains::GrainShape;
-
-thread_local! {
-    // Each thread's batches stay where its cache has them.
-    static SPHERES: RefCell<GrainBatch<false>> = RefCell::default();
-    static CLUMPS: RefCell<GrainBatch<true>> = RefCell::default();
-}
 
 /// What the grain contacts of a run have in common.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +31,7 @@ pub struct PairConstants {
 
 /// Everything that [`load_inner`] and [`load_border`] read besides the list itself.
 pub struct PairContext<'a> {
-    pub grains: &'a GrainTable,
+    pub grains: GrainRows<'a>,
     pub constants: PairConstants,
     /// Closing distance since the lists were made (m).
     pub clock: Clock,
@@ -47,9 +44,7 @@ pub fn load_inner(
     range: &Range<usize>,
     loads: &mut [GrainLoad],
 ) -> ContactSums {
-    let start = range.start;
-    let target = |row: usize, load: GrainLoad, loads: &mut [GrainLoad]| loads[row - start].join(&load);
-    load(list, context, start, loads, target)
+    load(list, context, loads, range.start, Here(range.start))
 }
 
 /// Loads the first grain of every touching pair across the block's border, and posts the load of the second.
@@ -60,124 +55,114 @@ pub fn load_border(
     loads: &mut [GrainLoad],
     outbox: &mut Outbox,
 ) -> ContactSums {
-    let target = |row: usize, load: GrainLoad, _: &mut [GrainLoad]| outbox.post(row, load);
-    load(list, context, range.start, loads, target)
+    load(list, context, loads, range.start, outbox)
 }
 
 fn load(
     list: &mut PairList,
     context: &PairContext,
-    start: usize,
     loads: &mut [GrainLoad],
-    second: impl FnMut(usize, GrainLoad, &mut [GrainLoad]),
+    start: usize,
+    target: impl Target,
 ) -> ContactSums {
     match context.grains.shape {
-        GrainShape::Sphere => SPHERES.with_borrow_mut(|batch| load_widest(list, context, batch, start, loads, second)),
-        GrainShape::Clump => CLUMPS.with_borrow_mut(|batch| load_widest(list, context, batch, start, loads, second)),
+        GrainShape::Sphere => with_widest(LoadPairs::<false, _> { list, context, loads, start, target }),
+        GrainShape::Clump => with_widest(LoadPairs::<true, _> { list, context, loads, start, target }),
     }
 }
 
-/// With the widest vectors this processor has.
-fn load_widest<const CLUMPS: bool>(
-    list: &mut PairList,
-    context: &PairContext,
-    batch: &mut GrainBatch<CLUMPS>,
-    start: usize,
-    loads: &mut [GrainLoad],
-    second: impl FnMut(usize, GrainLoad, &mut [GrainLoad]),
-) -> ContactSums {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512vl") {
-            // SAFETY: the processor was just asked for these features.
-            return unsafe { load_avx512(list, context, batch, start, loads, second) };
-        }
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: as above.
-            return unsafe { load_avx2(list, context, batch, start, loads, second) };
-        }
+/// Where the loads of the second grains go.
+trait Target {
+    fn take<R: Row>(&mut self, loads: &mut [GrainLoad], row: usize, force: R, torque: R);
+}
+
+/// To the same block, whose rows begin at the given one.
+struct Here(usize);
+
+impl Target for Here {
+    #[inline(always)]
+    fn take<R: Row>(&mut self, loads: &mut [GrainLoad], row: usize, force: R, torque: R) {
+        add(&mut loads[row - self.0], force, torque);
     }
-    load_batches(list, context, batch, start, loads, second)
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl")]
-fn load_avx512<const CLUMPS: bool>(
-    list: &mut PairList,
-    context: &PairContext,
-    batch: &mut GrainBatch<CLUMPS>,
-    start: usize,
-    loads: &mut [GrainLoad],
-    second: impl FnMut(usize, GrainLoad, &mut [GrainLoad]),
-) -> ContactSums {
-    load_batches(list, context, batch, start, loads, second)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn load_avx2<const CLUMPS: bool>(
-    list: &mut PairList,
-    context: &PairContext,
-    batch: &mut GrainBatch<CLUMPS>,
-    start: usize,
-    loads: &mut [GrainLoad],
-    second: impl FnMut(usize, GrainLoad, &mut [GrainLoad]),
-) -> ContactSums {
-    load_batches(list, context, batch, start, loads, second)
+impl Target for &mut Outbox {
+    #[inline(always)]
+    fn take<R: Row>(&mut self, _: &mut [GrainLoad], row: usize, force: R, torque: R) {
+        let mut letter = Letter { row: row as u32, ..Letter::default() };
+        force.store(&mut letter.force);
+        torque.store(&mut letter.torque);
+        self.post(letter);
+    }
 }
 
 #[inline(always)]
-fn load_batches<const CLUMPS: bool>(
-    list: &mut PairList,
-    context: &PairContext,
-    batch: &mut GrainBatch<CLUMPS>,
+fn add<R: Row>(load: &mut GrainLoad, force: R, torque: R) {
+    (R::load(&load.force) + force).store(&mut load.force);
+    (R::load(&load.torque) + torque).store(&mut load.torque);
+}
+
+/// The pairs of one list, to be loaded.
+struct LoadPairs<'a, 'b, const CLUMPS: bool, T> {
+    list: &'a mut PairList,
+    context: &'a PairContext<'b>,
+    loads: &'a mut [GrainLoad],
     start: usize,
-    loads: &mut [GrainLoad],
-    mut second: impl FnMut(usize, GrainLoad, &mut [GrainLoad]),
-) -> ContactSums {
-    let row = |member: u32| if CLUMPS { member as usize / 2 } else { member as usize };
-    list.sort_near(&context.clock, &Spheres::<CLUMPS>(context.grains));
-    let mut sums = LaneSums::default();
-    let PairList { touching, memory, ended, .. } = list;
-    let batches = touching.chunks(LANES).zip(memory.chunks_mut(LANES)).enumerate();
-    for (number, (pairs, memory)) in batches {
-        for (lane, (pair, memory)) in pairs.iter().zip(&*memory).enumerate() {
-            batch.gather(lane, context.grains, *pair);
-            batch.old.rows[lane] = memory.quad();
+    target: T,
+}
+
+impl<const CLUMPS: bool, T: Target> Work for LoadPairs<'_, '_, CLUMPS, T> {
+    type Output = ContactSums;
+
+    #[inline(always)]
+    fn run<E: Eight>(mut self) -> ContactSums {
+        let context = self.context;
+        self.list.sort_near(&context.clock, &Spheres::<CLUMPS>(context.grains));
+        let mut sums = LaneSums::<E>::default();
+        let mut last = None;
+        while let Some(eight) = self.list.eight_after(last) {
+            let touch = GrainTouch::<E, CLUMPS>::of(context.grains, &eight, &context.constants);
+            let response = respond(&touch.point, &self.list.memory_of(&eight), &context.constants.law);
+            sums.count(&response, touch.point.overlap * touch.inverse_radius);
+            self.scatter(&eight, &touch, &response);
+            self.list.remember(&eight, &response.memory, touch.point.overlap);
+            last = Some(eight);
         }
-        for lane in pairs.len()..LANES {
-            batch.clear(lane);
-        }
-        batch.evaluate(&context.constants, &mut sums);
-        for (lane, ([a, b], memory)) in pairs.iter().zip(memory).enumerate() {
-            let [on_first, on_second] = batch.loads(lane);
-            *memory = Memory::from_quad(batch.new.rows[lane]);
-            loads[row(*a) - start].join(&on_first);
-            second(row(*b), on_second, loads);
-            if batch.overlap[lane] <= 0.0 {
-                ended.push((number * LANES + lane) as u32);
-            }
-        }
+        self.list.end_contacts();
+        sums.total()
     }
-    list.end_contacts();
-    sums.total()
+}
+
+impl<const CLUMPS: bool, T: Target> LoadPairs<'_, '_, CLUMPS, T> {
+    #[inline(always)]
+    fn scatter<E: Eight>(&mut self, eight: &EightPairs, touch: &GrainTouch<E, CLUMPS>, response: &Response<E>) {
+        let (force, [torque1, torque2]) = touch.loads(response);
+        let back = E::Row::all(-1.0);
+        each_lane!(|lane| {
+            if lane < eight.count {
+                let [a, b] = eight.pairs[lane].map(|member| if CLUMPS { member as usize / 2 } else { member as usize });
+                add(&mut self.loads[a - self.start], force[lane], torque1[lane]);
+                self.target.take(self.loads, b, force[lane] * back, torque2[lane]);
+            }
+        });
+    }
 }
 
 /// The member spheres of a table of spheres (`CLUMPS` false) or of clumps.
-struct Spheres<'a, const CLUMPS: bool>(&'a GrainTable);
+struct Spheres<'a, const CLUMPS: bool>(GrainRows<'a>);
 
 impl<const CLUMPS: bool> Separation for Spheres<'_, CLUMPS> {
     #[inline(always)]
     fn of(&self, [first, second]: [u32; 2]) -> (f64, f64) {
         let (a, r1) = centre::<CLUMPS>(self.0, first);
         let (b, r2) = centre::<CLUMPS>(self.0, second);
-        let between = add_scaled(b, -1.0, a);
+        let between = minus(b, a);
         (dot(between, between), r1 + r2)
     }
 }
 
 /// The member spheres of any table.
-pub struct Members<'a>(pub &'a GrainTable);
+pub struct Members<'a>(pub GrainRows<'a>);
 
 impl Separation for Members<'_> {
     fn of(&self, pair: [u32; 2]) -> (f64, f64) {
@@ -190,14 +175,14 @@ impl Separation for Members<'_> {
 
 /// Centre and radius of a member sphere.
 #[inline(always)]
-fn centre<const CLUMPS: bool>(grains: &GrainTable, member: u32) -> ([f64; 3], f64) {
+fn centre<const CLUMPS: bool>(grains: GrainRows, member: u32) -> ([f64; 3], f64) {
     let row = if CLUMPS { member as usize / 2 } else { member as usize };
-    let place = &grains.place[row].0;
+    let place = grains.place(row).0;
     let centre = [place[0], place[1], place[2]];
     if !CLUMPS {
         return (centre, place[3]);
     }
-    let axis = &grains.axis[row].0;
-    let length = side(member) * grains.spin[row].0[3];
+    let axis = grains.axis(row).0;
+    let length = side(member) * grains.spin(row).0[3];
     (add_scaled(centre, length, [axis[0], axis[1], axis[2]]), place[3])
 }

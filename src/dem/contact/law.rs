@@ -5,69 +5,70 @@
 //!
 //! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step.
 //! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
-//! Written without branches so that a loop over contacts becomes vector instructions.
+//! Written for any [`Real`]: for one contact, or for eight side by side in vector registers.
 
 use crate::dem::contact::restitution::{StepCorrection, damping_ratio_for};
+use crate::dem::simd::eight::{joined, parted};
+use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, scaled};
 use crate::dem::tables::grain_table::Quad;
 
 /// Where and how two bodies touch: what geometry hands to the law. The second body is "the other one".
 #[derive(Clone, Copy, Debug)]
-pub struct ContactPoint {
+pub struct ContactPoint<R = f64> {
     /// Unit normal from the first body to the other.
-    pub normal: [f64; 3],
+    pub normal: Triple<R>,
     /// Overlap u (m); without contact it is negative or zero, and the law answers with nothing.
-    pub overlap: f64,
+    pub overlap: R,
     /// Velocity of the other body's surface relative to the first's, at the contact (m/s).
-    pub velocity: [f64; 3],
+    pub velocity: Triple<R>,
     /// Mean spin of the two bodies about the normal (rad/s); it turns the stored friction force.
-    pub twist: f64,
-    pub spring: Spring,
+    pub twist: R,
+    pub spring: Spring<R>,
     /// Friction coefficient μ, the smaller of the pair.
-    pub friction: f64,
+    pub friction: R,
 }
 
 /// The normal spring of a contact, with what would otherwise cost divisions again and again.
 #[derive(Clone, Copy, Debug)]
-pub struct Spring {
+pub struct Spring<R = f64> {
     /// k (N/m).
-    pub stiffness: f64,
+    pub stiffness: R,
     /// 1/k (m/N).
-    pub compliance: f64,
+    pub compliance: R,
     /// ω0 = √(k/m_r) (1/s).
-    pub frequency: f64,
+    pub frequency: R,
     /// √(k m_r) (N s/m).
-    pub impedance: f64,
+    pub impedance: R,
 }
 
-impl Spring {
+impl<R: Real> Spring<R> {
     /// A spring of stiffness k (N/m) between bodies with 1/m_1 + 1/m_2 = `inverse_mass` (1/kg).
-    pub fn new(stiffness: f64, inverse_mass: f64) -> Self {
-        let frequency = (stiffness * inverse_mass).sqrt();
-        Self { stiffness, compliance: 1.0 / stiffness, frequency, impedance: frequency / inverse_mass }
+    #[inline(always)]
+    pub fn new(stiffness: R, inverse_mass: R) -> Self {
+        let frequency = (stiffness * inverse_mass).root();
+        Self { stiffness, compliance: R::all(1.0) / stiffness, frequency, impedance: frequency / inverse_mass }
     }
 }
 
 /// What a contact remembers from step to step; all zero without contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[repr(C, align(32))]
-pub struct Memory {
+pub struct Memory<R = f64> {
     /// Tangential force on the first body (N).
-    pub tangential: [f64; 3],
+    pub tangential: Triple<R>,
     /// Dashpot part of the last normal force (N), for the energy account.
-    pub dashpot: f64,
+    pub dashpot: R,
 }
 
 impl Memory {
     #[inline(always)]
     pub fn quad(&self) -> Quad {
-        let [x, y, z] = self.tangential;
-        Quad([x, y, z, self.dashpot])
+        Quad(joined(self.tangential, self.dashpot))
     }
 
     #[inline(always)]
     pub fn from_quad(quad: Quad) -> Self {
-        let [x, y, z, dashpot] = quad.0;
-        Self { tangential: [x, y, z], dashpot }
+        let (tangential, dashpot) = parted(quad.0);
+        Self { tangential, dashpot }
     }
 }
 
@@ -99,89 +100,65 @@ impl LawConstants {
 
     /// γ of a contact (N s/m).
     #[inline(always)]
-    pub fn damping(&self, spring: &Spring) -> f64 {
+    pub fn damping<R: Real>(&self, spring: &Spring<R>) -> R {
         let x = spring.frequency * self.time_step;
-        let corrected = self.damping_ratio * (1.0 + x * (self.correction.linear + x * self.correction.quadratic));
-        2.0 * corrected * spring.impedance
+        let corrected = (x * (x * self.correction.quadratic + self.correction.linear) + 1.0) * self.damping_ratio;
+        corrected * 2.0 * spring.impedance
     }
 }
 
 /// The law's answer.
 #[derive(Clone, Copy, Debug)]
-pub struct Response {
+pub struct Response<R = f64> {
     /// Force on the first body (N); the other gets the opposite.
-    pub force: [f64; 3],
+    pub force: Triple<R>,
     /// Magnitude of the normal force (N).
-    pub normal_force: f64,
-    pub memory: Memory,
+    pub normal_force: R,
+    pub memory: Memory<R>,
     /// Elastic energy stored now (J).
-    pub stored: f64,
+    pub stored: R,
     /// Energy lost in the dashpot in this step (J).
-    pub lost_damping: f64,
+    pub lost_damping: R,
     /// Energy lost by slip in this step (J).
-    pub lost_friction: f64,
+    pub lost_friction: R,
 }
 
-#[inline(always)]
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-pub fn add_scaled(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
-    [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
-}
-
-#[inline(always)]
-pub fn scaled(a: [f64; 3], factor: f64) -> [f64; 3] {
-    [a[0] * factor, a[1] * factor, a[2] * factor]
-}
-
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// Force of one contact for one step.
+/// Force of one contact for one step, or of several side by side.
 ///
 /// Energy is accounted by the trapezoidal rule over the step just made, which equals the discrete work of
 /// the leapfrog integrator: dashpot ½(D_old + D_new) u̇ Δt, slip = work done minus change of stored energy. What a
 /// friction spring still holds when its contact parts counts as lost by slip.
 #[inline(always)]
-pub fn respond(point: &ContactPoint, memory: &Memory, constants: &LawConstants) -> Response {
+pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: &LawConstants) -> Response<R> {
     let n = point.normal;
     let step = constants.time_step;
-    let on = if point.overlap > 0.0 { 1.0 } else { 0.0 };
-    let stiffness = on * point.spring.stiffness;
+    let zero = R::all(0.0);
+    let stiffness = point.overlap.if_above(zero, point.spring.stiffness, zero);
     let separation_rate = dot(point.velocity, n);
     let spring = stiffness * point.overlap;
-    let damping = on * constants.damping(&point.spring);
-    let normal_force = larger(0.0, spring - damping * separation_rate);
+    let damping = point.overlap.if_above(zero, constants.damping(&point.spring), zero);
+    let normal_force = zero.or_larger(spring - damping * separation_rate);
     let dashpot = normal_force - spring;
-    let lost_damping = -0.5 * (memory.dashpot + dashpot) * separation_rate * step;
+    let lost_damping = (memory.dashpot + dashpot) * separation_rate * (-0.5 * step);
 
     let old = carried(memory.tangential, n, point.twist * step);
     let slip = add_scaled(point.velocity, -separation_rate, n);
-    let trial = add_scaled(old, constants.tangential_ratio * stiffness * step, slip);
+    let trial = add_scaled(old, stiffness * (constants.tangential_ratio * step), slip);
     let trial_squared = dot(trial, trial);
     let limit = point.friction * normal_force;
-    let scale = if trial_squared > limit * limit { limit / trial_squared.sqrt() } else { 1.0 };
-    let tangential = [trial[0] * scale, trial[1] * scale, trial[2] * scale];
+    let cap = limit / trial_squared.root();
+    let scale = trial_squared.if_above(limit * limit, cap, R::all(1.0));
+    let tangential = scaled(trial, scale);
 
     let now_squared = trial_squared * scale * scale;
-    let work = 0.5 * step * (dot(old, slip) + dot(tangential, slip));
-    let half_compliance = constants.half_tangential_compliance * point.spring.compliance;
+    let work = (dot(old, slip) + dot(tangential, slip)) * (0.5 * step);
+    let half_compliance = point.spring.compliance * constants.half_tangential_compliance;
     let change = (now_squared - dot(old, old)) * half_compliance;
     Response {
         force: add_scaled(tangential, -normal_force, n),
         normal_force,
         memory: Memory { tangential, dashpot },
-        stored: 0.5 * spring * point.overlap + now_squared * half_compliance,
+        stored: spring * point.overlap * 0.5 + now_squared * half_compliance,
         lost_damping,
         lost_friction: work - change,
     }
@@ -191,11 +168,10 @@ pub fn respond(point: &ContactPoint, memory: &Memory, constants: &LawConstants) 
 /// laid into the tangent plane, its magnitude kept. The frame turns little in a step, so two terms of the series of
 /// 1/√(1 − x) restore the magnitude, x being the share of the square that the new plane has cut off.
 #[inline(always)]
-fn carried(force: [f64; 3], n: [f64; 3], angle: f64) -> [f64; 3] {
+fn carried<R: Real>(force: Triple<R>, n: Triple<R>, angle: R) -> Triple<R> {
     let turned = add_scaled(force, angle, cross(n, force));
     let flat = add_scaled(turned, -dot(turned, n), n);
     let before = dot(force, force);
-    let cut = (before - dot(flat, flat)) / larger(before, f64::MIN_POSITIVE);
-    let scale = 1.0 + cut * (0.5 + 0.375 * cut);
-    [flat[0] * scale, flat[1] * scale, flat[2] * scale]
+    let cut = (before - dot(flat, flat)) / before.or_larger(R::all(f64::MIN_POSITIVE));
+    scaled(flat, cut * (cut * 0.375 + 0.5) + 1.0)
 }

@@ -3,9 +3,9 @@
 //! Geometry makes a [`law::ContactPoint`], the law answers with force and energies; grains, surfaces and ropes
 //! share the one law.
 
-pub mod grain_batch;
 pub mod grain_pairs;
-pub mod lanes;
+pub mod grain_touch;
+pub mod lane_sums;
 pub mod law;
 pub mod pair_list;
 pub mod restitution;

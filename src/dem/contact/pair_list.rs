@@ -5,6 +5,8 @@ use crate::dem::contact::law::Memory;
 use crate::dem::neighbours::alarms::Alarms;
 use crate::dem::neighbours::clocks::Clock;
 use crate::dem::neighbours::memory_rows::{MemoryRows, Remembered};
+use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::dem::tables::grain_table::Quad;
 
 /// Pairs (member, other party); the other party is a member, a surface or a rope segment.
 #[derive(Clone, Debug, Default)]
@@ -12,12 +14,22 @@ pub struct PairList {
     /// Pairs in contact.
     pub touching: Vec<[u32; 2]>,
     /// Memory of each pair in contact.
-    pub memory: Vec<Memory>,
+    pub memory: Vec<Quad>,
     /// Scratch: places in `touching` of the pairs whose contact has ended in the step at hand, in rising order.
     pub ended: Vec<u32>,
     /// Pairs that could touch in any step.
     near: Vec<[u32; 2]>,
     alarms: Alarms,
+}
+
+/// Eight pairs in contact, to be handled side by side. Where there are fewer, the other lanes repeat the first pair.
+#[derive(Clone, Copy)]
+pub struct EightPairs {
+    pub pairs: [[u32; 2]; LANES],
+    /// Lanes in use.
+    pub count: usize,
+    /// Place of the first in the list.
+    first: usize,
 }
 
 /// How far apart the two parties of a pair are.
@@ -57,7 +69,7 @@ impl PairList {
     /// Puts the pairs in contact in order and gives them back their memory.
     pub fn settle(&mut self, memories: &MemoryRows) {
         self.touching.sort_unstable();
-        self.memory.extend(self.touching.iter().map(|&pair| memories.recall(pair)));
+        self.memory.extend(self.touching.iter().map(|&pair| memories.recall(pair).quad()));
     }
 
     /// Wakes the pairs that could soon touch, finds among the near ones those that touch now, and lets those sleep that
@@ -84,8 +96,49 @@ impl PairList {
                 self.alarms.set(pair, clock, square.sqrt() - reach);
             } else {
                 self.touching.push(pair);
-                self.memory.push(Memory::default());
+                self.memory.push(Quad::default());
             }
+        }
+    }
+
+    /// The eight pairs in contact after `last`, or what is left of them.
+    #[inline(always)]
+    pub fn eight_after(&self, last: Option<EightPairs>) -> Option<EightPairs> {
+        let first = last.map_or(0, |last| last.first + last.count);
+        let pairs = &self.touching[first..];
+        if let Some(pairs) = pairs.first_chunk() {
+            return Some(EightPairs { pairs: *pairs, count: LANES, first });
+        }
+        let (&spare, count) = (pairs.first()?, pairs.len());
+        let mut filled = [spare; LANES];
+        filled[..count].copy_from_slice(pairs);
+        Some(EightPairs { pairs: filled, count, first })
+    }
+
+    /// What eight pairs remember; nothing in lanes that are not in use.
+    #[inline(always)]
+    pub fn memory_of<E: Eight>(&self, eight: &EightPairs) -> Memory<E> {
+        let rows = &self.memory[eight.first..eight.first + eight.count];
+        let rows = each_lane!(|lane| rows.get(lane).map_or(E::Row::all(0.0), E::Row::load));
+        let (tangential, dashpot) = parted(E::columns(rows));
+        Memory { tangential, dashpot }
+    }
+
+    /// Stores what eight pairs remember now, and notes those whose contact has ended.
+    #[inline(always)]
+    pub fn remember<E: Eight>(&mut self, eight: &EightPairs, memory: &Memory<E>, overlap: E) {
+        let &EightPairs { first, count, .. } = eight;
+        let rows = E::rows(joined(memory.tangential, memory.dashpot));
+        let places = &mut self.memory[first..first + count];
+        each_lane!(|lane| {
+            if lane < count {
+                rows[lane].store(&mut places[lane]);
+            }
+        });
+        let mut open = !overlap.above_zero() & (0xff >> (LANES - count));
+        while open != 0 {
+            self.ended.push((first as u32) + open.trailing_zeros());
+            open &= open - 1;
         }
     }
 
@@ -110,7 +163,11 @@ impl PairList {
         rename: impl Fn(u32) -> u32 + 'a,
     ) -> impl Iterator<Item = Remembered> + 'a {
         self.touching.iter().zip(&self.memory).filter_map(move |(&[member, other], &memory)| {
-            let contact = Remembered { member: new_rows[member as usize], other: rename(other), memory };
+            let contact = Remembered {
+                member: new_rows[member as usize],
+                other: rename(other),
+                memory: Memory::from_quad(memory),
+            };
             (contact.member != u32::MAX && contact.other != u32::MAX).then_some(contact)
         })
     }

@@ -13,7 +13,8 @@ use crate::dem::geometry::point_segment::nearest_on_segment;
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::barrier::{Barrier, Node};
-use crate::dem::tables::grain_table::{GrainLoad, GrainTable, Member};
+use crate::dem::tables::grain_rows::{GrainRows, Member};
+use crate::dem::tables::grain_table::{GrainLoad, Quad};
 
 /// Candidate pairs (member, segment) of one block, and the forces they put on nodes in this step.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +33,7 @@ pub struct Push {
 }
 
 pub struct RopeContext<'a> {
-    pub grains: &'a GrainTable,
+    pub grains: GrainRows<'a>,
     pub barrier: &'a Barrier,
     pub law: LawConstants,
     pub grain_modulus: f64,
@@ -69,11 +70,11 @@ impl RopeContacts {
                 continue;
             }
             let Some(contact) = touch(&member, segment, context) else {
-                *memory = Memory::default();
+                *memory = Quad::default();
                 continue;
             };
-            let response = respond(&contact.point, memory, &context.law);
-            *memory = response.memory;
+            let response = respond(&contact.point, &Memory::from_quad(*memory), &context.law);
+            *memory = response.memory.quad();
             let force = Vec3::from(response.force);
             let row = index as usize / per_grain - range.start;
             loads[row].add(&force, &(contact.foot - member.centre + member.arm));
@@ -88,7 +89,7 @@ impl RopeContacts {
 
 /// Member spheres and rope segments, taken as thick as the thicker of their ends: never closer than they are.
 pub struct OnRopes<'a> {
-    pub grains: &'a GrainTable,
+    pub grains: GrainRows<'a>,
     pub barrier: &'a Barrier,
 }
 

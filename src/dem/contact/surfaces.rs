@@ -1,20 +1,23 @@
 //! Contacts of grains with fixed surfaces.
 
-use std::cell::RefCell;
 use std::ops::Range;
 
 use crate::dem::Vec3;
-use crate::dem::contact::lanes::{LANES, Lane, LaneSums, Quads};
-use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Spring, add_scaled, cross, dot, respond, scaled};
-use crate::dem::contact::pair_list::{PairList, Separation};
+use crate::dem::contact::lane_sums::LaneSums;
+use crate::dem::contact::law::{ContactPoint, LawConstants, Response, Spring, respond};
+use crate::dem::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::clocks::Clock;
-use crate::dem::tables::grain_table::{GrainLoad, GrainTable, Quad};
+use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::dem::simd::real::{Triple, cross, dot, negative, plus, scaled};
+use crate::dem::simd::widest::{Work, with_widest};
+use crate::dem::tables::grain_rows::GrainRows;
+use crate::dem::tables::grain_table::{GrainLoad, Quad};
 use crate::dem::tables::surfaces::{Surface, SurfaceRole};
 
 /// What surface contacts read.
 pub struct SurfaceContext<'a> {
-    pub grains: &'a GrainTable,
+    pub grains: GrainRows<'a>,
     pub surfaces: &'a [Surface],
     pub law: LawConstants,
     pub modulus: f64,
@@ -84,152 +87,113 @@ pub fn load_surfaces(
     loads: &mut [GrainLoad],
     forces: &mut SurfaceForces,
 ) -> ContactSums {
-    let (grains, surfaces) = (context.grains, context.surfaces);
-    list.sort_near(&context.clock, &OnSurfaces { grains, surfaces });
-    let per_grain = grains.shape.members();
-    let mut sums = LaneSums::default();
-    let PairList { touching, memory, ended, .. } = list;
-    BATCH.with_borrow_mut(|batch| {
-        for (number, (pairs, memory)) in touching.chunks(LANES).zip(memory.chunks_mut(LANES)).enumerate() {
-            for (lane, (pair, memory)) in pairs.iter().zip(&*memory).enumerate() {
-                batch.gather(lane, context, *pair, memory);
-            }
-            for lane in pairs.len()..LANES {
-                batch.clear(lane);
-            }
-            batch.evaluate(context, &mut sums);
-            for (lane, ([index, surface], memory)) in pairs.iter().zip(memory).enumerate() {
-                *memory = Memory::from_quad(batch.new.rows[lane]);
-                let force = batch.force.rows[lane];
-                let load = GrainLoad {
-                    force: Quad([force.0[0], force.0[1], force.0[2], 0.0]),
-                    torque: batch.torque.rows[lane],
-                };
-                loads[*index as usize / per_grain - range.start].join(&load);
-                let surface = &surfaces[*surface as usize];
-                let height = batch.height[lane];
-                forces.record(surface.role, -force.vector(), force.fourth(), height, context.wall_levels);
-                if batch.overlap[lane] <= 0.0 {
-                    ended.push((number * LANES + lane) as u32);
-                }
-            }
-        }
-    });
-    list.end_contacts();
-    sums.total()
+    with_widest(LoadSurfaces { list, context, start: range.start, loads, forces })
 }
 
-thread_local! {
-    static BATCH: RefCell<SurfaceBatch> = RefCell::default();
+/// The surface contacts of one block, to be loaded.
+struct LoadSurfaces<'a, 'b> {
+    list: &'a mut PairList,
+    context: &'a SurfaceContext<'b>,
+    start: usize,
+    loads: &'a mut [GrainLoad],
+    forces: &'a mut SurfaceForces,
+}
+
+impl Work for LoadSurfaces<'_, '_> {
+    type Output = ContactSums;
+
+    #[inline(always)]
+    fn run<E: Eight>(mut self) -> ContactSums {
+        let context = self.context;
+        self.list.sort_near(&context.clock, &OnSurfaces { grains: context.grains, surfaces: context.surfaces });
+        let mut sums = LaneSums::<E>::default();
+        let mut last = None;
+        while let Some(eight) = self.list.eight_after(last) {
+            let touch = SurfaceTouch::<E>::of(context, &eight);
+            let response = respond(&touch.point, &self.list.memory_of(&eight), &context.law);
+            sums.count(&response, touch.point.overlap / touch.radius);
+            self.scatter(&eight, &touch, &response);
+            self.list.remember(&eight, &response.memory, touch.point.overlap);
+            last = Some(eight);
+        }
+        self.list.end_contacts();
+        sums.total()
+    }
+}
+
+impl LoadSurfaces<'_, '_> {
+    #[inline(always)]
+    fn scatter<E: Eight>(&mut self, eight: &EightPairs, touch: &SurfaceTouch<E>, response: &Response<E>) {
+        let zero = E::all(0.0);
+        let members = self.context.grains.shape.members();
+        let forces = E::rows(joined(response.force, zero));
+        let torques = E::rows(joined(cross(touch.lever, response.force), zero));
+        let normal_forces = response.normal_force.lanes();
+        for (lane, [member, surface]) in eight.pairs[..eight.count].iter().enumerate() {
+            let mut load = GrainLoad::default();
+            forces[lane].store(&mut load.force);
+            torques[lane].store(&mut load.torque);
+            self.loads[*member as usize / members - self.start].join(&load);
+            let (role, height) = (self.context.surfaces[*surface as usize].role, touch.height[lane]);
+            let levels = self.context.wall_levels;
+            self.forces.record(role, -load.force.vector(), normal_forces[lane], height, levels);
+        }
+    }
 }
 
 /// Spheres on surfaces, side by side. A surface takes part as an equal sphere of infinite mass, so k = E r and the
 /// restitution is the nominal one.
-#[derive(Default)]
-struct SurfaceBatch {
-    /// From the sphere's centre to the nearest point of the surface (m); r (m).
-    towards: Quads,
-    /// Velocity of the grain's centre of mass (m/s); its 1/m (1/kg).
-    motion: Quads,
-    spin: Quads,
-    /// From the grain's centre of mass to the nearest point (m); μ.
-    arm: Quads,
-    old: Quads,
-    new: Quads,
-    /// Force on the grain (N); the normal force (N).
-    force: Quads,
-    torque: Quads,
-    overlap: Lane,
+struct SurfaceTouch<E> {
+    point: ContactPoint<E>,
+    /// m
+    radius: E,
+    /// From the grain's centre of mass to the nearest point (m).
+    lever: Triple<E>,
     /// Height of the nearest point over the surface's origin, along its first direction (m).
-    height: Lane,
+    height: [f64; LANES],
 }
 
-impl SurfaceBatch {
-    /// Fills a lane with a unit sphere that does not touch.
-    fn clear(&mut self, lane: usize) {
-        self.towards.rows[lane] = Quad([3.0, 0.0, 0.0, 1.0]);
-        self.motion.rows[lane] = Quad([0.0, 0.0, 0.0, 1.0]);
-        self.old.rows[lane] = Quad::default();
-    }
-
+impl<E: Eight> SurfaceTouch<E> {
+    /// Lanes not in use do not touch.
     #[inline(always)]
-    fn gather(&mut self, lane: usize, context: &SurfaceContext, [index, surface]: [u32; 2], memory: &Memory) {
+    fn of(context: &SurfaceContext, eight: &EightPairs) -> Self {
         let grains = context.grains;
-        let row = index as usize / grains.shape.members();
-        let surface = &context.surfaces[surface as usize];
-        let (centre, radius) = grains.sphere(index as usize);
-        let foot = surface.nearest(&centre);
-        let friction = surface.friction.min(context.grain_friction);
-        self.towards.rows[lane] = Quad::new(&(foot - centre), radius);
-        self.motion.rows[lane] = grains.motion[row];
-        self.spin.rows[lane] = grains.spin[row];
-        self.arm.rows[lane] = Quad::new(&(foot - grains.place[row].vector()), friction);
-        self.old.rows[lane] = memory.quad();
-        self.height[lane] = surface.spans[0].direction.dot(&(foot - surface.origin));
-    }
-
-    /// With the widest vectors this processor has.
-    fn evaluate(&mut self, context: &SurfaceContext, sums: &mut LaneSums) {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512vl") {
-                // SAFETY: the processor was just asked for these features.
-                return unsafe { self.evaluate_avx512(context, sums) };
-            }
-            if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: as above.
-                return unsafe { self.evaluate_avx2(context, sums) };
-            }
+        let members = grains.shape.members();
+        let (mut towards, mut lever, mut height) = ([Quad::default(); LANES], [Quad::default(); LANES], [0.0; LANES]);
+        for (lane, [member, surface]) in eight.pairs.iter().enumerate() {
+            let surface = &context.surfaces[*surface as usize];
+            let (centre, radius) = grains.sphere(*member as usize);
+            let foot = surface.nearest(&centre);
+            towards[lane] = Quad::new(&(foot - centre), radius);
+            let from_grain = foot - grains.place(*member as usize / members).vector();
+            lever[lane] = Quad::new(&from_grain, surface.friction.min(context.grain_friction));
+            height[lane] = surface.spans[0].direction.dot(&(foot - surface.origin));
         }
-        self.evaluate_lanes(context, sums);
-    }
+        let row = |lane: usize| eight.pairs[lane][0] as usize / members;
+        let (towards, radius) = parted(E::columns(each_lane!(|lane| E::Row::load(&towards[lane]))));
+        let (lever, friction) = parted(E::columns(each_lane!(|lane| E::Row::load(&lever[lane]))));
+        let (motion, inverse_mass) = parted(E::columns(each_lane!(|lane| E::Row::load(&grains.motion(row(lane))))));
+        let (spin, _) = parted(E::columns(each_lane!(|lane| E::Row::load(&grains.spin(row(lane))))));
 
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl")]
-    fn evaluate_avx512(&mut self, context: &SurfaceContext, sums: &mut LaneSums) {
-        self.evaluate_lanes(context, sums);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn evaluate_avx2(&mut self, context: &SurfaceContext, sums: &mut LaneSums) {
-        self.evaluate_lanes(context, sums);
-    }
-
-    #[inline(always)]
-    fn evaluate_lanes(&mut self, context: &SurfaceContext, sums: &mut LaneSums) {
-        let Self { towards, motion, spin, arm, old, new, force, torque, .. } = self;
-        [&mut *towards, &mut *motion, &mut *spin, &mut *arm, &mut *old].into_iter().for_each(Quads::turn_to_columns);
-        for lane in 0..LANES {
-            let way = towards.vector(lane);
-            let (radius, inverse_mass) = (towards.fourth(lane), motion.fourth(lane));
-            // A centre exactly on the surface has no normal; any will do, and the overlap limit will speak.
-            let distance = dot(way, way).sqrt() + f64::MIN_POSITIVE;
-            let normal = scaled(way, 1.0 / distance);
-            let (turning, lever) = (spin.vector(lane), arm.vector(lane));
-            let at_foot = add_scaled(motion.vector(lane), 1.0, cross(turning, lever));
-            let point = ContactPoint {
-                normal,
-                overlap: radius - distance,
-                velocity: scaled(at_foot, -1.0),
-                twist: 0.5 * dot(turning, normal),
-                spring: Spring::new(context.modulus * radius, inverse_mass),
-                friction: arm.fourth(lane),
-            };
-            let response = respond(&point, &old.memory(lane), &context.law);
-            force.put(lane, response.force, response.normal_force);
-            torque.put(lane, cross(lever, response.force), 0.0);
-            new.put(lane, response.memory.tangential, response.memory.dashpot);
-            self.overlap[lane] = point.overlap;
-            sums.count(lane, &response, point.overlap / radius);
-        }
-        [force, torque, new].into_iter().for_each(Quads::turn_to_rows);
+        // A centre exactly on the surface has no normal; any will do, and the overlap limit will speak.
+        let distance = dot(towards, towards).root() + f64::MIN_POSITIVE;
+        let normal = scaled(towards, E::all(1.0) / distance);
+        let numbers = E::from_lanes(each_lane!(|lane| lane as f64));
+        let point = ContactPoint {
+            normal,
+            overlap: E::all(eight.count as f64).if_above(numbers, radius - distance, -radius),
+            velocity: negative(plus(motion, cross(spin, lever))),
+            twist: dot(spin, normal) * 0.5,
+            spring: Spring::new(radius * context.modulus, inverse_mass),
+            friction,
+        };
+        Self { point, radius, lever, height }
     }
 }
 
 /// Member spheres and surfaces.
 pub struct OnSurfaces<'a> {
-    pub grains: &'a GrainTable,
+    pub grains: GrainRows<'a>,
     pub surfaces: &'a [Surface],
 }
 

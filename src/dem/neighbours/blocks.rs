@@ -4,13 +4,14 @@
 //! what makes a run repeat bit for bit.
 
 use std::ops::Range;
+use std::sync::RwLock;
 
 use crate::dem::contact::pair_list::PairList;
 use crate::dem::contact::ropes::RopeContacts;
 use crate::dem::contact::surfaces::SurfaceForces;
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::clocks::BlockClocks;
-use crate::dem::tables::grain_table::GrainLoad;
+use crate::dem::tables::grain_table::Quad;
 
 /// Grains below which one block is enough: parallel work would cost more than it saves.
 const GRAINS_FOR_TWO_BLOCKS: usize = 600;
@@ -29,19 +30,28 @@ pub struct Block {
     pub border: PairList,
     pub surfaces: PairList,
     pub ropes: RopeContacts,
-    /// Loads for grains of other blocks.
-    pub outbox: Outbox,
     pub clocks: BlockClocks,
     pub sums: ContactSums,
     /// Forces on the surfaces in the step just made.
     pub surface_forces: SurfaceForces,
 }
 
+/// A load for a grain of another block.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Letter {
+    /// Row of the grain.
+    pub row: u32,
+    /// N
+    pub force: Quad,
+    /// N m
+    pub torque: Quad,
+}
+
 /// Loads that one block has for grains of others, by block.
 #[derive(Debug, Default)]
 pub struct Outbox {
     block_size: usize,
-    post: Vec<Vec<(u32, GrainLoad)>>,
+    post: Vec<Vec<Letter>>,
 }
 
 impl Block {
@@ -51,15 +61,14 @@ impl Block {
         self.border.reset(skin);
         self.surfaces.reset(fixed_skin);
         self.ropes.list.reset(fixed_skin);
-        self.outbox.clear();
         self.clocks = BlockClocks::default();
     }
 }
 
 impl Outbox {
     #[inline(always)]
-    pub fn post(&mut self, row: usize, load: GrainLoad) {
-        self.post[row / self.block_size].push((row as u32, load));
+    pub fn post(&mut self, letter: Letter) {
+        self.post[letter.row as usize / self.block_size].push(letter);
     }
 
     pub fn clear(&mut self) {
@@ -67,7 +76,7 @@ impl Outbox {
     }
 
     /// What is there for the block of the given number.
-    pub fn for_block(&self, number: usize) -> &[(u32, GrainLoad)] {
+    pub fn for_block(&self, number: usize) -> &[Letter] {
         &self.post[number]
     }
 }
@@ -81,14 +90,16 @@ pub fn grains_per_block(grains: usize) -> usize {
     grains.div_ceil(2 * pairs_of_blocks)
 }
 
+/// Empty outboxes for the given blocks.
+pub fn make_outboxes(blocks: &[Block]) -> Vec<RwLock<Outbox>> {
+    let block_size = blocks.first().map_or(1, |block| block.grains.len().max(1));
+    blocks.iter().map(|_| RwLock::new(Outbox { block_size, post: vec![Vec::new(); blocks.len()] })).collect()
+}
+
 /// Empty blocks over `grains` grains.
 pub fn make_blocks(grains: usize) -> Vec<Block> {
     let size = grains_per_block(grains);
     let count = grains.div_ceil(size);
-    let block = |number: usize| Block {
-        grains: number * size..((number + 1) * size).min(grains),
-        outbox: Outbox { block_size: size, post: vec![Vec::new(); count] },
-        ..Block::default()
-    };
+    let block = |number: usize| Block { grains: number * size..((number + 1) * size).min(grains), ..Block::default() };
     (0..count).map(block).collect()
 }

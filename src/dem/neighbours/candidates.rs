@@ -7,11 +7,11 @@ use crate::dem::contact::surfaces::OnSurfaces;
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grain_table::GrainTable;
+use crate::dem::tables::grain_rows::GrainRows;
 use crate::dem::tables::surfaces::Surface;
 
 /// Box around all members of the grain in `row`, grown by `margin` (m).
-pub fn grain_box(grains: &GrainTable, row: usize, margin: f64) -> Box3 {
+pub fn grain_box(grains: GrainRows, row: usize, margin: f64) -> Box3 {
     let per_grain = grains.shape.members();
     let member_box = |index: usize| {
         let (centre, radius) = grains.sphere(index);
@@ -34,19 +34,19 @@ pub fn segment_boxes(barrier: &Barrier, margin: f64) -> Vec<Box3> {
 }
 
 /// Files every pair of members of one block nearer than `skin`; the boxes of `tree` are those of the block's grains.
-pub fn find_inner_pairs(tree: &mut BoxTree, grains: &GrainTable, skin: f64, block: &mut Block) {
+pub fn find_inner_pairs(tree: &mut BoxTree, grains: GrainRows, skin: f64, block: &mut Block) {
     let start = block.grains.start as u32;
     tree.pairs(|a, b| add_near(&mut block.inner, grains, [start + a.min(b), start + a.max(b)], skin));
 }
 
 /// Files every pair nearer than `skin` of a member of `block` and one of a later block, whose rows begin at `other_start`.
-pub fn find_border_pairs(trees: [&BoxTree; 2], other_start: usize, grains: &GrainTable, skin: f64, block: &mut Block) {
+pub fn find_border_pairs(trees: [&BoxTree; 2], other_start: usize, grains: GrainRows, skin: f64, block: &mut Block) {
     let (start, other) = (block.grains.start as u32, other_start as u32);
     trees[0].pairs_with(trees[1], |a, b| add_near(&mut block.border, grains, [start + a, other + b], skin));
 }
 
 /// Adds the pairs of members of two grains that are nearer than `skin`.
-fn add_near(list: &mut PairList, grains: &GrainTable, [a, b]: [u32; 2], skin: f64) {
+fn add_near(list: &mut PairList, grains: GrainRows, [a, b]: [u32; 2], skin: f64) {
     let per_grain = grains.shape.members() as u32;
     for first in a * per_grain..(a + 1) * per_grain {
         for second in b * per_grain..(b + 1) * per_grain {
@@ -63,7 +63,7 @@ pub fn find_rope_pairs(
     tree: &BoxTree,
     segments: &BoxTree,
     barrier: &Barrier,
-    grains: &GrainTable,
+    grains: GrainRows,
     skin: f64,
     block: &mut Block,
 ) {
@@ -81,7 +81,7 @@ pub fn find_rope_pairs(
 }
 
 /// Files every pair of the block's members and a surface nearer than `skin`.
-pub fn find_surface_pairs(block: &mut Block, grains: &GrainTable, surfaces: &[Surface], skin: f64) {
+pub fn find_surface_pairs(block: &mut Block, grains: GrainRows, surfaces: &[Surface], skin: f64) {
     let per_grain = grains.shape.members();
     for index in block.grains.start * per_grain..block.grains.end * per_grain {
         for number in 0..surfaces.len() {

@@ -82,7 +82,7 @@ pub fn strayed(references: &[Vec3], grains: &GrainTable, drift: &[Drifting], ela
     let per_grain = grains.shape.members();
     let (mut moved, mut strayed) = (0.0_f64, 0.0_f64);
     for (index, reference) in references.iter().enumerate() {
-        let gone = grains.sphere(index).0 - reference;
+        let gone = grains.rows().sphere(index).0 - reference;
         let [x, y, z, _] = drift[index / per_grain].map(f64::from);
         moved = larger_or_nan(moved, gone.norm_squared());
         strayed = larger_or_nan(strayed, (gone - Vec3::new(x, y, z) * elapsed).norm_squared());

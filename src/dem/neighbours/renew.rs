@@ -1,7 +1,9 @@
 //! Renewal of the pair lists, with the memory of touching pairs carried over.
 
+use std::sync::RwLock;
+
 use crate::dem::crew;
-use crate::dem::neighbours::blocks::{Block, make_blocks};
+use crate::dem::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::neighbours::candidates::{
     find_border_pairs, find_inner_pairs, find_rope_pairs, find_surface_pairs, grain_box, segment_boxes,
@@ -13,7 +15,7 @@ use crate::dem::neighbours::order::morton_code;
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::surfaces::Surface;
-use crate::dem::time::integrate::Drifting;
+use crate::dem::time::integrate::{Drifting, Pace};
 use crate::dem::{Vec3, larger_or_nan};
 
 /// Reach of the lists of surfaces and ropes over that of the lists of grains.
@@ -26,6 +28,8 @@ const WORTH_KEEPING: f64 = 0.1;
 /// Pair lists and what is needed to know when they expire.
 pub struct Neighbours {
     pub blocks: Vec<Block>,
+    /// What each block has for others; locked because blocks are worked on at the same time.
+    pub outboxes: Vec<RwLock<Outbox>>,
     /// Extra reach of the lists (m).
     pub skin: f64,
     pub renewals: u64,
@@ -60,6 +64,7 @@ impl Neighbours {
     pub fn new(skin: f64) -> Self {
         Self {
             blocks: Vec::new(),
+            outboxes: Vec::new(),
             skin,
             renewals: 0,
             clocks: Clocks::default(),
@@ -88,6 +93,16 @@ impl Neighbours {
         // Asked as "holds", so that a NaN expires the lists.
         let holds = pairs_left > WORTH_KEEPING * self.skin && fixed_left > WORTH_KEEPING * self.fixed_skin();
         !holds
+    }
+
+    /// Moves all clocks on through a step of length `step` (s) in which the blocks went at `paces` and no barrier node
+    /// faster than `nodes` (m/s).
+    pub fn tick(&mut self, paces: &[Pace], step: f64, nodes: f64) {
+        let stray = paces.iter().map(|pace| pace.stray).fold(0.0, f64::max);
+        self.clocks.tick(step, stray, nodes);
+        for (block, pace) in self.blocks.iter_mut().zip(paces) {
+            self.clocks.tick_block(&mut block.clocks, step, pace.stray, stray, nodes);
+        }
     }
 
     /// Says that bodies were moved by other means than steps, or that surfaces have gone: all lists expire.
@@ -138,7 +153,7 @@ impl Neighbours {
         self.drift.clear();
         self.drift.extend(grains.place.iter().map(|place| drift.at(place.0[0])));
         self.references.clear();
-        self.references.extend((0..grains.members()).map(|index| grains.sphere(index).0));
+        self.references.extend((0..grains.members()).map(|index| grains.rows().sphere(index).0));
         self.node_reference = bodies.barrier.map_or(Vec::new(), |b| b.nodes.iter().map(|n| n.position).collect());
         let widest = grains.bodies.iter().map(|body| body.radius + body.offset).fold(0.0, f64::max);
         self.clocks = Clocks::start(&drift, 2.0 * widest + self.skin, self.skin, self.fixed_skin());
@@ -180,10 +195,11 @@ impl Neighbours {
     }
 
     fn fill(&mut self, bodies: &Bodies, memories: &Memories) {
-        let grains = &*bodies.grains;
+        let grains = bodies.grains.rows();
         let (skin, fixed_skin) = (self.skin, self.fixed_skin());
-        if self.blocks.last().map_or(0, |block| block.grains.end) != grains.len() {
-            self.blocks = make_blocks(grains.len());
+        if self.blocks.last().map_or(0, |block| block.grains.end) != bodies.grains.len() {
+            self.blocks = make_blocks(bodies.grains.len());
+            self.outboxes = make_outboxes(&self.blocks);
         }
         if self.trees.len() != self.blocks.len() {
             self.trees.clear();

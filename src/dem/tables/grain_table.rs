@@ -4,8 +4,8 @@
 //! vector register; updates leave the fourth entry alone because the fourth entries of forces and steps are zero.
 
 use crate::dem::Vec3;
+use crate::dem::tables::grain_rows::GrainRows;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::dem::time::integrate::{Drifting, MovingRows};
 
 /// Four numbers that are handled together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -83,23 +83,6 @@ pub struct GrainTable {
     pub ids: Vec<u32>,
 }
 
-/// One member sphere of a grain, now.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Member {
-    /// Centre (m).
-    pub centre: Vec3,
-    /// m
-    pub radius: f64,
-    /// Velocity of the centre (m/s).
-    pub velocity: Vec3,
-    /// Angular velocity of the grain (rad/s).
-    pub spin: Vec3,
-    /// 1/mass of the whole grain (1/kg).
-    pub inverse_mass: f64,
-    /// From the grain's centre of mass to the member's centre (m).
-    pub arm: Vec3,
-}
-
 impl GrainTable {
     pub fn of(shape: GrainShape, grains: &[Grain]) -> Self {
         let mut table = Self {
@@ -170,54 +153,10 @@ impl GrainTable {
         (0..self.len()).map(|row| self.grain(row)).collect()
     }
 
-    /// Centre (m) and radius (m) of member sphere `index`.
+    /// Its rows, to be read.
     #[inline(always)]
-    pub fn sphere(&self, index: usize) -> (Vec3, f64) {
-        let row = index / self.shape.members();
-        let place = &self.place[row];
-        (place.vector() + self.arm(index), place.fourth())
-    }
-
-    /// From the grain's centre to the centre of member `index` (m).
-    #[inline(always)]
-    pub fn arm(&self, index: usize) -> Vec3 {
-        match self.shape {
-            GrainShape::Sphere => Vec3::zeros(),
-            GrainShape::Clump => self.axis[index / 2].vector() * (side(index as u32) * self.spin[index / 2].fourth()),
-        }
-    }
-
-    #[inline(always)]
-    pub fn member(&self, index: usize) -> Member {
-        let row = index / self.shape.members();
-        let (motion, spin) = (&self.motion[row], self.spin[row].vector());
-        let arm = self.arm(index);
-        Member {
-            centre: self.place[row].vector() + arm,
-            radius: self.place[row].fourth(),
-            velocity: motion.vector() + spin.cross(&arm),
-            spin,
-            inverse_mass: motion.fourth(),
-            arm,
-        }
-    }
-
-    /// The rows cut into blocks of `rows`, to be moved apart from each other.
-    pub fn rows_by_block<'a>(
-        &'a mut self,
-        loads: &'a mut [GrainLoad],
-        drift: &'a [Drifting],
-        rows: usize,
-    ) -> Vec<MovingRows<'a>> {
-        let mut axes = self.axis.chunks_mut(rows).zip(self.momentum.chunks_mut(rows));
-        let parts = self.place.chunks_mut(rows).zip(self.motion.chunks_mut(rows)).zip(self.spin.chunks_mut(rows));
-        let parts = parts.zip(loads.chunks_mut(rows).zip(drift.chunks(rows)));
-        parts
-            .map(|(((place, motion), spin), (loads, drift))| {
-                let (axis, momentum) = axes.next().unwrap_or_default();
-                MovingRows { place, motion, spin, axis, momentum, loads, drift }
-            })
-            .collect()
+    pub fn rows(&self) -> GrainRows<'_> {
+        GrainRows::of(self)
     }
 
     /// Puts the rows into the given order, which may leave rows out.

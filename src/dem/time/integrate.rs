@@ -4,8 +4,9 @@
 //! axisymmetric body turns about its angular momentum at the rate |L|/I_t exactly, so free rotation keeps
 //! both momentum and energy to rounding.
 
-use crate::dem::contact::lanes::{LANES, Lane, Quads};
-use crate::dem::contact::law::{add_scaled, cross, dot, scaled};
+use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, plus, scaled};
+use crate::dem::simd::widest::{Work, with_widest};
 use crate::dem::tables::barrier::Node;
 use crate::dem::tables::grain_table::{GrainLoad, Quad};
 use crate::dem::{Vec3, larger_or_nan};
@@ -45,37 +46,9 @@ pub struct Pace {
 }
 
 impl MovingRows<'_> {
-    /// Moves all grains through one step, with the widest vectors this processor has.
+    /// Moves all grains through one step.
     pub fn advance(self, time: &Stretch) -> Pace {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512vl") {
-                // SAFETY: the processor was just asked for these features.
-                return unsafe { self.advance_avx512(time) };
-            }
-            if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: as above.
-                return unsafe { self.advance_avx2(time) };
-            }
-        }
-        self.advance_rows(time)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl")]
-    fn advance_avx512(self, time: &Stretch) -> Pace {
-        self.advance_rows(time)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn advance_avx2(self, time: &Stretch) -> Pace {
-        self.advance_rows(time)
-    }
-
-    #[inline(always)]
-    fn advance_rows(self, time: &Stretch) -> Pace {
-        if self.axis.is_empty() { self.advance_spheres(time) } else { self.advance_clumps(time) }
+        with_widest(Advance { rows: self, time })
     }
 
     #[inline(always)]
@@ -97,7 +70,7 @@ impl MovingRows<'_> {
     }
 
     #[inline(always)]
-    fn advance_clumps(self, time: &Stretch) -> Pace {
+    fn advance_clumps<E: Eight>(self, time: &Stretch) -> Pace {
         let step = Steps::of(time);
         let mut fastest = Fastest::default();
         let rows = self.place.iter_mut().zip(self.motion).zip(self.loads.iter().zip(self.drift));
@@ -105,70 +78,78 @@ impl MovingRows<'_> {
             step.translate(place, motion, &load.force);
             fastest.see(motion, drift);
         }
-        let mut turning = Turning::default();
-        let rows = self.spin.chunks_mut(LANES).zip(self.axis.chunks_mut(LANES)).zip(self.momentum.chunks_mut(LANES));
-        for (((spin, axis), momentum), loads) in rows.zip(self.loads.chunks_mut(LANES)) {
-            turning.gather(axis, momentum, loads);
-            turning.advance(time.step, step.keep[0]);
-            turning.scatter(spin, axis, momentum);
-            fastest.turning = spin
-                .iter()
-                .zip(&turning.rate)
-                .fold(fastest.turning, |most, (spin, rate)| larger_or_nan(most, rate * spin.fourth() * spin.fourth()));
+        let mut rates = E::all(0.0);
+        let mut eights = Turning { spin: self.spin, axis: self.axis, momentum: self.momentum, loads: self.loads };
+        while !eights.spin.is_empty() {
+            rates = eights.turn_eight::<E>(time.step, step.keep[0]).or_larger(rates);
         }
+        fastest.turning = rates.lanes().into_iter().fold(0.0, larger_or_nan);
         fastest.total += fastest.turning;
         fastest.pace()
     }
 }
 
-/// Clumps that turn, side by side.
-#[derive(Default)]
-struct Turning {
-    axis: Quads,
-    momentum: Quads,
-    torque: Quads,
-    spin: Quads,
-    /// Square of the rate at which each axis turns (1/s²).
-    rate: Lane,
+/// The rows of a block, to be moved with any vectors.
+struct Advance<'a, 'b> {
+    rows: MovingRows<'a>,
+    time: &'b Stretch,
 }
 
-impl Turning {
-    /// Takes the rows in and sets the loads to zero. Lanes left over keep what they had: it goes nowhere.
-    #[inline(always)]
-    fn gather(&mut self, axis: &[Quad], momentum: &[Quad], loads: &mut [GrainLoad]) {
-        self.axis.rows[..axis.len()].copy_from_slice(axis);
-        self.momentum.rows[..momentum.len()].copy_from_slice(momentum);
-        for (torque, load) in self.torque.rows.iter_mut().zip(loads) {
-            *torque = load.torque;
-            *load = GrainLoad::default();
-        }
-        [&mut self.axis, &mut self.momentum, &mut self.torque].into_iter().for_each(Quads::turn_to_columns);
-    }
+impl Work for Advance<'_, '_> {
+    type Output = Pace;
 
     #[inline(always)]
-    fn advance(&mut self, step: f64, keep: f64) {
-        for lane in 0..LANES {
-            let momentum = scaled(add_scaled(self.momentum.vector(lane), step, self.torque.vector(lane)), keep);
-            let inverse_transverse = self.axis.fourth(lane);
-            let (axis, rate) = turned(self.axis.vector(lane), momentum, step, inverse_transverse);
-            let difference = self.momentum.fourth(lane);
-            let spin = add_scaled(scaled(momentum, inverse_transverse), dot(axis, momentum) * difference, axis);
-            self.axis.put(lane, axis, inverse_transverse);
-            self.momentum.put(lane, momentum, difference);
-            self.spin.put(lane, spin, 0.0);
-            self.rate[lane] = rate;
+    fn run<E: Eight>(self) -> Pace {
+        if self.rows.axis.is_empty() {
+            self.rows.advance_spheres(self.time)
+        } else {
+            self.rows.advance_clumps::<E>(self.time)
         }
-        [&mut self.axis, &mut self.momentum, &mut self.spin].into_iter().for_each(Quads::turn_to_rows);
     }
+}
 
+/// Clumps that are still to be turned in this step.
+struct Turning<'a> {
+    spin: &'a mut [Quad],
+    axis: &'a mut [Quad],
+    momentum: &'a mut [Quad],
+    loads: &'a mut [GrainLoad],
+}
+
+impl Turning<'_> {
+    /// Turns the next eight clumps, or as many as there are, and sets their loads to zero. Returns the squares of the speeds
+    /// of their members about the centres (m²/s²).
     #[inline(always)]
-    fn scatter(&self, spin: &mut [Quad], axis: &mut [Quad], momentum: &mut [Quad]) {
-        axis.copy_from_slice(&self.axis.rows[..axis.len()]);
-        momentum.copy_from_slice(&self.momentum.rows[..momentum.len()]);
-        for (spin, new) in spin.iter_mut().zip(&self.spin.rows) {
-            let [x, y, z, _] = new.0;
-            *spin = Quad([x, y, z, spin.fourth()]);
+    fn turn_eight<E: Eight>(&mut self, step: f64, keep: f64) -> E {
+        let last = self.spin.len().min(LANES) - 1;
+        let axes = each_lane!(|lane| E::Row::load(&self.axis[lane.min(last)]));
+        let momenta = each_lane!(|lane| E::Row::load(&self.momentum[lane.min(last)]));
+        let torques = each_lane!(|lane| E::Row::load(&self.loads[lane.min(last)].torque));
+        let spins = each_lane!(|lane| E::Row::load(&self.spin[lane.min(last)]));
+        let (axis, inverse_transverse) = parted(E::columns(axes));
+        let (momentum, difference) = parted(E::columns(momenta));
+        let (torque, _) = parted(E::columns(torques));
+        let [_, _, _, arm] = E::columns(spins);
+        let momentum = scaled(add_scaled(momentum, E::all(step), torque), E::all(keep));
+        let (axis, rate) = turned(axis, momentum, step, inverse_transverse);
+        let spin = add_scaled(scaled(momentum, inverse_transverse), dot(axis, momentum) * difference, axis);
+        let axes = E::rows(joined(axis, inverse_transverse));
+        let momenta = E::rows(joined(momentum, difference));
+        let spins = E::rows(joined(spin, arm));
+        each_lane!(|lane| {
+            if lane <= last {
+                axes[lane].store(&mut self.axis[lane]);
+                momenta[lane].store(&mut self.momentum[lane]);
+                spins[lane].store(&mut self.spin[lane]);
+                self.loads[lane] = GrainLoad::default();
+            }
+        });
+        for rows in [&mut self.spin, &mut self.axis, &mut self.momentum] {
+            let all = std::mem::take(rows);
+            *rows = &mut all[last + 1..];
         }
+        self.loads = &mut std::mem::take(&mut self.loads)[last + 1..];
+        rate * arm * arm
     }
 }
 
@@ -229,14 +210,14 @@ impl Fastest {
 /// series up to x⁷: the angle of one step is small, the result keeps the length for any argument, and it is the same on
 /// every machine, which the system's library does not promise.
 #[inline(always)]
-fn turned(axis: [f64; 3], momentum: [f64; 3], step: f64, inverse_transverse: f64) -> ([f64; 3], f64) {
-    let half = scaled(momentum, 0.5 * step * inverse_transverse);
+fn turned<R: Real>(axis: Triple<R>, momentum: Triple<R>, step: f64, inverse_transverse: R) -> (Triple<R>, R) {
+    let half = scaled(momentum, inverse_transverse * (0.5 * step));
     let square = dot(half, half);
-    let series = 1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0)));
+    let series = square * (square * (square * (17.0 / 315.0) + 2.0 / 15.0) + 1.0 / 3.0) + 1.0;
     let line = scaled(half, series);
-    let across = cross(line, add_scaled(axis, 1.0, cross(line, axis)));
-    let turned = add_scaled(axis, 2.0 / (1.0 + dot(line, line)), across);
-    (scaled(turned, 1.5 - 0.5 * dot(turned, turned)), 4.0 * square / (step * step))
+    let across = cross(line, plus(axis, cross(line, axis)));
+    let turned = add_scaled(axis, R::all(2.0) / (dot(line, line) + 1.0), across);
+    (scaled(turned, dot(turned, turned) * -0.5 + 1.5), square * (4.0 / (step * step)))
 }
 
 /// Moves the nodes of a barrier through one step; returns the square of the largest speed (m²/s²).

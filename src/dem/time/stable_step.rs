@@ -129,7 +129,7 @@ impl Audit<'_> {
 
     fn add_pairs(&self, block: &Block, links: &mut Vec<Link>) {
         for &[first, second] in block.inner.touching.iter().chain(&block.border.touching) {
-            let (a, b) = (self.grains.member(first as usize), self.grains.member(second as usize));
+            let (a, b) = (self.grains.rows().member(first as usize), self.grains.rows().member(second as usize));
             let line = b.centre - a.centre;
             let distance = line.norm();
             if distance >= a.radius + b.radius {
@@ -145,7 +145,7 @@ impl Audit<'_> {
 
     fn add_surfaces(&self, block: &Block, links: &mut Vec<Link>) {
         for &[index, surface] in &block.surfaces.touching {
-            let member = self.grains.member(index as usize);
+            let member = self.grains.rows().member(index as usize);
             let foot = self.surfaces[surface as usize].nearest(&member.centre);
             let towards = foot - member.centre;
             let distance = towards.norm();
@@ -160,19 +160,19 @@ impl Audit<'_> {
     fn add_ropes(&self, block: &Block, links: &mut Vec<Link>) {
         let Some(barrier) = self.barrier else { return };
         let context = RopeContext {
-            grains: self.grains,
+            grains: self.grains.rows(),
             barrier,
             law: self.law,
             grain_modulus: self.modulus,
             grain_friction: self.friction,
             clock: Clock::default(),
         };
-        let on_ropes = OnRopes { grains: self.grains, barrier };
+        let on_ropes = OnRopes { grains: self.grains.rows(), barrier };
         for &[index, segment] in &block.ropes.list.touching {
             if on_ropes.gap([index, segment]) >= 0.0 {
                 continue;
             }
-            let member = self.grains.member(index as usize);
+            let member = self.grains.rows().member(index as usize);
             let Some(contact) = touch_rope(&member, segment, &context) else {
                 continue;
             };

@@ -106,5 +106,5 @@ fn contact_force(simulation: &Simulation) -> f64 {
     let list = &simulation.neighbours.blocks[0].inner;
     let stored = simulation.sums.contacts.stored;
     let spring = (2.0 * stored * MODULUS * RADIUS).sqrt();
-    list.memory.first().map_or(0.0, |memory| spring + memory.dashpot)
+    list.memory.first().map_or(0.0, |memory| spring + memory.fourth())
 }
