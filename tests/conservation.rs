@@ -53,13 +53,13 @@ fn no_touching_pair_is_missed() {
         for block in &mut simulation.neighbours.blocks {
             let clocks = block.clocks;
             for (list, clock) in [(&mut block.inner, clocks.inner), (&mut block.border, clocks.border)] {
-                list.sort_near(&clock, &Members(&simulation.grains));
+                list.sort_near(&clock, &Members(simulation.grains.rows()));
                 touching_listed.extend(list.touching.iter().map(|[a, b]| (*a.min(b), *a.max(b))));
             }
         }
         for a in 0..simulation.grains.members() as u32 {
             for b in a + 1..simulation.grains.members() as u32 {
-                let touching = a / 2 != b / 2 && Members(&simulation.grains).gap([a, b]) < 0.0;
+                let touching = a / 2 != b / 2 && Members(simulation.grains.rows()).gap([a, b]) < 0.0;
                 assert!(!touching || touching_listed.contains(&(a, b)), "step {step}: {a} and {b}");
             }
         }

@@ -26,6 +26,8 @@ type Part<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// What helpers and leader share.
 struct Crew {
+    /// Leader and helpers.
+    hands: usize,
     state: AtomicU64,
     /// Part to be taken next, and the number of parts.
     next: AtomicUsize,
@@ -47,7 +49,9 @@ thread_local! {
 
 /// Calls `body` with all threads of the present rayon pool standing by.
 pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
+    let hands = rayon::current_num_threads();
     let crew = Crew {
+        hands,
         state: AtomicU64::new(0),
         next: AtomicUsize::new(0),
         parts: AtomicUsize::new(0),
@@ -56,7 +60,7 @@ pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
         dismissed: AtomicBool::new(false),
     };
     rayon::in_place_scope(|scope| {
-        for _ in 1..rayon::current_num_threads() {
+        for _ in 1..hands {
             scope.spawn(|_| crew.help());
         }
         // SAFETY: the reference is taken away again before `crew` goes, by the guard, also when `body` panics.
@@ -65,6 +69,11 @@ pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
         drop(leader);
         result
     })
+}
+
+/// How many threads share the work of the calling one.
+pub fn hands() -> usize {
+    LED.get().map_or(1, |crew| crew.hands)
 }
 
 /// Calls `work` for every item, by all of the crew; items go out in their order.

@@ -33,7 +33,7 @@ pub fn sweep(
     let Neighbours { blocks, outboxes, drift, .. } = neighbours;
     let outboxes = &*outboxes;
     let rows = RowsInMotion::of(grains, drift);
-    let forces = BlockForces { model, grains: rows.seen(), law };
+    let forces = BlockForces { model, grains: rows.seen(), law, hands: crew::hands() };
     let mut net = None;
     let mut paces = vec![Pace::default(); blocks.len()];
     let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &mut net));
@@ -96,18 +96,22 @@ struct BlockForces<'a> {
     model: &'a Model,
     grains: GrainRows<'a>,
     law: LawConstants,
+    /// Threads that share the blocks.
+    hands: usize,
 }
 
 impl BlockForces<'_> {
     fn load_block(&self, block: &mut Block, loads: &mut [GrainLoad], outbox: &mut Outbox) {
-        let Self { model, grains, law } = *self;
+        let Self { model, grains, law, .. } = *self;
         let clocks = block.clocks;
         let material = &model.material;
         outbox.clear();
-        grains.foresee(&block.grains);
+        // The next block that this thread is likely to take.
+        let ahead = self.hands * block.grains.len();
+        let next = block.grains.start + ahead..block.grains.end + ahead;
         let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
         let pairs = |clock| PairContext { grains, constants, clock };
-        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads);
+        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, &next);
         sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
         let surfaces = SurfaceContext {
             grains,

@@ -13,10 +13,10 @@ use crate::dem::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::blocks::{Letter, Outbox};
 use crate::dem::neighbours::clocks::Clock;
-use crate::dem::simd::eight::{Eight, Row, each_lane};
+use crate::dem::simd::eight::{Eight, LANES, Row, each_lane};
 use crate::dem::simd::real::{add_scaled, dot, minus};
 use crate::dem::simd::widest::{Work, with_widest};
-use crate::dem::tables::grain_rows::GrainRows;
+use crate::dem::tables::grain_rows::{Foresight, GrainRows};
 use crate::dem::tables::grain_table::{GrainLoad, side};
 use crate::dem::tables::grains::GrainShape;
 
@@ -37,14 +37,17 @@ pub struct PairContext<'a> {
     pub clock: Clock,
 }
 
-/// Loads both grains of every touching pair inside the block; `loads` holds the rows of `range`.
+/// Loads both grains of every touching pair inside the block; `loads` holds the rows of `range`. Meanwhile asks for the
+/// rows of `next`.
 pub fn load_inner(
     list: &mut PairList,
     context: &PairContext,
     range: &Range<usize>,
     loads: &mut [GrainLoad],
+    next: &Range<usize>,
 ) -> ContactSums {
-    load(list, context, loads, range.start, Here(range.start))
+    let foresight = Foresight::of(context.grains, next, list.touching.len() / LANES);
+    load(list, context, loads, range.start, foresight, Here(range.start))
 }
 
 /// Loads the first grain of every touching pair across the block's border, and posts the load of the second.
@@ -55,7 +58,8 @@ pub fn load_border(
     loads: &mut [GrainLoad],
     outbox: &mut Outbox,
 ) -> ContactSums {
-    load(list, context, loads, range.start, outbox)
+    let foresight = Foresight::of(context.grains, &(0..0), 1);
+    load(list, context, loads, range.start, foresight, outbox)
 }
 
 fn load(
@@ -63,11 +67,12 @@ fn load(
     context: &PairContext,
     loads: &mut [GrainLoad],
     start: usize,
+    foresight: Foresight,
     target: impl Target,
 ) -> ContactSums {
     match context.grains.shape {
-        GrainShape::Sphere => with_widest(LoadPairs::<false, _> { list, context, loads, start, target }),
-        GrainShape::Clump => with_widest(LoadPairs::<true, _> { list, context, loads, start, target }),
+        GrainShape::Sphere => with_widest(LoadPairs::<false, _> { list, context, loads, start, foresight, target }),
+        GrainShape::Clump => with_widest(LoadPairs::<true, _> { list, context, loads, start, foresight, target }),
     }
 }
 
@@ -108,6 +113,7 @@ struct LoadPairs<'a, 'b, const CLUMPS: bool, T> {
     context: &'a PairContext<'b>,
     loads: &'a mut [GrainLoad],
     start: usize,
+    foresight: Foresight<'b>,
     target: T,
 }
 
@@ -126,6 +132,7 @@ impl<const CLUMPS: bool, T: Target> Work for LoadPairs<'_, '_, CLUMPS, T> {
             sums.count(&response, touch.point.overlap * touch.inverse_radius);
             self.scatter(&eight, &touch, &response);
             self.list.remember(&eight, &response.memory, touch.point.overlap);
+            self.foresight.go_on();
             last = Some(eight);
         }
         self.list.end_contacts();

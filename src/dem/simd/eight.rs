@@ -1,6 +1,6 @@
 //! Eight numbers side by side, and the rows of four that bodies are kept in.
 
-use std::ops::{Add, Mul};
+use std::ops::{Add, Mul, Sub};
 
 use crate::dem::simd::real::{Real, Triple};
 use crate::dem::tables::grain_table::Quad;
@@ -23,8 +23,11 @@ macro_rules! each_lane {
 pub(crate) use each_lane;
 
 /// A row of four numbers in a register.
-pub trait Row: Copy + Add<Output = Self> + Mul<Output = Self> {
+pub trait Row: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     fn load(row: &Quad) -> Self;
+
+    /// A row of short numbers.
+    fn widened(row: &[f32; 4]) -> Self;
 
     /// The same number in all entries.
     fn all(value: f64) -> Self;

@@ -29,6 +29,7 @@ macro_rules! by_entry {
 }
 
 by_entry!(PlainRow, Add, add);
+by_entry!(PlainRow, Sub, sub);
 by_entry!(PlainRow, Mul, mul);
 by_entry!(Plain, Add, add);
 by_entry!(Plain, Sub, sub);
@@ -87,6 +88,11 @@ impl Row for PlainRow {
     #[inline(always)]
     fn load(row: &Quad) -> Self {
         Self(row.0)
+    }
+
+    #[inline(always)]
+    fn widened(row: &[f32; 4]) -> Self {
+        Self(row.map(f64::from))
     }
 
     #[inline(always)]

@@ -76,6 +76,7 @@ macro_rules! eight {
 }
 
 operator!(Row256, Add, add, |a, b| _mm256_add_pd(a, b));
+operator!(Row256, Sub, sub, |a, b| _mm256_sub_pd(a, b));
 operator!(Row256, Mul, mul, |a, b| _mm256_mul_pd(a, b));
 operator!(Avx2, Add, add, |a, b| [_mm256_add_pd(a[0], b[0]), _mm256_add_pd(a[1], b[1])]);
 operator!(Avx2, Sub, sub, |a, b| [_mm256_sub_pd(a[0], b[0]), _mm256_sub_pd(a[1], b[1])]);
@@ -93,6 +94,12 @@ impl Row for Row256 {
     fn load(row: &Quad) -> Self {
         // SAFETY: the processor has the instruction, and a `Quad` is four numbers on a boundary of 32 bytes.
         unsafe { Self(_mm256_load_pd(row.0.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn widened(row: &[f32; 4]) -> Self {
+        // SAFETY: the processor has the instructions; four numbers are read from four.
+        unsafe { Self(_mm256_cvtps_pd(_mm_loadu_ps(row.as_ptr()))) }
     }
 
     #[inline(always)]

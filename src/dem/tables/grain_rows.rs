@@ -28,6 +28,9 @@ unsafe impl Send for GrainRows<'_> {}
 // SAFETY: as above.
 unsafe impl Sync for GrainRows<'_> {}
 
+/// Rows of a table in one line of the cache.
+const ROWS_IN_LINE: usize = 64 / size_of::<Quad>();
+
 /// One member sphere of a grain, now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Member {
@@ -94,10 +97,16 @@ impl<'a> GrainRows<'a> {
         unsafe { *self.axis.add(row) }
     }
 
-    /// Asks for the rows of `range` to be brought near.
-    pub fn foresee(&self, range: &Range<usize>) {
-        for table in [self.place, self.motion, self.spin] {
-            prefetch(table.wrapping_add(range.start), range.len());
+    /// Asks for the given rows to be brought near.
+    #[inline(always)]
+    fn foresee(&self, rows: Range<usize>) {
+        for row in rows.step_by(ROWS_IN_LINE) {
+            for table in [self.place, self.motion, self.spin] {
+                prefetch(table.wrapping_add(row));
+            }
+            if self.clumps > 0 {
+                prefetch(self.axis.wrapping_add(row));
+            }
         }
     }
 
@@ -130,6 +139,31 @@ impl<'a> GrainRows<'a> {
             inverse_mass: motion.fourth(),
             arm,
         }
+    }
+}
+
+/// Rows that will be wanted next, asked for little by little while other work goes on: all at once they would hold it up.
+pub struct Foresight<'a> {
+    rows: GrainRows<'a>,
+    left: Range<usize>,
+    /// Rows at a time.
+    portion: usize,
+}
+
+impl<'a> Foresight<'a> {
+    /// Asks for the rows of `wanted`, as far as there are such, in the given number of portions.
+    pub fn of(rows: GrainRows<'a>, wanted: &Range<usize>, portions: usize) -> Self {
+        let left = wanted.start.min(rows.len)..wanted.end.min(rows.len);
+        let portion = left.len().div_ceil(portions.max(1)).next_multiple_of(ROWS_IN_LINE);
+        Self { rows, left, portion }
+    }
+
+    /// Asks for the next portion.
+    #[inline(always)]
+    pub fn go_on(&mut self) {
+        let end = (self.left.start + self.portion).min(self.left.end);
+        self.rows.foresee(self.left.start..end);
+        self.left.start = end;
     }
 }
 

@@ -51,41 +51,27 @@ impl MovingRows<'_> {
         with_widest(Advance { rows: self, time })
     }
 
+    /// Parts the first `count` grains from the rest.
     #[inline(always)]
-    fn advance_spheres(self, time: &Stretch) -> Pace {
-        let step = Steps::of(time);
-        let mut fastest = Fastest::default();
-        let rows = self.place.iter_mut().zip(self.motion).zip(self.spin).zip(self.loads).zip(self.drift);
-        for ((((place, motion), spin), load), drift) in rows {
-            step.translate(place, motion, &load.force);
-            let inverse_inertia = spin.fourth();
-            for entry in 0..4 {
-                spin.0[entry] += load.torque.0[entry] * inverse_inertia * step.time[entry];
-                spin.0[entry] *= step.keep[entry];
-            }
-            *load = GrainLoad::default();
-            fastest.see(motion, drift);
-        }
-        fastest.pace()
-    }
-
-    #[inline(always)]
-    fn advance_clumps<E: Eight>(self, time: &Stretch) -> Pace {
-        let step = Steps::of(time);
-        let mut fastest = Fastest::default();
-        let rows = self.place.iter_mut().zip(self.motion).zip(self.loads.iter().zip(self.drift));
-        for ((place, motion), (load, drift)) in rows {
-            step.translate(place, motion, &load.force);
-            fastest.see(motion, drift);
-        }
-        let mut rates = E::all(0.0);
-        let mut eights = Turning { spin: self.spin, axis: self.axis, momentum: self.momentum, loads: self.loads };
-        while !eights.spin.is_empty() {
-            rates = eights.turn_eight::<E>(time.step, step.keep[0]).or_larger(rates);
-        }
-        fastest.turning = rates.lanes().into_iter().fold(0.0, larger_or_nan);
-        fastest.total += fastest.turning;
-        fastest.pace()
+    fn split(self, count: usize) -> (Self, Self) {
+        let clumps = count.min(self.axis.len());
+        let (place, motion, spin) =
+            (self.place.split_at_mut(count), self.motion.split_at_mut(count), self.spin.split_at_mut(count));
+        let (axis, momentum) = (self.axis.split_at_mut(clumps), self.momentum.split_at_mut(clumps));
+        let (loads, drift) = (self.loads.split_at_mut(count), self.drift.split_at(count));
+        let half = |place, motion, spin, axis, momentum, loads, drift| MovingRows {
+            place,
+            motion,
+            spin,
+            axis,
+            momentum,
+            loads,
+            drift,
+        };
+        (
+            half(place.0, motion.0, spin.0, axis.0, momentum.0, loads.0, drift.0),
+            half(place.1, motion.1, spin.1, axis.1, momentum.1, loads.1, drift.1),
+        )
     }
 }
 
@@ -100,36 +86,77 @@ impl Work for Advance<'_, '_> {
 
     #[inline(always)]
     fn run<E: Eight>(self) -> Pace {
-        if self.rows.axis.is_empty() {
-            self.rows.advance_spheres(self.time)
-        } else {
-            self.rows.advance_clumps::<E>(self.time)
+        let steps = Steps::of(self.time);
+        let mut fastest = Fastest::<E>::default();
+        let mut rest = self.rows;
+        while !rest.place.is_empty() {
+            let count = LANES.min(rest.place.len());
+            let (eight, others) = rest.split(count);
+            rest = others;
+            let mut eight = UpToEight(eight);
+            fastest.see_strays(eight.translate(&steps));
+            if eight.0.axis.is_empty() {
+                eight.turn_spheres::<E::Row>(&steps);
+            } else {
+                fastest.see_turning(eight.turn_clumps(&steps));
+            }
+            eight.0.loads.fill(GrainLoad::default());
         }
+        fastest.pace()
     }
 }
 
-/// Clumps that are still to be turned in this step.
-struct Turning<'a> {
-    spin: &'a mut [Quad],
-    axis: &'a mut [Quad],
-    momentum: &'a mut [Quad],
-    loads: &'a mut [GrainLoad],
-}
+/// Eight grains, or fewer.
+struct UpToEight<'a>(MovingRows<'a>);
 
-impl Turning<'_> {
-    /// Turns the next eight clumps, or as many as there are, and sets their loads to zero. Returns the squares of the speeds
-    /// of their members about the centres (m²/s²).
+impl UpToEight<'_> {
+    /// Moves the centres. Returns the squares of the velocities relative to the drift (m²/s²).
     #[inline(always)]
-    fn turn_eight<E: Eight>(&mut self, step: f64, keep: f64) -> E {
-        let last = self.spin.len().min(LANES) - 1;
-        let axes = each_lane!(|lane| E::Row::load(&self.axis[lane.min(last)]));
-        let momenta = each_lane!(|lane| E::Row::load(&self.momentum[lane.min(last)]));
-        let torques = each_lane!(|lane| E::Row::load(&self.loads[lane.min(last)].torque));
-        let spins = each_lane!(|lane| E::Row::load(&self.spin[lane.min(last)]));
+    fn translate<E: Eight>(&mut self, steps: &Steps) -> E {
+        let Self(rows) = self;
+        let [time, keep, gravity] = [&steps.time, &steps.keep, &steps.gravity].map(E::Row::load);
+        let count = rows.place.len();
+        let strays = each_lane!(|lane| {
+            if lane < count {
+                let (place, motion) = (&mut rows.place[lane], &mut rows.motion[lane]);
+                let inverse_mass = E::Row::all(motion.fourth());
+                let gained = (E::Row::load(&rows.loads[lane].force) * inverse_mass + gravity) * time;
+                let velocity = (E::Row::load(motion) + gained) * keep;
+                velocity.store(motion);
+                (E::Row::load(place) + velocity * time).store(place);
+                velocity - E::Row::widened(&rows.drift[lane])
+            } else {
+                E::Row::all(0.0)
+            }
+        });
+        let (stray, _) = parted(E::columns(strays));
+        dot(stray, stray)
+    }
+
+    #[inline(always)]
+    fn turn_spheres<R: Row>(&mut self, steps: &Steps) {
+        let Self(rows) = self;
+        let [time, keep] = [&steps.time, &steps.keep].map(R::load);
+        for (spin, load) in rows.spin.iter_mut().zip(&*rows.loads) {
+            let inverse_inertia = R::all(spin.fourth());
+            ((R::load(spin) + R::load(&load.torque) * inverse_inertia * time) * keep).store(spin);
+        }
+    }
+
+    /// Returns the squares of the speeds of the members about the centres (m²/s²).
+    #[inline(always)]
+    fn turn_clumps<E: Eight>(&mut self, steps: &Steps) -> E {
+        let Self(rows) = self;
+        let last = rows.place.len() - 1;
+        let axes = each_lane!(|lane| E::Row::load(&rows.axis[lane.min(last)]));
+        let momenta = each_lane!(|lane| E::Row::load(&rows.momentum[lane.min(last)]));
+        let torques = each_lane!(|lane| E::Row::load(&rows.loads[lane.min(last)].torque));
+        let spins = each_lane!(|lane| E::Row::load(&rows.spin[lane.min(last)]));
         let (axis, inverse_transverse) = parted(E::columns(axes));
         let (momentum, difference) = parted(E::columns(momenta));
         let (torque, _) = parted(E::columns(torques));
         let [_, _, _, arm] = E::columns(spins);
+        let (step, keep) = (steps.time.0[0], steps.keep.0[0]);
         let momentum = scaled(add_scaled(momentum, E::all(step), torque), E::all(keep));
         let (axis, rate) = turned(axis, momentum, step, inverse_transverse);
         let spin = add_scaled(scaled(momentum, inverse_transverse), dot(axis, momentum) * difference, axis);
@@ -138,69 +165,59 @@ impl Turning<'_> {
         let spins = E::rows(joined(spin, arm));
         each_lane!(|lane| {
             if lane <= last {
-                axes[lane].store(&mut self.axis[lane]);
-                momenta[lane].store(&mut self.momentum[lane]);
-                spins[lane].store(&mut self.spin[lane]);
-                self.loads[lane] = GrainLoad::default();
+                axes[lane].store(&mut rows.axis[lane]);
+                momenta[lane].store(&mut rows.momentum[lane]);
+                spins[lane].store(&mut rows.spin[lane]);
             }
         });
-        for rows in [&mut self.spin, &mut self.axis, &mut self.momentum] {
-            let all = std::mem::take(rows);
-            *rows = &mut all[last + 1..];
-        }
-        self.loads = &mut std::mem::take(&mut self.loads)[last + 1..];
         rate * arm * arm
     }
 }
 
 /// Factors for rows of four that leave the fourth entry alone.
 struct Steps {
-    time: [f64; 4],
-    keep: [f64; 4],
-    gravity: [f64; 4],
+    time: Quad,
+    keep: Quad,
+    gravity: Quad,
 }
 
 impl Steps {
     fn of(time: &Stretch) -> Self {
         let keep = (1.0 - time.drag * time.step).max(0.0);
-        let (t, g) = (time.step, time.gravity);
-        Self { time: [t, t, t, 0.0], keep: [keep, keep, keep, 1.0], gravity: [g.x, g.y, g.z, 0.0] }
-    }
-
-    #[inline(always)]
-    fn translate(&self, place: &mut Quad, motion: &mut Quad, force: &Quad) {
-        let inverse_mass = motion.fourth();
-        for entry in 0..4 {
-            let gained = (force.0[entry] * inverse_mass + self.gravity[entry]) * self.time[entry];
-            motion.0[entry] = (motion.0[entry] + gained) * self.keep[entry];
-            place.0[entry] += motion.0[entry] * self.time[entry];
+        Self {
+            time: Quad(joined([time.step; 3], 0.0)),
+            keep: Quad(joined([keep; 3], 1.0)),
+            gravity: Quad::new(&time.gravity, 0.0),
         }
     }
 }
 
-/// Largest squares met so far.
+/// Largest squares met so far, and the sum of all, which keeps what is not a number.
 #[derive(Default)]
-struct Fastest {
-    stray: f64,
-    turning: f64,
-    total: f64,
+struct Fastest<E> {
+    stray: E,
+    turning: E,
+    total: E,
 }
 
-impl Fastest {
+impl<E: Eight> Fastest<E> {
     #[inline(always)]
-    fn see(&mut self, motion: &Quad, drift: &Drifting) {
-        let mut square = 0.0;
-        for (velocity, drift) in motion.0.iter().zip(drift).take(3) {
-            let off = velocity - f64::from(*drift);
-            square += off * off;
-        }
-        self.stray = if square > self.stray { square } else { self.stray };
-        self.total += square;
+    fn see_strays(&mut self, squares: E) {
+        self.stray = squares.or_larger(self.stray);
+        self.total = self.total + squares;
     }
 
+    #[inline(always)]
+    fn see_turning(&mut self, squares: E) {
+        self.turning = squares.or_larger(self.turning);
+        self.total = self.total + squares;
+    }
+
+    #[inline(always)]
     fn pace(&self) -> Pace {
-        let stray = self.stray.sqrt() + self.turning.sqrt();
-        Pace { stray: if self.total < f64::INFINITY { stray } else { f64::INFINITY } }
+        let most = |squares: E| squares.lanes().into_iter().fold(0.0, larger_or_nan).sqrt();
+        let finite = self.total.lanes().iter().sum::<f64>() < f64::INFINITY;
+        Pace { stray: if finite { most(self.stray) + most(self.turning) } else { f64::INFINITY } }
     }
 }
 
