@@ -13,7 +13,8 @@ use crate::dem::tables::grains::Grain;
 use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::tables::surfaces::SurfaceRole;
 use crate::dem::time::integrate::{Stretch, move_nodes};
-use crate::dem::time::stable_step::{Audit, StepRatio};
+use crate::dem::time::links::Linked;
+use crate::dem::time::stable_step::{StepRatio, step_ratio};
 
 /// Steps between two audits of the stable step.
 const STEPS_PER_AUDIT: u64 = 500;
@@ -235,16 +236,18 @@ impl Simulation {
 
     /// Holds the time step against what is connected now, and cuts it where it is too long.
     fn audit(&mut self) -> Result<(), Unstable> {
-        let audit = Audit {
-            grains: &self.grains,
+        let barrier = self.model.barrier.as_ref();
+        let linked = Linked {
+            grains: self.grains.rows(),
             surfaces: &self.model.surfaces,
-            barrier: self.model.barrier.as_ref(),
+            barrier,
             blocks: &self.neighbours.blocks,
             law: self.law(),
             modulus: self.model.material.modulus,
             friction: self.model.material.friction,
         };
-        let ratio = audit.ratio();
+        let nodes = barrier.map_or(&[][..], |barrier| &barrier.nodes);
+        let ratio = step_ratio(&linked.links(), &self.grains, nodes, self.time_step);
         if ratio.value > self.extremes.step_ratio.value {
             self.extremes.step_ratio = ratio;
         }

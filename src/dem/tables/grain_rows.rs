@@ -64,6 +64,15 @@ impl<'a> GrainRows<'a> {
         }
     }
 
+    /// Number of grains.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
     /// Centre of mass (m); radius of each member sphere (m).
     #[inline(always)]
     pub fn place(&self, row: usize) -> Quad {

@@ -1,4 +1,5 @@
 //! Time: how long a step may be, and how bodies move through it.
 
 pub mod integrate;
+pub mod links;
 pub mod stable_step;

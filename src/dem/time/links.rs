@@ -1,0 +1,204 @@
+//! Everything that connects bodies now, as springs and dashpots: what the stable step depends on.
+
+use crate::dem::Vec3;
+use crate::dem::contact::law::{LawConstants, Spring};
+use crate::dem::contact::pair_list::Separation;
+use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
+use crate::dem::crew;
+use crate::dem::neighbours::blocks::Block;
+use crate::dem::neighbours::clocks::Clock;
+use crate::dem::tables::barrier::Barrier;
+use crate::dem::tables::grain_rows::GrainRows;
+use crate::dem::tables::surfaces::Surface;
+
+/// Velocity and spin of a body, or force and torque on it.
+pub type Twist = [Vec3; 2];
+
+/// One body's end of a link.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct End {
+    /// Number of the body: grains first, then the nodes of the barrier.
+    pub body: u32,
+    /// Share of the link that the body takes, with sign.
+    pub share: f64,
+    /// From the body's centre to the link (m).
+    pub arm: Vec3,
+}
+
+/// A spring and dashpot between up to three bodies, or bodies and the ground.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Link {
+    ends: [End; 3],
+    count: usize,
+    direction: Vec3,
+    /// Stiffness along the direction and across it (N/m).
+    along: f64,
+    across: f64,
+    /// Dashpot along the direction (N s/m).
+    damping: f64,
+}
+
+impl Link {
+    fn between(ends: impl IntoIterator<Item = End>) -> Self {
+        let mut link = Self::default();
+        for (place, end) in link.ends.iter_mut().zip(ends) {
+            *place = end;
+            link.count += 1;
+        }
+        link
+    }
+
+    pub fn ends(&self) -> &[End] {
+        &self.ends[..self.count]
+    }
+
+    /// How fast the ends part in the given motion of all bodies (m/s).
+    pub fn parting(&self, motion: &[Twist]) -> Vec3 {
+        let mut parting = Vec3::zeros();
+        for end in self.ends() {
+            let [velocity, spin] = &motion[end.body as usize];
+            parting += (velocity + spin.cross(&end.arm)) * end.share;
+        }
+        parting
+    }
+
+    /// Forces of spring and dashpot to a displacement or velocity of the ends.
+    pub fn pull(&self, parting: &Vec3) -> [Vec3; 2] {
+        let along = self.direction * self.direction.dot(parting);
+        [along * (self.along - self.across) + parting * self.across, along * self.damping]
+    }
+
+    /// Puts a force on all ends.
+    pub fn push(&self, force: &Vec3, onto: &mut [Twist]) {
+        for end in self.ends() {
+            let [linear, torque] = &mut onto[end.body as usize];
+            let share = force * end.share;
+            *linear += share;
+            *torque += end.arm.cross(&share);
+        }
+    }
+
+    /// Sum of the stiffness in all three directions (N/m).
+    pub fn trace(&self) -> f64 {
+        self.along + 2.0 * self.across
+    }
+}
+
+/// What there is to be linked.
+pub struct Linked<'a> {
+    pub grains: GrainRows<'a>,
+    pub surfaces: &'a [Surface],
+    pub barrier: Option<&'a Barrier>,
+    pub blocks: &'a [Block],
+    pub law: LawConstants,
+    pub modulus: f64,
+    pub friction: f64,
+}
+
+impl Linked<'_> {
+    /// All links, in a fixed order; contacts with friction springs that stick, ropes as far as they are taut.
+    pub fn links(&self) -> Vec<Vec<Link>> {
+        let mut links = crew::map(self.blocks, |_, block| {
+            let mut links = Vec::new();
+            self.add_pairs(block, &mut links);
+            self.add_surfaces(block, &mut links);
+            self.add_ropes(block, &mut links);
+            links
+        });
+        links.extend(self.barrier.map(|barrier| self.elements(barrier)));
+        links
+    }
+
+    fn add_pairs(&self, block: &Block, links: &mut Vec<Link>) {
+        for &[first, second] in block.inner.touching.iter().chain(&block.border.touching) {
+            let (a, b) = (self.grains.member(first as usize), self.grains.member(second as usize));
+            let line = b.centre - a.centre;
+            let distance = line.norm();
+            if distance >= a.radius + b.radius {
+                continue;
+            }
+            let normal = line / distance;
+            let stiffness = 2.0 * self.modulus * a.radius * b.radius / (a.radius + b.radius);
+            let foot = a.centre + normal * (0.5 * (distance + a.radius - b.radius));
+            let link = Link::between([self.grain_end(first, &foot, -1.0), self.grain_end(second, &foot, 1.0)]);
+            links.push(self.contact(link, normal, stiffness, a.inverse_mass + b.inverse_mass));
+        }
+    }
+
+    fn add_surfaces(&self, block: &Block, links: &mut Vec<Link>) {
+        for &[index, surface] in &block.surfaces.touching {
+            let member = self.grains.member(index as usize);
+            let foot = self.surfaces[surface as usize].nearest(&member.centre);
+            let towards = foot - member.centre;
+            let distance = towards.norm();
+            if distance < member.radius && distance > 0.0 {
+                let link = Link::between([self.grain_end(index, &foot, 1.0)]);
+                let stiffness = self.modulus * member.radius;
+                links.push(self.contact(link, towards / distance, stiffness, member.inverse_mass));
+            }
+        }
+    }
+
+    fn add_ropes(&self, block: &Block, links: &mut Vec<Link>) {
+        let Some(barrier) = self.barrier else { return };
+        let context = RopeContext {
+            grains: self.grains,
+            barrier,
+            law: self.law,
+            grain_modulus: self.modulus,
+            grain_friction: self.friction,
+            clock: Clock::default(),
+        };
+        let on_ropes = OnRopes { grains: self.grains, barrier };
+        for &[index, segment] in &block.ropes.list.touching {
+            if on_ropes.gap([index, segment]) >= 0.0 {
+                continue;
+            }
+            let Some(contact) = touch_rope(&self.grains.member(index as usize), segment, &context) else {
+                continue;
+            };
+            let nodes = barrier.segments[segment as usize].nodes;
+            let on_nodes = [(nodes[0], 1.0 - contact.share), (nodes[1], contact.share)];
+            let on_nodes = on_nodes.into_iter().filter_map(|(node, share)| self.node_end(barrier, node, share));
+            let link = Link::between([self.grain_end(index, &contact.foot, -1.0)].into_iter().chain(on_nodes));
+            let normal = Vec3::from(contact.point.normal);
+            links.push(self.contact(link, normal, contact.point.spring.stiffness, contact.inverse_mass));
+        }
+    }
+
+    fn elements(&self, barrier: &Barrier) -> Vec<Link> {
+        let ropes = barrier.segments.iter().map(|s| (s.nodes, s.stiffness, s.damping, s.rest_length));
+        let brakes = barrier.dissipators.iter().map(|d| (d.nodes, d.stiffness, 0.0, d.rest_length + d.used));
+        let taut = ropes.chain(brakes).filter_map(|(nodes, stiffness, damping, slack)| {
+            let [a, b] = nodes.map(|node| &barrier.nodes[node as usize]);
+            let line = b.position - a.position;
+            let length = line.norm();
+            let across = stiffness * (length - slack) / length;
+            let ends = [(nodes[0], -1.0), (nodes[1], 1.0)];
+            let ends = ends.into_iter().filter_map(|(node, share)| self.node_end(barrier, node, share));
+            let link = Link { direction: line / length, along: stiffness, across, damping, ..Link::between(ends) };
+            // Asked so that a NaN is seen.
+            let slack = length < slack || length == 0.0;
+            (!slack).then_some(link)
+        });
+        taut.collect()
+    }
+
+    /// A contact with its normal spring and dashpot, and its friction spring.
+    fn contact(&self, link: Link, normal: Vec3, stiffness: f64, inverse_mass: f64) -> Link {
+        let damping = self.law.damping(&Spring::new(stiffness, inverse_mass));
+        let across = self.law.tangential_ratio * stiffness;
+        Link { direction: normal, along: stiffness, across, damping, ..link }
+    }
+
+    fn grain_end(&self, member: u32, foot: &Vec3, share: f64) -> End {
+        let row = member as usize / self.grains.shape.members();
+        End { body: row as u32, share, arm: foot - self.grains.place(row).vector() }
+    }
+
+    /// Nothing for a node that never moves.
+    fn node_end(&self, barrier: &Barrier, node: u32, share: f64) -> Option<End> {
+        let body = self.grains.len() as u32 + node;
+        (!barrier.nodes[node as usize].fixed).then(|| End { body, share, arm: Vec3::zeros() })
+    }
+}
