@@ -14,8 +14,9 @@ use crate::dem::model::Model;
 use crate::dem::neighbours::blocks::{Block, Outbox};
 use crate::dem::neighbours::renew::Neighbours;
 use crate::dem::net::{NetForces, pull_all};
+use crate::dem::simd::eight::LANES;
 use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grain_rows::{GrainRows, RowsInMotion};
+use crate::dem::tables::grain_rows::{Foresight, GrainRows, RowsInMotion};
 use crate::dem::tables::grain_table::{GrainLoad, GrainTable};
 use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::time::integrate::{Pace, Stretch};
@@ -38,7 +39,10 @@ pub fn sweep(
     let mut paces = vec![Pace::default(); blocks.len()];
     let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &mut net));
     let turns = blocks.iter_mut().zip(&mut paces).enumerate();
-    let turns = turns.map(|(number, (block, pace))| Part::Block(Turn { number, block, loads: Vec::new(), pace }));
+    let turns = turns.map(|(number, (block, pace))| {
+        let foresight = Foresight::none(rows.seen());
+        Part::Block(Turn { number, block, loads: Vec::new(), foresight, pace })
+    });
     crew::wave(
         elements.into_iter().chain(turns),
         |part| match part {
@@ -46,7 +50,8 @@ pub fn sweep(
             Part::Block(turn) => {
                 let mut outbox = outboxes[turn.number].write().unwrap_or_else(PoisonError::into_inner);
                 turn.loads = sheets.take(turn.block.grains.len());
-                forces.load_block(turn.block, &mut turn.loads, &mut outbox);
+                turn.foresight = forces.foresight(turn.block);
+                forces.load_block(turn.block, &mut turn.loads, &mut outbox, &mut turn.foresight);
             }
         },
         |part| {
@@ -55,7 +60,7 @@ pub fn sweep(
                 // SAFETY: this block and all before it are loaded. Later blocks read no rows but their own and those of
                 // blocks after them, and every block is moved once.
                 let moving = unsafe { rows.take(&turn.block.grains, &mut turn.loads) };
-                *turn.pace = moving.advance(time);
+                *turn.pace = moving.advance(time, &mut turn.foresight);
                 sheets.give_back(std::mem::take(&mut turn.loads));
             }
         },
@@ -74,6 +79,7 @@ struct Turn<'a> {
     number: usize,
     block: &'a mut Block,
     loads: Vec<GrainLoad>,
+    foresight: Foresight<'a>,
     pace: &'a mut Pace,
 }
 
@@ -100,18 +106,28 @@ struct BlockForces<'a> {
     hands: usize,
 }
 
-impl BlockForces<'_> {
-    fn load_block(&self, block: &mut Block, loads: &mut [GrainLoad], outbox: &mut Outbox) {
+impl<'a> BlockForces<'a> {
+    /// The rows of the block that this thread is likely to take next, asked for over the time that one block takes.
+    fn foresight(&self, block: &Block) -> Foresight<'a> {
+        let ahead = self.hands * block.grains.len();
+        let next = block.grains.start + ahead..block.grains.end + ahead;
+        Foresight::of(self.grains, &next, (block.inner.touching.len() + block.grains.len()) / LANES)
+    }
+
+    fn load_block(
+        &self,
+        block: &mut Block,
+        loads: &mut [GrainLoad],
+        outbox: &mut Outbox,
+        foresight: &mut Foresight<'a>,
+    ) {
         let Self { model, grains, law, .. } = *self;
         let clocks = block.clocks;
         let material = &model.material;
         outbox.clear();
-        // The next block that this thread is likely to take.
-        let ahead = self.hands * block.grains.len();
-        let next = block.grains.start + ahead..block.grains.end + ahead;
         let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
         let pairs = |clock| PairContext { grains, constants, clock };
-        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, &next);
+        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, foresight);
         sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
         let surfaces = SurfaceContext {
             grains,

@@ -13,7 +13,7 @@ use crate::dem::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::blocks::{Letter, Outbox};
 use crate::dem::neighbours::clocks::Clock;
-use crate::dem::simd::eight::{Eight, LANES, Row, each_lane};
+use crate::dem::simd::eight::{Eight, Row, each_lane};
 use crate::dem::simd::real::{add_scaled, dot, minus};
 use crate::dem::simd::widest::{Work, with_widest};
 use crate::dem::tables::grain_rows::{Foresight, GrainRows};
@@ -37,16 +37,15 @@ pub struct PairContext<'a> {
     pub clock: Clock,
 }
 
-/// Loads both grains of every touching pair inside the block; `loads` holds the rows of `range`. Meanwhile asks for the
-/// rows of `next`.
-pub fn load_inner(
+/// Loads both grains of every touching pair inside the block; `loads` holds the rows of `range`. Meanwhile goes on
+/// with `foresight`.
+pub fn load_inner<'b>(
     list: &mut PairList,
-    context: &PairContext,
+    context: &PairContext<'b>,
     range: &Range<usize>,
     loads: &mut [GrainLoad],
-    next: &Range<usize>,
+    foresight: &mut Foresight<'b>,
 ) -> ContactSums {
-    let foresight = Foresight::of(context.grains, next, list.touching.len() / LANES);
     load(list, context, loads, range.start, foresight, Here(range.start))
 }
 
@@ -58,16 +57,15 @@ pub fn load_border(
     loads: &mut [GrainLoad],
     outbox: &mut Outbox,
 ) -> ContactSums {
-    let foresight = Foresight::of(context.grains, &(0..0), 1);
-    load(list, context, loads, range.start, foresight, outbox)
+    load(list, context, loads, range.start, &mut Foresight::none(context.grains), outbox)
 }
 
-fn load(
+fn load<'b>(
     list: &mut PairList,
-    context: &PairContext,
+    context: &PairContext<'b>,
     loads: &mut [GrainLoad],
     start: usize,
-    foresight: Foresight,
+    foresight: &mut Foresight<'b>,
     target: impl Target,
 ) -> ContactSums {
     match context.grains.shape {
@@ -113,7 +111,7 @@ struct LoadPairs<'a, 'b, const CLUMPS: bool, T> {
     context: &'a PairContext<'b>,
     loads: &'a mut [GrainLoad],
     start: usize,
-    foresight: Foresight<'b>,
+    foresight: &'a mut Foresight<'b>,
     target: T,
 }
 

@@ -167,6 +167,11 @@ impl<'a> Foresight<'a> {
         Self { rows, left, portion }
     }
 
+    /// Asks for nothing.
+    pub fn none(rows: GrainRows<'a>) -> Self {
+        Self { rows, left: 0..0, portion: 0 }
+    }
+
     /// Asks for the next portion.
     #[inline(always)]
     pub fn go_on(&mut self) {

@@ -8,6 +8,7 @@ use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, plus, scaled};
 use crate::dem::simd::widest::{Work, with_widest};
 use crate::dem::tables::barrier::Node;
+use crate::dem::tables::grain_rows::Foresight;
 use crate::dem::tables::grain_table::{GrainLoad, Quad};
 use crate::dem::{Vec3, larger_or_nan};
 
@@ -46,9 +47,9 @@ pub struct Pace {
 }
 
 impl MovingRows<'_> {
-    /// Moves all grains through one step.
-    pub fn advance(self, time: &Stretch) -> Pace {
-        with_widest(Advance { rows: self, time })
+    /// Moves all grains through one step. Meanwhile goes on with `foresight`.
+    pub fn advance(self, time: &Stretch, foresight: &mut Foresight) -> Pace {
+        with_widest(Advance { rows: self, time, foresight })
     }
 
     /// Parts the first `count` grains from the rest.
@@ -76,12 +77,13 @@ impl MovingRows<'_> {
 }
 
 /// The rows of a block, to be moved with any vectors.
-struct Advance<'a, 'b> {
+struct Advance<'a, 'b, 'c> {
     rows: MovingRows<'a>,
     time: &'b Stretch,
+    foresight: &'b mut Foresight<'c>,
 }
 
-impl Work for Advance<'_, '_> {
+impl Work for Advance<'_, '_, '_> {
     type Output = Pace;
 
     #[inline(always)]
@@ -93,6 +95,7 @@ impl Work for Advance<'_, '_> {
             let count = LANES.min(rest.place.len());
             let (eight, others) = rest.split(count);
             rest = others;
+            self.foresight.go_on();
             let mut eight = UpToEight(eight);
             fastest.see_strays(eight.translate(&steps));
             if eight.0.axis.is_empty() {
