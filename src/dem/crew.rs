@@ -111,9 +111,20 @@ pub fn wave<T: Send>(
         work(&mut items[number].lock().unwrap_or_else(PoisonError::into_inner));
     };
     let front = Front::over(items.len());
-    crew.share(items.len(), &|number| {
-        turn(number, &first);
-        front.pass(number, |ready| turn(ready, &second));
+    // Whoever finds no item left helps to bring the front to the end.
+    crew.share(items.len() + crew.hands, &|number| {
+        if number < items.len() {
+            let breaking = Breaking(&front);
+            turn(number, &first);
+            std::mem::forget(breaking);
+            front.note(number);
+            front.advance(|ready| turn(ready, &second));
+        } else {
+            while front.is_open() {
+                front.advance(|ready| turn(ready, &second));
+                std::hint::spin_loop();
+            }
+        }
     });
 }
 
@@ -129,17 +140,24 @@ pub fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(u
 struct Front {
     through: Vec<AtomicBool>,
     next: AtomicUsize,
+    /// An item has failed: the front will never come to the end.
+    broken: AtomicBool,
 }
 
 impl Front {
     fn over(items: usize) -> Self {
-        Self { through: (0..items).map(|_| AtomicBool::new(false)).collect(), next: AtomicUsize::new(0) }
+        let through = (0..items).map(|_| AtomicBool::new(false)).collect();
+        Self { through, next: AtomicUsize::new(0), broken: AtomicBool::new(false) }
     }
 
-    /// Notes that item `number` is through, and calls `work` for every item that the front may pass now. All orderings
-    /// are sequential: of two threads that note neighbouring items at the same time, one must see both.
-    fn pass(&self, number: usize, work: impl Fn(usize)) {
+    /// Notes that item `number` is through. All orderings are sequential: of two threads that note neighbouring items at the
+    /// same time, one must see both.
+    fn note(&self, number: usize) {
         self.through[number].store(true, Ordering::SeqCst);
+    }
+
+    /// Calls `work` for every item that the front may pass now.
+    fn advance(&self, work: impl Fn(usize)) {
         loop {
             let next = self.next.load(Ordering::SeqCst);
             if !self.through.get(next).is_some_and(|through| through.load(Ordering::SeqCst)) {
@@ -149,6 +167,19 @@ impl Front {
                 work(next);
             }
         }
+    }
+
+    fn is_open(&self) -> bool {
+        self.next.load(Ordering::SeqCst) < self.through.len() && !self.broken.load(Ordering::SeqCst)
+    }
+}
+
+/// Breaks a front when dropped, which happens only when an item fails.
+struct Breaking<'a>(&'a Front);
+
+impl Drop for Breaking<'_> {
+    fn drop(&mut self) {
+        self.0.broken.store(true, Ordering::SeqCst);
     }
 }
 
@@ -307,6 +338,14 @@ mod tests {
                 });
             });
         }
+    }
+
+    #[test]
+    fn a_panic_in_a_wave_ends_it() {
+        let outcome = std::panic::catch_unwind(|| {
+            pool(2).install(|| gather(|| wave(0..100, |item: &mut i32| assert!(*item != 57, "item 57"), |_| ())));
+        });
+        assert!(outcome.is_err());
     }
 
     #[test]
