@@ -25,13 +25,23 @@ const RENEWALS_PER_ORDERING: u64 = 20;
 /// Share of a list's reach that a survey must leave, or the list is renewed.
 const WORTH_KEEPING: f64 = 0.1;
 
+/// Ages of lists (steps) below and above which the reach of the next ones is changed, by how much, and its largest value
+/// over the least.
+const AGE_TO_WIDEN: u32 = 100;
+const AGE_TO_NARROW: u32 = 400;
+const SKIN_CHANGE: f64 = 1.1;
+const WIDEST_SKIN: f64 = 2.0;
+
 /// Pair lists and what is needed to know when they expire.
 pub struct Neighbours {
     pub blocks: Vec<Block>,
     /// What each block has for others; locked because blocks are worked on at the same time.
     pub outboxes: Vec<RwLock<Outbox>>,
-    /// Extra reach of the lists (m).
+    /// Extra reach of the lists (m): wider where they soon expire, down to the given one where they last.
     pub skin: f64,
+    least_skin: f64,
+    /// Steps since the lists were made.
+    age: u32,
     pub renewals: u64,
     pub clocks: Clocks,
     /// Drift of the flow at each grain.
@@ -66,6 +76,8 @@ impl Neighbours {
             blocks: Vec::new(),
             outboxes: Vec::new(),
             skin,
+            least_skin: skin,
+            age: 0,
             renewals: 0,
             clocks: Clocks::default(),
             drift: Vec::new(),
@@ -98,6 +110,7 @@ impl Neighbours {
     /// Moves all clocks on through a step of length `step` (s) in which the blocks went at `paces` and no barrier node
     /// faster than `nodes` (m/s).
     pub fn tick(&mut self, paces: &[Pace], step: f64, nodes: f64) {
+        self.age += 1;
         let stray = paces.iter().map(|pace| pace.stray).fold(0.0, f64::max);
         self.clocks.tick(step, stray, nodes);
         for (block, pace) in self.blocks.iter_mut().zip(paces) {
@@ -134,6 +147,7 @@ impl Neighbours {
         if self.renewals.is_multiple_of(RENEWALS_PER_ORDERING) {
             reorder(bodies.grains);
         }
+        self.adapt_skin();
         let grains = &*bodies.grains;
         let new_rows = self.rows_now(grains);
         let memories = self.collect(&new_rows, grains.members());
@@ -144,6 +158,17 @@ impl Neighbours {
         self.fill(bodies, &memories);
         self.restart(bodies);
         self.renewals += 1;
+    }
+
+    /// Chooses the reach of the next lists by how long the last ones lived: long lists cost little in a step, since their
+    /// pairs sleep, but more to make, and memory.
+    fn adapt_skin(&mut self) {
+        if self.renewals > 0 && self.age < AGE_TO_WIDEN {
+            self.skin = (self.skin * SKIN_CHANGE).min(WIDEST_SKIN * self.least_skin);
+        } else if self.age > AGE_TO_NARROW {
+            self.skin = (self.skin / SKIN_CHANGE).max(self.least_skin);
+        }
+        self.age = 0;
     }
 
     /// Restarts the clocks at the present places.
