@@ -11,9 +11,9 @@
 //! |---|---|
 //! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
-//! | a contact law | a file beside [`dem::contact::law`]; its callers are [`dem::contact::grain_batch`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and the audit in [`dem::time::stable_step`] |
+//! | a contact law | a file beside [`dem::contact::law`]; its callers are [`dem::contact::grain_pairs`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and, for the stable step, [`dem::time::links`] |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
-//! | a structural element | a file in [`dem::elements`], its forces in [`dem::net`] |
+//! | a structural element | a file in [`dem::elements`], its forces in [`dem::net`], its stiffness in [`dem::time::links`] |
 //! | a load model | a file in [`loads`], its use in [`demand::from_loads`] |
 //! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
 //! | a time series | [`dem::recorders`] |
@@ -27,13 +27,16 @@
 //! * Everything inside is SI; units live at the borders, in [`units`].
 //! * The same file and seed give the same result bit for bit, on any number of threads: work is cut into blocks by the
 //!   number of grains alone, blocks never write each other's rows, and sums run in a fixed order. Vector instructions
-//!   are chosen at run time, but every lane does the same operations in the same order, and nothing is fused.
+//!   are chosen at run time ([`dem::simd::widest`]), but always eight numbers stand side by side, every lane does the same
+//!   operations in the same order, and nothing is fused.
+//! * A block is moved as soon as it and all before it are loaded ([`dem::sweep`]); until then its rows stand still.
 //! * A pair of bodies that could touch in the step at hand is evaluated in it: lists expire and sleeping pairs wake by bounds
 //!   on motion, never by guesses ([`dem::neighbours::clocks`]).
 //! * The channel frame: x down the slope with the barrier's foot at 0, y across, z normal to the bed.
 //! * A run that becomes unstable or breaks a limit of [`checks::credibility`] never passes.
 //! * Only [`commands`] and the report's writer touch files; only one file names the broad-phase library; `unsafe` stands in
-//!   [`dem::crew`], [`dem::tables::prefetch`] and where vector instructions are chosen.
+//!   [`dem::crew`], [`dem::simd`], [`dem::tables::prefetch`], and around the rows that are moved while others are read
+//!   ([`dem::tables::grain_rows`], [`dem::sweep`]).
 
 pub mod checks;
 pub mod commands;

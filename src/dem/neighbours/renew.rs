@@ -30,7 +30,7 @@ const WORTH_KEEPING: f64 = 0.1;
 const AGE_TO_WIDEN: u32 = 100;
 const AGE_TO_NARROW: u32 = 400;
 const SKIN_CHANGE: f64 = 1.1;
-const WIDEST_SKIN: f64 = 2.0;
+const WIDEST_SKIN: f64 = 1.5;
 
 /// Pair lists and what is needed to know when they expire.
 pub struct Neighbours {
