@@ -2,7 +2,7 @@
 //!
 //!     cargo bench                      timings by criterion, then the table
 //!     cargo bench -- --table           the table alone
-//!     benches/peers/compare.sh         beside LAMMPS, on the same states
+//!     benches/peers/compare.sh         beside LAMMPS, LIGGGHTS and Yade, on the same states
 //!
 //! The table tells contacts per sphere z, ns per sphere-step, sphere-steps per second, ns per contact and bytes per sphere;
 //! and what two threads reach against two independent runs of one thread each at the same time, on the same machine.

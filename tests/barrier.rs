@@ -125,6 +125,32 @@ fn a_step_beyond_the_critical_one_is_noticed() {
     assert!(simulation.extremes.step_ratio.value < 1.0);
 }
 
+/// Four springs in a row between two walls, three equal masses: ω² = (2 + √2) k/m along the row, and the audit adds its
+/// margin of 1.10 to what it finds. A step beyond the critical one is cut to just below it.
+#[test]
+fn the_audit_finds_the_closed_form_of_a_row_of_masses() {
+    let build = || {
+        let mut barrier = Barrier::default();
+        barrier.nodes = (0..5).map(|i| node(Vec3::new(f64::from(i), 0.0, 0.0), 1.0, i == 0 || i == 4)).collect();
+        barrier.segments = (0..4).map(|i| segment([i, i + 1], 0.999_99, 0.0)).collect();
+        barrier
+    };
+    let stiffness = AXIAL_STIFFNESS / 0.999_99;
+    let critical = 2.0 / ((2.0 + std::f64::consts::SQRT_2) * stiffness).sqrt();
+    let ratio = |share: f64| {
+        let mut simulation = simulate(build(), Vec3::zeros(), share * critical);
+        (0..600).try_for_each(|_| simulation.step()).map(|()| (simulation.extremes.step_ratio.value, simulation))
+    };
+    let (found, simulation) = ratio(0.5).expect("stable");
+    assert_relative_eq!(found, 0.5 * 1.1_f64.sqrt(), max_relative = 0.01);
+    assert_eq!(simulation.step_cuts, 0);
+    // At rest, so that nothing grows before the audit comes.
+    let (found, simulation) = ratio(1.3).expect("cut in time");
+    assert_relative_eq!(found, 1.3 * 1.1_f64.sqrt(), max_relative = 0.01);
+    assert_eq!(simulation.step_cuts, 1);
+    assert!(simulation.time_step < critical);
+}
+
 /// A grain on a knot from which all ropes lead away is pushed once, not once by each rope.
 #[test]
 fn a_grain_on_a_knot_is_pushed_once() {

@@ -1,6 +1,6 @@
 //! A standing crew of threads that shares the work of every step.
 //!
-//! A step has two short stretches of parallel work, some hundred microseconds each. Handing each of them to sleeping threads
+//! A step has a short stretch of parallel work, some hundred microseconds. Handing it to sleeping threads
 //! costs as much as the work; so the crew stays awake for as long as a run lasts, and takes the parts of a stretch one by one
 //! until none is left. Which thread takes which part does not matter for the result. Outside [`gather`] every stretch is
 //! worked off by the calling thread alone.
@@ -22,7 +22,8 @@ const INSIDE: u64 = 2;
 const INSIDE_MASK: u64 = 0xffff << 1;
 const STRETCH: u64 = 1 << 17;
 
-type Part<'a> = dyn Fn(usize) + Sync + 'a;
+/// Works off the part of the given number.
+type PartWork<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// What helpers and leader share.
 struct Crew {
@@ -33,7 +34,7 @@ struct Crew {
     next: AtomicUsize,
     parts: AtomicUsize,
     /// The stretch at hand; written by the leader while it is closed and nobody is inside.
-    work: UnsafeCell<Option<&'static Part<'static>>>,
+    work: UnsafeCell<Option<&'static PartWork<'static>>>,
     failed: AtomicBool,
     dismissed: AtomicBool,
 }
@@ -184,19 +185,38 @@ impl Drop for Breaking<'_> {
 }
 
 /// Leads a crew until dropped; then dismisses it.
-struct Leader(&'static Crew);
+struct Leader {
+    crew: &'static Crew,
+    /// The crew that the thread led before.
+    before: Option<&'static Crew>,
+}
 
 impl Leader {
     fn of(crew: &'static Crew) -> Self {
-        LED.set(Some(crew));
-        Self(crew)
+        Self { crew, before: LED.replace(Some(crew)) }
     }
 }
 
 impl Drop for Leader {
     fn drop(&mut self) {
-        LED.set(None);
-        self.0.dismissed.store(true, Ordering::Release);
+        LED.set(self.before);
+        self.crew.dismissed.store(true, Ordering::Release);
+    }
+}
+
+/// Takes the crew away from its leader while a stretch is open: what a part does in parallel of its own accord, the thread
+/// that works on it does alone.
+struct Busy(Option<&'static Crew>);
+
+impl Busy {
+    fn new() -> Self {
+        Self(LED.take())
+    }
+}
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        LED.set(self.0);
     }
 }
 
@@ -217,14 +237,15 @@ impl Drop for Closing<'_> {
 
 impl Crew {
     /// Works off `parts` parts with whoever of the crew comes.
-    fn share(&self, parts: usize, work: &Part) {
+    fn share(&self, parts: usize, work: &PartWork) {
         if parts < 2 {
             (0..parts).for_each(work);
             return;
         }
+        let _busy = Busy::new();
         // SAFETY: the stretch is closed and nobody is inside (`Closing` has waited for that), so nobody reads `work`;
         // it is not read any more when `Closing` is dropped, before the borrow ends.
-        unsafe { *self.work.get() = Some(std::mem::transmute::<&Part, &'static Part<'static>>(work)) };
+        unsafe { *self.work.get() = Some(std::mem::transmute::<&PartWork, &'static PartWork<'static>>(work)) };
         self.parts.store(parts, Ordering::Relaxed);
         self.next.store(0, Ordering::Relaxed);
         let stretch = self.state.load(Ordering::Relaxed) & !(STRETCH - 1);
@@ -235,7 +256,7 @@ impl Crew {
         assert!(!self.failed.load(Ordering::Relaxed), "a helper of the crew has failed");
     }
 
-    fn take_parts(&self, work: &Part) {
+    fn take_parts(&self, work: &PartWork) {
         loop {
             let part = self.next.fetch_add(1, Ordering::Relaxed);
             if part >= self.parts.load(Ordering::Relaxed) {
@@ -346,6 +367,25 @@ mod tests {
             pool(2).install(|| gather(|| wave(0..100, |item: &mut i32| assert!(*item != 57, "item 57"), |_| ())));
         });
         assert!(outcome.is_err());
+    }
+
+    #[test]
+    fn work_within_a_part_is_done_by_its_own_thread() {
+        pool(4).install(|| {
+            gather(|| {
+                for _ in 0..300 {
+                    let worked = AtomicUsize::new(0);
+                    for_each(0..20, |_, _: i32| {
+                        for_each(0..10, |_, _: i32| {
+                            worked.fetch_add(1, Ordering::Relaxed);
+                        });
+                    });
+                    assert_eq!(worked.load(Ordering::Relaxed), 200);
+                }
+                gather(|| assert_eq!(hands(), 4));
+                assert_eq!(hands(), 4);
+            });
+        });
     }
 
     #[test]

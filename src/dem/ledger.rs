@@ -13,7 +13,6 @@ pub struct ContactSums {
     pub lost_friction: f64,
     /// Largest overlap over the smaller radius.
     pub overlap_ratio: f64,
-    pub contacts: u64,
 }
 
 impl ContactSums {
@@ -22,7 +21,6 @@ impl ContactSums {
         self.lost_damping += other.lost_damping;
         self.lost_friction += other.lost_friction;
         self.overlap_ratio = self.overlap_ratio.max(other.overlap_ratio);
-        self.contacts += other.contacts;
     }
 
     /// Books one contact.
@@ -32,7 +30,6 @@ impl ContactSums {
         self.lost_damping += response.lost_damping;
         self.lost_friction += response.lost_friction;
         self.overlap_ratio = self.overlap_ratio.max(overlap_ratio);
-        self.contacts += 1;
     }
 }
 

@@ -15,6 +15,10 @@ pub struct NetForces {
     pub tensions: Vec<f64>,
     /// Tension of each dissipator (N).
     pub brakes: Vec<f64>,
+    /// Torque on each node that turns (N m).
+    pub torques: Vec<Vec3>,
+    /// Axial force of each cylinder (N), tension positive.
+    pub axial: Vec<f64>,
     /// Force of all grains on the barrier (N).
     pub from_grains: Vec3,
     /// Elastic energy (J).
@@ -30,6 +34,7 @@ pub struct NetForces {
 pub fn pull_all(barrier: &Barrier, time_step: f64) -> NetForces {
     let mut net = NetForces {
         forces: vec![Vec3::zeros(); barrier.nodes.len()],
+        torques: vec![Vec3::zeros(); barrier.frames.len()],
         tensions: Vec::with_capacity(barrier.segments.len()),
         slipped: barrier.dissipators.clone(),
         ..NetForces::default()
@@ -54,13 +59,25 @@ pub fn pull_all(barrier: &Barrier, time_step: f64) -> NetForces {
         net.lost_dissipators += result.lost;
         net.brakes.push(result.tension);
     }
+    for cylinder in &barrier.cylinders {
+        let [a, b] = cylinder.nodes.map(|node| node as usize);
+        let strain = cylinder.strain([&barrier.nodes[a], &barrier.nodes[b]], [&barrier.frames[a], &barrier.frames[b]]);
+        net.forces[a] -= strain.force;
+        net.forces[b] += strain.force;
+        net.torques[a] += strain.moments[0];
+        net.torques[b] += strain.moments[1];
+        net.stored += strain.stored;
+        net.lost_ropes += strain.power_lost * time_step;
+        net.axial.push(strain.tension);
+    }
     net
 }
 
-/// Lets ropes slide through their rings at the present places; returns the energy lost (J).
-pub fn slide_all(barrier: &mut Barrier) -> f64 {
+/// Lets ropes slide through their rings at the present places, before they pull; returns the energy lost since the last step,
+/// which was of length `step` (J).
+pub fn slide_all(barrier: &mut Barrier, step: f64) -> f64 {
     let Barrier { nodes, segments, chains, .. } = barrier;
-    chains.iter().map(|chain| chain.slide(segments, nodes)).sum()
+    chains.iter().map(|chain| chain.slide(segments, nodes, step)).sum()
 }
 
 impl NetForces {

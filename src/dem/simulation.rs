@@ -12,7 +12,7 @@ use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::grains::Grain;
 use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::tables::surfaces::SurfaceRole;
-use crate::dem::time::integrate::{Stretch, move_nodes};
+use crate::dem::time::integrate::{Stretch, move_nodes, turn_frames};
 use crate::dem::time::links::Linked;
 use crate::dem::time::stable_step::{StepRatio, step_ratio};
 
@@ -138,7 +138,8 @@ impl Simulation {
         self.grains.grains()
     }
 
-    /// All contacts of grains with surfaces, with the forces of the step just made and the places after it.
+    /// All contacts of grains with surfaces at the present places: the springs as they are now, dashpots and friction as in the
+    /// step just made.
     pub fn surface_contacts(&self) -> impl Iterator<Item = SurfaceContact> {
         let lists = self.neighbours.blocks.iter().map(|block| &block.surfaces);
         lists.flat_map(|list| list.touching.iter().zip(&list.memory)).map(|(pair, memory)| {
@@ -246,8 +247,7 @@ impl Simulation {
             modulus: self.model.material.modulus,
             friction: self.model.material.friction,
         };
-        let nodes = barrier.map_or(&[][..], |barrier| &barrier.nodes);
-        let ratio = step_ratio(&linked.links(), &self.grains, nodes, self.time_step);
+        let ratio = step_ratio(&linked.links(), &self.grains, barrier, self.time_step);
         if ratio.value > self.extremes.step_ratio.value {
             self.extremes.step_ratio = ratio;
         }
@@ -265,14 +265,17 @@ impl Simulation {
     fn advance(&mut self) {
         let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
         let law = self.law();
+        if let Some(barrier) = &mut self.model.barrier {
+            self.ledger.lost_friction += slide_all(barrier, time.step);
+        }
         let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, &time);
         self.sums.net = net;
         self.gather_sums();
         let mut fastest_node = 0.0;
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_dissipators += self.sums.net.slip_dissipators(barrier);
-            self.ledger.lost_friction += slide_all(barrier);
             fastest_node = move_nodes(&mut barrier.nodes, &self.sums.net.forces, &time.gravity, time.step).sqrt();
+            turn_frames(&mut barrier.frames, &self.sums.net.torques, time.step);
         }
         self.neighbours.tick(&paces, time.step, fastest_node);
         self.steps += 1;
@@ -291,6 +294,11 @@ impl Simulation {
         for node in self.model.barrier.iter().flat_map(|barrier| &barrier.nodes).filter(|node| !node.fixed) {
             sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
             sums.potential -= node.mass * self.model.gravity.dot(&node.position);
+        }
+        for frame in self.model.barrier.iter().flat_map(|barrier| &barrier.frames).filter(|frame| !frame.held) {
+            let turning = 0.5 * frame.inertia * frame.spin.norm_squared();
+            sums.kinetic += turning;
+            sums.rotational += turning;
         }
         sums
     }

@@ -27,16 +27,22 @@ pub enum Suite {
     Bulk,
     /// Grains on rigid walls.
     Wall,
+    /// Ropes and cylinders.
+    Rope,
+    /// Dissipators.
+    Dissipator,
 }
 
 impl Suite {
-    pub const ALL: [Self; 3] = [Self::Contact, Self::Bulk, Self::Wall];
+    pub const ALL: [Self; 5] = [Self::Contact, Self::Bulk, Self::Wall, Self::Rope, Self::Dissipator];
 
     pub fn word(self) -> &'static str {
         match self {
             Self::Contact => "contact",
             Self::Bulk => "bulk",
             Self::Wall => "wall",
+            Self::Rope => "rope",
+            Self::Dissipator => "dissipator",
         }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! The names A1, B4, C5 … are those of the project's list of verification cases.
 
+pub mod barrier;
 pub mod bulk;
 pub mod case;
 pub mod contact;
@@ -46,4 +47,17 @@ pub const CASES: &[&Case] = &[
     &wall::variants::RESTITUTION,
     &wall::variants::FLUCTUATION,
     &wall::slopes::CASE,
+    &barrier::ropes::BAR,
+    &barrier::beams::TIP_LOAD,
+    &barrier::beams::ELASTICA,
+    &barrier::beams::WEIGHT,
+    &barrier::beams::TWIST,
+    &barrier::beams::VIBRATION,
+    &barrier::ropes::HANGING,
+    &barrier::ropes::SWINGING,
+    &barrier::ropes::POINT_LOAD,
+    &barrier::ropes::BRAKED,
+    &barrier::ropes::BLOCK,
+    &barrier::brakes::CYCLE,
+    &barrier::brakes::STOPPING,
 ];

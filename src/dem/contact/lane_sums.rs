@@ -10,29 +10,30 @@ pub struct LaneSums<E> {
     lost_damping: E,
     lost_friction: E,
     overlap_ratio: E,
-    contacts: E,
 }
 
 impl<E: Eight> LaneSums<E> {
     /// Books what the law said of eight contacts; `overlap_ratio` is the overlap over the smaller radius.
     #[inline(always)]
     pub fn count(&mut self, response: &Response<E>, overlap_ratio: E) {
-        let zero = E::all(0.0);
         self.stored = self.stored + response.stored;
         self.lost_damping = self.lost_damping + response.lost_damping;
         self.lost_friction = self.lost_friction + response.lost_friction;
         self.overlap_ratio = overlap_ratio.or_larger(self.overlap_ratio);
-        self.contacts = self.contacts + overlap_ratio.if_above(zero, E::all(1.0), zero);
     }
 
+    #[inline(always)]
     pub fn total(&self) -> ContactSums {
-        let add = |lanes: E| lanes.lanes().iter().sum::<f64>();
         ContactSums {
-            stored: add(self.stored),
-            lost_damping: add(self.lost_damping),
-            lost_friction: add(self.lost_friction),
+            stored: added(self.stored),
+            lost_damping: added(self.lost_damping),
+            lost_friction: added(self.lost_friction),
             overlap_ratio: self.overlap_ratio.lanes().into_iter().fold(0.0, f64::max),
-            contacts: add(self.contacts) as u64,
         }
     }
+}
+
+#[inline(always)]
+fn added<E: Eight>(lanes: E) -> f64 {
+    lanes.lanes().iter().sum()
 }

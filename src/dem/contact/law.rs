@@ -1,7 +1,7 @@
 //! The one contact law: linear spring with a dashpot that never pulls, and Coulomb friction.
 //!
 //! Normal force   F_n = max(0, k u + γ u̇),  γ = 2 ζ √(k m_r), ζ from the restitution and the step
-//! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = (2/7) k
+//! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = k × the tangential ratio (2/7)
 //!
 //! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step.
 //! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
@@ -125,8 +125,8 @@ pub struct Response<R = f64> {
 
 /// Force of one contact for one step, or of several side by side.
 ///
-/// Energy is accounted by the trapezoidal rule over the step just made, which equals the discrete work of
-/// the leapfrog integrator: dashpot ½(D_old + D_new) u̇ Δt, slip = work done minus change of stored energy. What a
+/// Energy is accounted by the trapezoidal rule over the step just made, which is the leapfrog integrator's discrete work but for
+/// terms that swing with the contact and do not add up: dashpot ½(D_old + D_new) u̇ Δt, slip = work done minus change of stored energy. What a
 /// friction spring still holds when its contact parts counts as lost by slip.
 #[inline(always)]
 pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: &LawConstants) -> Response<R> {

@@ -150,11 +150,6 @@ impl PairList {
         }
     }
 
-    /// All pairs, wherever they stand.
-    pub fn pairs(&self) -> impl Iterator<Item = &[u32; 2]> {
-        self.touching.iter().chain(&self.near).chain(self.alarms.pairs())
-    }
-
     /// Contacts with what they remember, with the members' rows renamed by `new_rows`; those of members that are
     /// gone (`u32::MAX`) are left out. `rename` names the other party.
     pub fn remembered<'a>(

@@ -1,8 +1,8 @@
 //! Contacts of grains with rope segments and nodes of a flexible barrier.
 //!
 //! A sphere meets a segment as a capsule. Where the nearest point of every segment at a node is the node
-//! itself, the node is touched once, through the segment with the lowest number, so that a grain on a
-//! crossing is not pushed once by each rope.
+//! itself, the node is touched once, through the segment with the lowest number, so that a grain on the convex side of a
+//! crossing is not pushed once by each rope. On a flat crossing a grain still touches each rope that it reaches.
 
 use std::ops::Range;
 

@@ -22,7 +22,7 @@ pub struct SurfaceContext<'a> {
     pub law: LawConstants,
     pub modulus: f64,
     pub grain_friction: f64,
-    /// Way that any grain can have gone since the lists were made (m).
+    /// Way that the block's grains and all nodes can have gone since the lists were made (m).
     pub clock: Clock,
     /// Heights that part the rigid wall into segments, from the bottom up (m); the last is its top.
     pub wall_levels: &'a [f64],
@@ -37,7 +37,7 @@ pub struct SurfaceForces {
     pub sides: Vec3,
     /// Force on the rigid wall (N).
     pub wall: Vec3,
-    /// Moment of the wall's normal force about its toe (N m).
+    /// Moment about its toe of the forces normal to the wall (N m).
     pub wall_moment: f64,
     /// Normal force on each wall segment (N).
     pub wall_segments: Vec<f64>,
@@ -134,9 +134,11 @@ impl LoadSurfaces<'_, '_> {
             forces[lane].store(&mut load.force);
             torques[lane].store(&mut load.torque);
             self.loads[*member as usize / members - self.start].join(&load);
-            let (role, height) = (self.context.surfaces[*surface as usize].role, touch.height[lane]);
+            let surface = &self.context.surfaces[*surface as usize];
+            // On an edge the push leans away from the surface's own normal.
+            let square = normal_forces[lane] * touch.facing[lane].dot(&surface.normal).abs();
             let levels = self.context.wall_levels;
-            self.forces.record(role, -load.force.vector(), normal_forces[lane], height, levels);
+            self.forces.record(surface.role, -load.force.vector(), square, touch.height[lane], levels);
         }
     }
 }
@@ -149,6 +151,8 @@ struct SurfaceTouch<E> {
     radius: E,
     /// From the grain's centre of mass to the nearest point (m).
     lever: Triple<E>,
+    /// Direction from the centre to the nearest point.
+    facing: [Vec3; LANES],
     /// Height of the nearest point over the surface's origin, along its first direction (m).
     height: [f64; LANES],
 }
@@ -160,6 +164,7 @@ impl<E: Eight> SurfaceTouch<E> {
         let grains = context.grains;
         let members = grains.shape.members();
         let (mut towards, mut lever, mut height) = ([Quad::default(); LANES], [Quad::default(); LANES], [0.0; LANES]);
+        let mut facing = [Vec3::zeros(); LANES];
         for (lane, [member, surface]) in eight.pairs.iter().enumerate() {
             let surface = &context.surfaces[*surface as usize];
             let (centre, radius) = grains.sphere(*member as usize);
@@ -167,6 +172,7 @@ impl<E: Eight> SurfaceTouch<E> {
             towards[lane] = Quad::new(&(foot - centre), radius);
             let from_grain = foot - grains.place(*member as usize / members).vector();
             lever[lane] = Quad::new(&from_grain, surface.friction.min(context.grain_friction));
+            facing[lane] = (foot - centre).try_normalize(0.0).unwrap_or(surface.normal);
             height[lane] = surface.spans[0].direction.dot(&(foot - surface.origin));
         }
         let row = |lane: usize| eight.pairs[lane][0] as usize / members;
@@ -187,7 +193,7 @@ impl<E: Eight> SurfaceTouch<E> {
             spring: Spring::new(radius * context.modulus, inverse_mass),
             friction,
         };
-        Self { point, radius, lever, height }
+        Self { point, radius, lever, facing, height }
     }
 }
 

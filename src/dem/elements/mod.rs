@@ -1,5 +1,6 @@
 //! Structural elements of a flexible barrier.
 
+pub mod cylinder;
 pub mod dissipator;
 pub mod rope;
 pub mod sliding;

@@ -24,22 +24,34 @@ const SWEEPS: usize = 2;
 const NEWTON_STEPS: usize = 2;
 
 impl Chain {
-    /// Lets the rope slide through its rings for one step; returns the energy lost in friction (J).
-    pub fn slide(&self, segments: &mut [Segment], nodes: &[Node]) -> f64 {
-        let mut lost = 0.0;
+    /// Lets the rope slide through its rings, at the places reached by a step of length `step` (s); returns the energy lost in
+    /// friction (J).
+    ///
+    /// Stretched at the old rest lengths the rope has stored ½ (T_n + T') ΔL in that step, but the integrator works with the
+    /// tension T_n+1 after the slide. The difference belongs to the slide:
+    /// lost = Σ E' − E_n+1 − ½ (T' − T_n+1) ΔL over all segments, primed before the slide.
+    pub fn slide(&self, segments: &mut [Segment], nodes: &[Node], step: f64) -> f64 {
+        let before: Vec<Side> = self.segments.iter().map(|&index| Side::of(&segments[index as usize], nodes)).collect();
         for sweep in 0..SWEEPS {
             let joints = 1..self.segments.len();
             if sweep % 2 == 0 {
-                joints.for_each(|joint| lost += self.slide_at(joint, segments, nodes));
+                joints.for_each(|joint| self.slide_at(joint, segments, nodes));
             } else {
-                joints.rev().for_each(|joint| lost += self.slide_at(joint, segments, nodes));
+                joints.rev().for_each(|joint| self.slide_at(joint, segments, nodes));
             }
         }
-        lost
+        let lost = self.segments.iter().zip(&before).map(|(&index, before)| {
+            let segment = &segments[index as usize];
+            let after = Side::of(segment, nodes);
+            let [a, b] = segment.nodes.map(|node| nodes[node as usize].velocity);
+            let stretched = (b - a).dot(&after.direction) * step;
+            before.energy - after.energy - 0.5 * (before.tension - after.tension) * stretched
+        });
+        lost.sum()
     }
 
     /// Slides the rope through the ring between segments `joint − 1` and `joint`.
-    fn slide_at(&self, joint: usize, segments: &mut [Segment], nodes: &[Node]) -> f64 {
+    fn slide_at(&self, joint: usize, segments: &mut [Segment], nodes: &[Node]) {
         let [first, second] = [self.segments[joint - 1] as usize, self.segments[joint] as usize];
         let [a, b] = [first, second].map(|index| Side::of(&segments[index], nodes));
         let cosine = a.direction.dot(&b.direction).clamp(-1.0, 1.0);
@@ -47,7 +59,7 @@ impl Chain {
         let (taut, slack, taut_index, slack_index) =
             if a.tension > b.tension { (a, b, first, second) } else { (b, a, second, first) };
         if taut.tension <= slack.tension * hold {
-            return 0.0;
+            return;
         }
         for _ in 0..NEWTON_STEPS {
             let [taut, slack] = [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
@@ -60,8 +72,6 @@ impl Chain {
             segments[taut_index].set_rest_length(segments[taut_index].rest_length + moved);
             segments[slack_index].set_rest_length(segments[slack_index].rest_length - moved);
         }
-        let [after_taut, after_slack] = [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
-        taut.energy + slack.energy - after_taut.energy - after_slack.energy
     }
 }
 

@@ -67,7 +67,8 @@ impl Alarms {
     }
 
     /// All sleeping pairs.
-    pub fn pairs(&self) -> impl Iterator<Item = &[u32; 2]> {
+    #[cfg(test)]
+    fn pairs(&self) -> impl Iterator<Item = &[u32; 2]> {
         self.slots.iter().flatten()
     }
 }

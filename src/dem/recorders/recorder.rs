@@ -126,7 +126,7 @@ impl Recorder {
             let net = &simulation.sums.net;
             add_tensions(sum, barrier, net, self.setup.ropes);
             sum.bed_force += bed_force(barrier, &net.forces, &self.setup.net_rows);
-            add_rows(&mut sum.anchors, &anchor_loads(barrier, &net.tensions, &net.brakes, self.setup.ropes));
+            add_rows(&mut sum.anchors, &anchor_loads(barrier, &net.forces, self.setup.ropes));
         }
     }
 
@@ -317,25 +317,11 @@ fn bed_force(barrier: &Barrier, forces: &[Vec3], rows: &[Vec<u32>]) -> Vec3 {
 }
 
 /// Load of each rope's higher loaded anchor: the vector sum of all that is tied to it.
-fn anchor_loads(barrier: &Barrier, tensions: &[f64], brakes: &[f64], ropes: usize) -> Vec<f64> {
+fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
     let mut loads = vec![0.0_f64; ropes];
     for anchor in &barrier.anchors {
-        let mut sum = Vec3::zeros();
-        let mut pull = |nodes: [u32; 2], tension: f64| {
-            let other = if nodes[0] == anchor.node { nodes[1] } else { nodes[0] };
-            let line = barrier.nodes[other as usize].position - barrier.nodes[anchor.node as usize].position;
-            sum += line * (tension / line.norm());
-        };
-        for &segment in &barrier.nodes[anchor.node as usize].segments {
-            pull(barrier.segments[segment as usize].nodes, tensions[segment as usize]);
-        }
-        for (dissipator, &tension) in barrier.dissipators.iter().zip(brakes) {
-            if dissipator.nodes[0] == anchor.node {
-                pull(dissipator.nodes, tension);
-            }
-        }
         let load = &mut loads[anchor.rope as usize];
-        *load = load.max(sum.norm());
+        *load = load.max(forces[anchor.node as usize].norm());
     }
     loads
 }

@@ -18,11 +18,12 @@ pub trait Work {
 pub fn with_widest<W: Work>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     {
-        if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512vl") {
-            // SAFETY: the processor was just asked for these features.
-            return unsafe { with_avx512(work) };
-        }
-        if std::arch::is_x86_feature_detected!("avx2") {
+        use std::arch::is_x86_feature_detected as has;
+        if has!("avx2") {
+            if has!("avx512f") && has!("avx512vl") {
+                // SAFETY: the processor was just asked for these features.
+                return unsafe { with_avx512(work) };
+            }
             // SAFETY: as above.
             return unsafe { with_avx2(work) };
         }
@@ -61,7 +62,7 @@ mod tests {
             let [x, y, z, w] = E::columns(rows);
             let (bits, lanes) = ((x - y).above_zero(), (x * y + z).lanes());
             let columns = [
-                (x - y) / w + 0.25,
+                (x - y) / w + 0.25 + E::default(),
                 (y * y).root().or_larger(z),
                 -z * 3.0 + E::from_lanes(lanes),
                 x.if_above(E::all(f64::NAN), y, w),
@@ -69,7 +70,9 @@ mod tests {
             let turned = E::rows(columns);
             let mut out = [Quad::default(); 8];
             for (lane, row) in turned.into_iter().enumerate() {
-                (row + rows[lane] * rows[lane]).with_fourth_of(rows[(lane + 1) % 8]).store(&mut out[lane]);
+                let short = E::Row::widened(&self.0[lane].0.map(|value| value as f32));
+                let sum = row + rows[lane] * rows[lane] - short * E::Row::all(0.75);
+                sum.with_fourth_of(rows[(lane + 1) % 8]).store(&mut out[lane]);
             }
             (out, bits)
         }

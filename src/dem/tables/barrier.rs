@@ -1,6 +1,9 @@
-//! Flexible barrier: point masses (nodes) joined by tension-only segments and dissipators.
+//! Flexible barrier: point masses (nodes) joined by tension-only segments, dissipators, or cylinders that bend.
+
+use nalgebra::UnitQuaternion;
 
 use crate::dem::Vec3;
+use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::sliding::Chain;
 
@@ -18,6 +21,18 @@ pub struct Node {
     pub radius: f64,
     /// Segments that end here; grains that touch the very node are found through it.
     pub segments: Vec<u32>,
+}
+
+/// How a node is turned, where cylinders meet in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    pub orientation: UnitQuaternion<f64>,
+    /// Angular velocity (rad/s), at half steps.
+    pub spin: Vec3,
+    /// Moment of inertia, the same about all axes (kg m²).
+    pub inertia: f64,
+    /// A clamped node never turns.
+    pub held: bool,
 }
 
 /// A straight piece of wire rope: a spring that pulls and never pushes, with a little damping.
@@ -64,6 +79,9 @@ pub struct Barrier {
     pub nodes: Vec<Node>,
     pub segments: Vec<Segment>,
     pub dissipators: Vec<Dissipator>,
+    /// Cylinders, and how each node is turned (one frame for each node, or none where there are no cylinders).
+    pub cylinders: Vec<Cylinder>,
+    pub frames: Vec<Frame>,
     pub anchors: Vec<Anchor>,
     /// Ropes that slide through their rings; empty where rings are pinned.
     pub chains: Vec<Chain>,

@@ -4,10 +4,12 @@
 //! axisymmetric body turns about its angular momentum at the rate |L|/I_t exactly, so free rotation keeps
 //! both momentum and energy to rounding.
 
+use nalgebra::UnitQuaternion;
+
 use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, plus, scaled};
 use crate::dem::simd::widest::{Work, with_widest};
-use crate::dem::tables::barrier::Node;
+use crate::dem::tables::barrier::{Frame, Node};
 use crate::dem::tables::grain_rows::Foresight;
 use crate::dem::tables::grain_table::{GrainLoad, Quad};
 use crate::dem::{Vec3, larger_or_nan};
@@ -252,4 +254,13 @@ pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64
         fastest = larger_or_nan(fastest, node.velocity.norm_squared());
     }
     fastest
+}
+
+/// Turns the nodes of a barrier through one step.
+pub fn turn_frames(frames: &mut [Frame], torques: &[Vec3], step: f64) {
+    for (frame, torque) in frames.iter_mut().zip(torques).filter(|(frame, _)| !frame.held) {
+        frame.spin += torque * (step / frame.inertia);
+        frame.orientation = UnitQuaternion::from_scaled_axis(frame.spin * step) * frame.orientation;
+        frame.orientation.renormalize_fast();
+    }
 }

@@ -5,6 +5,7 @@ use crate::dem::contact::law::{LawConstants, Spring};
 use crate::dem::contact::pair_list::Separation;
 use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::dem::crew;
+use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::barrier::Barrier;
@@ -36,6 +37,11 @@ pub struct Link {
     across: f64,
     /// Dashpot along the direction (N s/m).
     damping: f64,
+    /// Stiffness against turning of the second end relative to the first, across the direction and about it (N m).
+    bending: f64,
+    twisting: f64,
+    /// Damping over stiffness of everything, besides the dashpot (s).
+    damping_time: f64,
 }
 
 impl Link {
@@ -52,30 +58,39 @@ impl Link {
         &self.ends[..self.count]
     }
 
-    /// How fast the ends part in the given motion of all bodies (m/s).
-    pub fn parting(&self, motion: &[Twist]) -> Vec3 {
-        let mut parting = Vec3::zeros();
+    /// How fast the ends part (m/s) and turn against each other (rad/s) in the given motion of all bodies.
+    pub fn parting(&self, motion: &[Twist]) -> Twist {
+        let mut parting = [Vec3::zeros(); 2];
         for end in self.ends() {
             let [velocity, spin] = &motion[end.body as usize];
-            parting += (velocity + spin.cross(&end.arm)) * end.share;
+            parting[0] += (velocity + spin.cross(&end.arm)) * end.share;
+            parting[1] += spin * end.share;
         }
         parting
     }
 
-    /// Forces of spring and dashpot to a displacement or velocity of the ends.
-    pub fn pull(&self, parting: &Vec3) -> [Vec3; 2] {
+    /// Forces and torques of springs and of dashpots to a displacement or velocity of the ends.
+    pub fn pull(&self, [parting, turning]: &Twist) -> [Twist; 2] {
         let along = self.direction * self.direction.dot(parting);
-        [along * (self.along - self.across) + parting * self.across, along * self.damping]
+        let about = self.direction * self.direction.dot(turning);
+        let force = along * (self.along - self.across) + parting * self.across;
+        let torque = about * (self.twisting - self.bending) + turning * self.bending;
+        [[force, torque], [along * self.damping + force * self.damping_time, torque * self.damping_time]]
     }
 
-    /// Puts a force on all ends.
-    pub fn push(&self, force: &Vec3, onto: &mut [Twist]) {
+    /// Puts a force and a torque on all ends.
+    pub fn push(&self, [force, torque]: &Twist, onto: &mut [Twist]) {
         for end in self.ends() {
-            let [linear, torque] = &mut onto[end.body as usize];
+            let [linear, turning] = &mut onto[end.body as usize];
             let share = force * end.share;
             *linear += share;
-            *torque += end.arm.cross(&share);
+            *turning += end.arm.cross(&share) + torque * end.share;
         }
+    }
+
+    /// Sum of the stiffness against turning about all three directions (N m).
+    pub fn turning_trace(&self) -> f64 {
+        self.twisting + 2.0 * self.bending
     }
 
     /// Sum of the stiffness in all three directions (N/m).
@@ -106,6 +121,7 @@ impl Linked<'_> {
             links
         });
         links.extend(self.barrier.map(|barrier| self.elements(barrier)));
+        links.extend(self.barrier.map(|barrier| self.cylinders(barrier)));
         links
     }
 
@@ -182,6 +198,31 @@ impl Linked<'_> {
             (!slack).then_some(link)
         });
         taut.collect()
+    }
+
+    /// Each cylinder as a spring at its middle with the shear stiffness 12 EI/L³ across, and springs against turning.
+    fn cylinders(&self, barrier: &Barrier) -> Vec<Link> {
+        let nodes = self.grains.len() as u32;
+        let link = |cylinder: &Cylinder| {
+            let [a, b] = cylinder.nodes.map(|node| barrier.nodes[node as usize].position);
+            let line = b - a;
+            let (length, section) = (cylinder.rest_length, &cylinder.section);
+            let end =
+                |side: usize, share: f64| End { body: nodes + cylinder.nodes[side], share, arm: line * (0.5 * -share) };
+            let shear = 12.0 * section.bending / length.powi(3);
+            // A taut rope is stiffer across.
+            let taut = section.axial / length * (line.norm() - length).max(0.0) / length;
+            Link {
+                direction: line.normalize(),
+                along: section.axial / length,
+                across: shear + taut,
+                bending: section.bending / length,
+                twisting: section.twisting / length,
+                damping_time: cylinder.damping_time,
+                ..Link::between([end(0, -1.0), end(1, 1.0)])
+            }
+        };
+        barrier.cylinders.iter().map(link).collect()
     }
 
     /// A contact with its normal spring and dashpot, and its friction spring.

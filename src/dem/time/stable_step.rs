@@ -7,7 +7,7 @@
 //! largest eigenvalue from below, so a margin is put on its result.
 
 use crate::dem::Vec3;
-use crate::dem::tables::barrier::Node;
+use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::time::links::{Link, Twist};
 
@@ -50,8 +50,8 @@ impl Inertia {
 }
 
 /// Step over critical step of the given links at a step (s); infinite if anything is not finite.
-pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, nodes: &[Node], step: f64) -> StepRatio {
-    let inertias = inertias(grains, nodes);
+pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, barrier: Option<&Barrier>, step: f64) -> StepRatio {
+    let inertias = inertias(grains, barrier);
     let mut forces = first_forces(links, &inertias);
     let (mut stiffness, mut damping) = (0.0, 0.0);
     let mut motion: Vec<Twist> = Vec::new();
@@ -62,7 +62,7 @@ pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, nodes: &[Node], step
         motion
             .extend(forces.iter().zip(&inertias).map(|(force, inertia)| inertia.moved(force).map(|part| part * 0.25)));
         let energy = |motion: &[Twist], forces: &[Twist]| {
-            motion.iter().zip(forces).map(|(u, f)| 0.25 * (u[0].dot(&f[0]) + u[1].dot(&f[1]))).sum::<f64>()
+            motion.iter().zip(forces).map(|(motion, force)| 0.25 * work(motion, force)).sum::<f64>()
         };
         let size = energy(&motion, &forces);
         if size == 0.0 {
@@ -74,9 +74,10 @@ pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, nodes: &[Node], step
         for link in links.iter().flatten() {
             let parting = link.parting(&motion);
             let [spring, dashpot] = link.pull(&parting);
-            stiffness += parting.dot(&spring) / size;
-            damping += parting.dot(&dashpot) / size;
-            link.push(&(spring * (step * step) + dashpot * (2.0 * step)), &mut forces);
+            stiffness += work(&parting, &spring) / size;
+            damping += work(&parting, &dashpot) / size;
+            let force = [0, 1].map(|part| spring[part] * (step * step) + dashpot[part] * (2.0 * step));
+            link.push(&force, &mut forces);
         }
     }
     let (stiffness, damping) = (MARGIN * stiffness, MARGIN * damping);
@@ -84,21 +85,32 @@ pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, nodes: &[Node], step
     StepRatio { value: if critical.is_finite() { step / critical } else { f64::INFINITY }, in_barrier }
 }
 
+/// Work of a force and torque in a motion.
+fn work(motion: &Twist, force: &Twist) -> f64 {
+    motion[0].dot(&force[0]) + motion[1].dot(&force[1])
+}
+
 /// Of all grains, then of all nodes.
-fn inertias(grains: &GrainTable, nodes: &[Node]) -> Vec<Inertia> {
+fn inertias(grains: &GrainTable, barrier: Option<&Barrier>) -> Vec<Inertia> {
     let grain = grains.bodies.iter().enumerate().map(|(row, body)| Inertia {
         inverse_mass: body.mass.recip(),
         inverse_axial: body.inertia_axial.recip(),
         inverse_transverse: body.inertia_transverse.recip(),
         axis: grains.axis.get(row).map_or(Vec3::zeros(), |axis| axis.vector()),
     });
-    let node = nodes.iter().map(|node| Inertia {
-        inverse_mass: if node.fixed { 0.0 } else { node.mass.recip() },
-        inverse_axial: 0.0,
-        inverse_transverse: 0.0,
-        axis: Vec3::zeros(),
+    let nodes = barrier.iter().flat_map(|barrier| {
+        barrier.nodes.iter().enumerate().map(|(number, node)| {
+            let turns = barrier.frames.get(number).filter(|frame| !frame.held);
+            let inverse_inertia = turns.map_or(0.0, |frame| frame.inertia.recip());
+            Inertia {
+                inverse_mass: if node.fixed { 0.0 } else { node.mass.recip() },
+                inverse_axial: inverse_inertia,
+                inverse_transverse: inverse_inertia,
+                axis: Vec3::zeros(),
+            }
+        })
     });
-    grain.chain(node).collect()
+    grain.chain(nodes).collect()
 }
 
 /// Forces that are strong where much stiffness meets little mass, in directions that no symmetry can blind.
@@ -108,7 +120,8 @@ fn first_forces(links: &[Vec<Link>], inertias: &[Inertia]) -> Vec<Twist> {
         for end in link.ends() {
             let inertia = &inertias[end.body as usize];
             let yielding = inertia.inverse_mass + end.arm.norm_squared() * inertia.inverse_transverse;
-            strength[end.body as usize] += link.trace() * end.share * end.share * yielding;
+            let turning = link.turning_trace() * inertia.inverse_transverse;
+            strength[end.body as usize] += link.trace() * end.share * end.share * yielding + turning;
         }
     }
     let most = strength.iter().copied().fold(0.0, f64::max);

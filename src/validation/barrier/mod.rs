@@ -1,0 +1,6 @@
+//! Ropes, cylinders and dissipators alone, against closed forms.
+
+pub mod beams;
+pub mod brakes;
+pub mod ropes;
+pub mod stand;
