@@ -26,6 +26,8 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
         Ok(file) => file,
         Err(problems) => {
             eprint!("{problems}");
+            let name = path.file_stem().unwrap_or_default();
+            tell_of_earlier_run(&out.map_or_else(|| Path::new("out").join(name), PathBuf::from));
             return ExitCode::Undecided;
         }
     };
@@ -38,9 +40,7 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
         Ok(run) => run,
         Err(error) => {
             eprintln!("error: {error}");
-            if folder.join("result.json").exists() {
-                eprintln!("note: {} still holds the report of an earlier run", folder.display());
-            }
+            tell_of_earlier_run(&folder);
             return ExitCode::Undecided;
         }
     };
@@ -53,6 +53,13 @@ pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCod
         Verdict::Pass => ExitCode::Pass,
         Verdict::Fail => ExitCode::Fail,
         Verdict::Undecided => ExitCode::Undecided,
+    }
+}
+
+/// Warns of a report that does not belong to this run.
+fn tell_of_earlier_run(folder: &Path) {
+    if folder.join("result.json").exists() {
+        eprintln!("note: {} still holds the report of an earlier run", folder.display());
     }
 }
 

@@ -50,7 +50,7 @@ const FLOW: &[Key] = &[
         "length over width of a grain; 1 is a sphere",
     ),
     Key::required("grain_friction", FRICTION, "friction angle between grains"),
-    Key::default("restitution", Kind::Number { low: 0.05, high: 1.0 }, "0.3", "normal restitution of grain contacts"),
+    Key::default("restitution", Kind::Number { low: 0.1, high: 1.0 }, "0.3", "normal restitution of grain contacts"),
     Key::default(
         "contact_modulus",
         quantity(D::Pressure, 1e4, 1e11),
@@ -175,7 +175,7 @@ const LATERAL_ROPES: &[Key] = &[
         "tied_to",
         Kind::Choice(&["rope_ends", "dissipators", "anchors"]),
         "rope_ends",
-        "where the lateral ropes end: at the ends of the main ropes, which is behind their dissipators, or at the anchors",
+        "where the lateral ropes end: at the ends of the main ropes, so that their load passes through the dissipators (dissipators: the same, and they must be there), or at the anchors, past the dissipators",
     ),
 ];
 
@@ -193,7 +193,7 @@ const BOTTOM: &[Key] = &[
     Key::optional("opening", quantity(D::Length, 0.0, 10.0), "the lowest rope is free, this far above the bed"),
 ];
 
-const UTILISATION: Kind = quantity(D::Share, 0.01, 10.0);
+const UTILISATION: Kind = quantity(D::Share, 0.01, 1.0);
 
 const LIMITS: &[Key] = &[
     Key::default("retained_mass", quantity(D::Share, 0.0, 1.0), "90 %", "least share of the mass that must be held"),
@@ -206,19 +206,19 @@ const LIMITS: &[Key] = &[
 const FACTORS: &[Key] = &[
     Key::default(
         "earth_pressure_k",
-        Kind::Number { low: 0.01, high: 20.0 },
+        Kind::Number { low: 0.1, high: 20.0 },
         "1",
         "K of the static pressure K rho g H cos(slope)",
     ),
     Key::default(
         "dynamic_lambda",
-        Kind::Number { low: 0.01, high: 20.0 },
+        Kind::Number { low: 0.1, high: 20.0 },
         "2",
         "lambda of the dynamic pressure lambda rho v2",
     ),
-    Key::default("load", Kind::Number { low: 0.5, high: 5.0 }, "1", "partial factor on loads"),
-    Key::default("rope", Kind::Number { low: 0.5, high: 5.0 }, "1.5", "partial factor on rope resistance"),
-    Key::default("anchor", Kind::Number { low: 0.5, high: 5.0 }, "1.1", "partial factor on anchor resistance"),
+    Key::default("load", Kind::Number { low: 1.0, high: 5.0 }, "1", "partial factor on loads"),
+    Key::default("rope", Kind::Number { low: 1.0, high: 5.0 }, "1.5", "partial factor on rope resistance"),
+    Key::default("anchor", Kind::Number { low: 1.0, high: 5.0 }, "1.1", "partial factor on anchor resistance"),
 ];
 
 const SIMULATION: &[Key] = &[

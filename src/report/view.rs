@@ -158,7 +158,11 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
             format!("The simulation cannot be relied on; see the reasons below.{hint}")
         }
         Verdict::Fail => format!("{failed} of {} checks fail.{governing}", held.len()),
-        Verdict::Pass => format!("{0} of {0} checks hold.{governing}", held.len()),
+        Verdict::Pass => {
+            let close = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Warn).count();
+            let close = if close > 0 { format!(", {close} with less than 10 % to spare") } else { String::new() };
+            format!("{0} of {0} checks hold{close}.{governing}", held.len())
+        }
     }
 }
 
