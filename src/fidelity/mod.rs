@@ -1,5 +1,6 @@
 //! How finely to model, and why.
 
+use crate::dem::contact::law::contact_stiffness;
 use crate::dem::contact::restitution::damping_ratio_for;
 use crate::dem::time::stable_step::critical_step_of_pair;
 use crate::design::{BarrierDesign, Design, FidelityWish, FlexibleNet, Rope};
@@ -71,7 +72,7 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let radius = 0.42 * design.flow.sizes.quantile(0.5);
     let grain = design.flow.modulus * radius;
     let rope = net.net_rope.modulus * 0.5 * net.net_rope.diameter;
-    let contact = 2.0 * grain * rope / (grain + rope);
+    let contact = contact_stiffness(grain, rope);
     let on_net = net_mass / (net_stiffness + contact);
     let on_rope = (rope_mass + net_mass) / (rope_stiffness + net_stiffness + contact);
     critical_step_of_pair(1.0, on_net.min(on_rope), ROPE_DAMPING_RATIO)

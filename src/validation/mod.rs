@@ -58,6 +58,8 @@ pub const CASES: &[&Case] = &[
     &barrier::ropes::POINT_LOAD,
     &barrier::ropes::BRAKED,
     &barrier::ropes::BLOCK,
+    &barrier::contacts::NEAREST,
+    &barrier::contacts::STIFFNESS,
     &barrier::brakes::CYCLE,
     &barrier::brakes::STOPPING,
 ];

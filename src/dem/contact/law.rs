@@ -28,6 +28,12 @@ pub struct ContactPoint<R = f64> {
     pub friction: R,
 }
 
+/// Stiffness (N/m) of the contact of two bodies with E₁ r₁ and E₂ r₂ (N/m): k = 2 E₁ r₁ E₂ r₂/(E₁ r₁ + E₂ r₂). Spheres and cylinders
+/// of any two materials (Albaba 2015, Eqs 3.2, 4.10, 4.16).
+pub fn contact_stiffness(first: f64, second: f64) -> f64 {
+    2.0 * first * second / (first + second)
+}
+
 /// The normal spring of a contact, with what would otherwise cost divisions again and again.
 #[derive(Clone, Copy, Debug)]
 pub struct Spring<R = f64> {

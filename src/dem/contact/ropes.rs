@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use crate::dem::Vec3;
-use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Spring, respond};
+use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Spring, contact_stiffness, respond};
 use crate::dem::contact::pair_list::{PairList, Separation};
 use crate::dem::geometry::point_segment::nearest_on_segment;
 use crate::dem::ledger::ContactSums;
@@ -135,7 +135,7 @@ pub fn touch(member: &Member, segment_index: u32, context: &RopeContext) -> Opti
         overlap,
         velocity: velocity.into(),
         twist: 0.5 * member.spin.dot(&normal),
-        spring: Spring::new(2.0 * grain * rope / (grain + rope), inverse_mass),
+        spring: Spring::new(contact_stiffness(grain, rope), inverse_mass),
         friction: barrier.friction.min(context.grain_friction),
     };
     Some(RopeTouch { point, inverse_mass, foot, share: along.share })

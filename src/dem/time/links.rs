@@ -1,7 +1,7 @@
 //! Everything that connects bodies now, as springs and dashpots: what the stable step depends on.
 
 use crate::dem::Vec3;
-use crate::dem::contact::law::{LawConstants, Spring};
+use crate::dem::contact::law::{LawConstants, Spring, contact_stiffness};
 use crate::dem::contact::pair_list::Separation;
 use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::dem::crew;
@@ -134,7 +134,7 @@ impl Linked<'_> {
                 continue;
             }
             let normal = line / distance;
-            let stiffness = 2.0 * self.modulus * a.radius * b.radius / (a.radius + b.radius);
+            let stiffness = contact_stiffness(self.modulus * a.radius, self.modulus * b.radius);
             let foot = a.centre + normal * (0.5 * (distance + a.radius - b.radius));
             let link = Link::between([self.grain_end(first, &foot, -1.0), self.grain_end(second, &foot, 1.0)]);
             links.push(self.contact(link, normal, stiffness, a.inverse_mass + b.inverse_mass));

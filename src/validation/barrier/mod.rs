@@ -2,5 +2,6 @@
 
 pub mod beams;
 pub mod brakes;
+pub mod contacts;
 pub mod ropes;
 pub mod stand;
