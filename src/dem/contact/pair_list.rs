@@ -45,6 +45,11 @@ pub trait Separation {
     }
 }
 
+/// Gives back room that a list has grown beyond what it is likely to need.
+fn trim<T>(list: &mut Vec<T>) {
+    list.shrink_to(list.len() + list.len() / 4);
+}
+
 impl PairList {
     /// Forgets all pairs; gaps up to `reach` will be told apart (m).
     pub fn reset(&mut self, reach: f64) {
@@ -70,6 +75,9 @@ impl PairList {
     pub fn settle(&mut self, memories: &MemoryRows) {
         self.touching.sort_unstable();
         self.memory.extend(self.touching.iter().map(|&pair| memories.recall(pair).quad()));
+        trim(&mut self.touching);
+        trim(&mut self.memory);
+        trim(&mut self.near);
     }
 
     /// Wakes the pairs that could soon touch, finds among the near ones those that touch now, and lets those sleep that

@@ -7,9 +7,9 @@
 use crate::dem::neighbours::clocks::Clock;
 
 /// Slots over the whole reach of a list.
-const SLOTS_IN_REACH: f64 = 256.0;
+const SLOTS_IN_REACH: f64 = 128.0;
 /// Slots kept: those of the reach, and room for rounding.
-const SLOTS: u64 = 258;
+const SLOTS: u64 = 130;
 
 /// Steps that a pair must be able to sleep.
 const STEPS_WORTH_SLEEPING: f64 = 1.0;
