@@ -121,9 +121,10 @@ pub fn wave<T: Send>(
             front.note(number);
             front.advance(|ready| turn(ready, &second));
         } else {
+            let mut looks = 0;
             while front.is_open() {
                 front.advance(|ready| turn(ready, &second));
-                std::hint::spin_loop();
+                wait(&mut looks);
             }
         }
     });
