@@ -5,7 +5,9 @@
 //!     benches/peers/compare.sh         beside LAMMPS, LIGGGHTS and Yade, on the same states
 //!
 //! The table tells contacts per sphere z, ns per sphere-step, sphere-steps per second, ns per contact and bytes per sphere;
-//! and what two threads reach against two independent runs of one thread each at the same time, on the same machine.
+//! and what two threads reach against two independent runs of one thread each at the same time, on the same machine. How well two
+//! threads work together depends on how far apart their cores are, and a virtual machine's cores may be moved at any time; so each
+//! such row tells how long a message from one thread to the other took just then.
 
 mod cells;
 mod states;
@@ -176,10 +178,11 @@ fn tell(state: &State) {
     let steps = (SPHERE_STEPS / spheres).max(100);
     let alone = row(state, 1, steps);
     let together = row(state, 2, steps);
+    let message = message_time();
     let pair = two_runs(state, steps);
     let share = pair / together;
     println!(
-        "{:<22} {:>7} {:>17.1} {:>62.2}   two threads over two runs; one thread {:.2} of them",
+        "{:<22} {:>7} {:>17.1} {:>62.2}   two threads over two runs; one thread {:.2} of them; a message takes {message:.0} ns",
         state.name(),
         "2 runs",
         pair * 1e9 / spheres as f64,
@@ -230,6 +233,26 @@ fn two_runs(state: &State, steps: usize) -> f64 {
     });
     // Each made one step in this time: together two, so one in half of it.
     0.25 * (times[0] + times[1])
+}
+
+/// Time in which one thread hears from another (ns).
+fn message_time() -> f64 {
+    const ROUNDS: u64 = 100_000;
+    let turn = AtomicUsize::new(0);
+    let take_turns = |mine: usize| {
+        for _ in 0..ROUNDS {
+            while turn.load(Ordering::Acquire) != mine {
+                std::hint::spin_loop();
+            }
+            turn.store(1 - mine, Ordering::Release);
+        }
+    };
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        scope.spawn(|| take_turns(1));
+        take_turns(0);
+    });
+    start.elapsed().as_nanos() as f64 / (2 * ROUNDS) as f64
 }
 
 /// Pairs of spheres that touch.

@@ -12,11 +12,13 @@ use crate::dem::contact::surfaces::SurfaceForces;
 use crate::dem::ledger::ContactSums;
 use crate::dem::neighbours::clocks::BlockClocks;
 use crate::dem::tables::grain_table::Quad;
+use crate::dem::tables::grains::GrainShape;
 
 /// Grains below which one block is enough: parallel work would cost more than it saves.
 const GRAINS_FOR_TWO_BLOCKS: usize = 600;
-/// Grains per block aimed at.
-const GRAINS_PER_BLOCK: usize = 1000;
+/// Spheres per block aimed at, and clumps of two.
+const SPHERES_PER_BLOCK: usize = 1000;
+const CLUMPS_PER_BLOCK: usize = 700;
 const MOST_BLOCKS: usize = 64;
 
 /// One slice of the grains with all that is needed to load it.
@@ -82,11 +84,15 @@ impl Outbox {
 }
 
 /// Number of grains in each block (the last may hold fewer).
-pub fn grains_per_block(grains: usize) -> usize {
+fn grains_per_block(grains: usize, shape: GrainShape) -> usize {
     if grains < GRAINS_FOR_TWO_BLOCKS {
         return grains.max(1);
     }
-    let pairs_of_blocks = (grains / (2 * GRAINS_PER_BLOCK)).clamp(1, MOST_BLOCKS / 2);
+    let wanted = match shape {
+        GrainShape::Sphere => SPHERES_PER_BLOCK,
+        GrainShape::Clump => CLUMPS_PER_BLOCK,
+    };
+    let pairs_of_blocks = (grains / (2 * wanted)).clamp(1, MOST_BLOCKS / 2);
     grains.div_ceil(2 * pairs_of_blocks)
 }
 
@@ -97,8 +103,8 @@ pub fn make_outboxes(blocks: &[Block]) -> Vec<RwLock<Outbox>> {
 }
 
 /// Empty blocks over `grains` grains.
-pub fn make_blocks(grains: usize) -> Vec<Block> {
-    let size = grains_per_block(grains);
+pub fn make_blocks(grains: usize, shape: GrainShape) -> Vec<Block> {
+    let size = grains_per_block(grains, shape);
     let count = grains.div_ceil(size);
     let block = |number: usize| Block { grains: number * size..((number + 1) * size).min(grains), ..Block::default() };
     (0..count).map(block).collect()

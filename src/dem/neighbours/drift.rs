@@ -6,12 +6,16 @@
 //! members whose surfaces were a gap g apart has come closer by at most δ_i + δ_j + S τ (2 r + 2 o + g), with r the largest
 //! radius and o the largest distance of a member from its grain's centre.
 
+use crate::dem::crew;
 use crate::dem::tables::grain_table::{GrainTable, Quad};
 use crate::dem::time::integrate::Drifting;
 use crate::dem::{Vec3, larger_or_nan};
 
 /// Pieces of the drift along the channel.
 const PIECES: usize = 32;
+
+/// Members that are looked at in one go.
+const MEMBERS_IN_PART: usize = 2048;
 
 /// How far members have gone since their lists were made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -79,13 +83,22 @@ impl Drift {
 
 /// How far members with the given reference places have gone after `elapsed` (s); NaN if one is nowhere.
 pub fn strayed(references: &[Vec3], grains: &GrainTable, drift: &[Drifting], elapsed: f64) -> Strayed {
+    let rows = grains.rows();
     let per_grain = grains.shape.members();
-    let (mut moved, mut strayed) = (0.0_f64, 0.0_f64);
-    for (index, reference) in references.iter().enumerate() {
-        let gone = grains.rows().sphere(index).0 - reference;
-        let [x, y, z, _] = drift[index / per_grain].map(f64::from);
-        moved = larger_or_nan(moved, gone.norm_squared());
-        strayed = larger_or_nan(strayed, (gone - Vec3::new(x, y, z) * elapsed).norm_squared());
-    }
-    Strayed { moved: moved.sqrt(), strayed: strayed.sqrt() }
+    let parts = crew::map(references.chunks(MEMBERS_IN_PART), |part, references| {
+        let mut squares = [0.0_f64; 2];
+        for (index, reference) in (part * MEMBERS_IN_PART..).zip(references) {
+            let gone = rows.sphere(index).0 - reference;
+            let [x, y, z, _] = drift[index / per_grain].map(f64::from);
+            let off = gone - Vec3::new(x, y, z) * elapsed;
+            squares = larger_of(squares, [gone.norm_squared(), off.norm_squared()]);
+        }
+        squares
+    });
+    let [moved, strayed] = parts.into_iter().fold([0.0; 2], larger_of).map(f64::sqrt);
+    Strayed { moved, strayed }
+}
+
+fn larger_of(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [larger_or_nan(a[0], b[0]), larger_or_nan(a[1], b[1])]
 }

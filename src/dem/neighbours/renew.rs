@@ -22,6 +22,8 @@ use crate::dem::{Vec3, larger_or_nan};
 const FIXED_SKIN: f64 = 3.0;
 /// Renewals between two reorderings of the grain table.
 const RENEWALS_PER_ORDERING: u64 = 20;
+/// Grains that are noted in one go.
+const GRAINS_IN_PART: usize = 2048;
 /// Share of a list's reach that a survey must leave, or the list is renewed.
 const WORTH_KEEPING: f64 = 0.1;
 
@@ -175,10 +177,19 @@ impl Neighbours {
     fn restart(&mut self, bodies: &Bodies) {
         let grains = &*bodies.grains;
         let drift = Drift::fit(grains);
-        self.drift.clear();
-        self.drift.extend(grains.place.iter().map(|place| drift.at(place.0[0])));
-        self.references.clear();
-        self.references.extend((0..grains.members()).map(|index| grains.rows().sphere(index).0));
+        self.drift.resize(grains.len(), Drifting::default());
+        self.references.resize(grains.members(), Vec3::zeros());
+        let (rows, per_grain) = (grains.rows(), grains.shape.members());
+        let starts = self.drift.chunks_mut(GRAINS_IN_PART).zip(self.references.chunks_mut(GRAINS_IN_PART * per_grain));
+        crew::for_each(starts, |part, (drifts, references)| {
+            let first = part * GRAINS_IN_PART;
+            for (row, drifting) in (first..).zip(drifts) {
+                *drifting = drift.at(rows.place(row).0[0]);
+            }
+            for (member, reference) in (first * per_grain..).zip(references) {
+                *reference = rows.sphere(member).0;
+            }
+        });
         self.node_reference = bodies.barrier.map_or(Vec::new(), |b| b.nodes.iter().map(|n| n.position).collect());
         let widest = grains.bodies.iter().map(|body| body.radius + body.offset).fold(0.0, f64::max);
         self.clocks = Clocks::start(&drift, 2.0 * widest + self.skin, self.skin, self.fixed_skin());
@@ -223,7 +234,7 @@ impl Neighbours {
         let grains = bodies.grains.rows();
         let (skin, fixed_skin) = (self.skin, self.fixed_skin());
         if self.blocks.last().map_or(0, |block| block.grains.end) != bodies.grains.len() {
-            self.blocks = make_blocks(bodies.grains.len());
+            self.blocks = make_blocks(bodies.grains.len(), grains.shape);
             self.outboxes = make_outboxes(&self.blocks);
         }
         if self.trees.len() != self.blocks.len() {

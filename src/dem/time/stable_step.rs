@@ -6,7 +6,10 @@
 //! k = uᵀKu, c = uᵀCu (u of unit mass) the critical step is the root of k Δt² + 2 c Δt = 4. The iteration approaches the
 //! largest eigenvalue from below, so a margin is put on its result.
 
+use std::ops::Range;
+
 use crate::dem::Vec3;
+use crate::dem::crew;
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::time::links::{Link, Twist};
@@ -52,37 +55,96 @@ impl Inertia {
 /// Step over critical step of the given links at a step (s); infinite if anything is not finite.
 pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, barrier: Option<&Barrier>, step: f64) -> StepRatio {
     let inertias = inertias(grains, barrier);
+    let groups = groups_of(links);
     let mut forces = first_forces(links, &inertias);
+    let mut motion = vec![[Vec3::zeros(); 2]; inertias.len()];
+    let mut sheets: Vec<Vec<Twist>> = groups.iter().map(|_| vec![[Vec3::zeros(); 2]; inertias.len()]).collect();
     let (mut stiffness, mut damping) = (0.0, 0.0);
-    let mut motion: Vec<Twist> = Vec::new();
     let mut in_barrier = 0.0;
     for _ in 0..ITERATIONS {
-        // The next motion and its energy, uᵀMu = uᵀF. Dividing by four keeps the numbers near one.
-        motion.clear();
-        motion
-            .extend(forces.iter().zip(&inertias).map(|(force, inertia)| inertia.moved(force).map(|part| part * 0.25)));
-        let energy = |motion: &[Twist], forces: &[Twist]| {
-            motion.iter().zip(forces).map(|(motion, force)| 0.25 * work(motion, force)).sum::<f64>()
-        };
-        let size = energy(&motion, &forces);
+        let size = next_motion(&forces, &inertias, &mut motion);
         if size == 0.0 {
             return StepRatio::default();
         }
-        in_barrier = (energy(&motion[grains.len()..], &forces[grains.len()..]) / size).max(0.0);
-        forces.fill([Vec3::zeros(); 2]);
-        (stiffness, damping) = (0.0, 0.0);
-        for link in links.iter().flatten() {
-            let parting = link.parting(&motion);
-            let [spring, dashpot] = link.pull(&parting);
-            stiffness += work(&parting, &spring) / size;
-            damping += work(&parting, &dashpot) / size;
-            let force = [0, 1].map(|part| spring[part] * (step * step) + dashpot[part] * (2.0 * step));
-            link.push(&force, &mut forces);
-        }
+        in_barrier = (energy_of(&motion[grains.len()..], &forces[grains.len()..]) / size).max(0.0);
+        let works = crew::map(groups.iter().zip(&mut sheets), |_, (group, sheet)| {
+            sheet.fill([Vec3::zeros(); 2]);
+            strain(&links[group.clone()], &motion, step, sheet)
+        });
+        let sum = |part: usize| works.iter().map(|work| work[part]).sum::<f64>() / size;
+        (stiffness, damping) = (sum(0), sum(1));
+        add_up(&sheets, &mut forces);
     }
     let (stiffness, damping) = (MARGIN * stiffness, MARGIN * damping);
     let critical = ((damping * damping + 4.0 * stiffness).sqrt() - damping) / stiffness;
     StepRatio { value: if critical.is_finite() { step / critical } else { f64::INFINITY }, in_barrier }
+}
+
+/// Groups into which the links are parted, at most; the number depends on the model alone, never on the threads.
+const MOST_GROUPS: usize = 4;
+/// Bodies that are handled in one go.
+const BODIES_IN_PART: usize = 1024;
+
+/// Neighbouring lists put together into groups of about as many links.
+fn groups_of(links: &[Vec<Link>]) -> Vec<Range<usize>> {
+    let all: usize = links.iter().map(Vec::len).sum();
+    let share = all.div_ceil(MOST_GROUPS).max(1);
+    let mut groups: Vec<Range<usize>> = Vec::new();
+    let mut before = 0;
+    for (number, list) in links.iter().enumerate() {
+        let begun = groups.len();
+        match groups.last_mut() {
+            Some(last) if before / share < begun => last.end = number + 1,
+            _ => groups.push(number..number + 1),
+        }
+        before += list.len();
+    }
+    groups
+}
+
+/// The motion that the forces give, and twice its energy, uᵀMu = uᵀF. Dividing by four keeps the numbers near one.
+fn next_motion(forces: &[Twist], inertias: &[Inertia], motion: &mut [Twist]) -> f64 {
+    let parts =
+        motion.chunks_mut(BODIES_IN_PART).zip(forces.chunks(BODIES_IN_PART)).zip(inertias.chunks(BODIES_IN_PART));
+    let energies = crew::map(parts, |_, ((motion, forces), inertias)| {
+        for ((motion, force), inertia) in motion.iter_mut().zip(forces).zip(inertias) {
+            *motion = inertia.moved(force).map(|part| part * 0.25);
+        }
+        energy_of(motion, forces)
+    });
+    energies.iter().sum()
+}
+
+fn energy_of(motion: &[Twist], forces: &[Twist]) -> f64 {
+    motion.iter().zip(forces).map(|(motion, force)| 0.25 * work(motion, force)).sum::<f64>()
+}
+
+/// Puts the forces of Δt² K + 2 Δt C in the given motion onto `forces`; returns the works uᵀKu and uᵀCu.
+fn strain(links: &[Vec<Link>], motion: &[Twist], step: f64, forces: &mut [Twist]) -> [f64; 2] {
+    let mut works = [0.0; 2];
+    for link in links.iter().flatten() {
+        let parting = link.parting(motion);
+        let [spring, dashpot] = link.pull(&parting);
+        works[0] += work(&parting, &spring);
+        works[1] += work(&parting, &dashpot);
+        let force = [0, 1].map(|part| spring[part] * (step * step) + dashpot[part] * (2.0 * step));
+        link.push(&force, forces);
+    }
+    works
+}
+
+/// Adds up the forces of all groups, in their order.
+fn add_up(sheets: &[Vec<Twist>], forces: &mut [Twist]) {
+    crew::for_each(forces.chunks_mut(BODIES_IN_PART), |part, forces| {
+        let from = part * BODIES_IN_PART;
+        for (row, force) in forces.iter_mut().enumerate() {
+            *force = [Vec3::zeros(); 2];
+            for sheet in sheets {
+                let more = &sheet[from + row];
+                *force = [0, 1].map(|part| force[part] + more[part]);
+            }
+        }
+    });
 }
 
 /// Work of a force and torque in a motion.
