@@ -16,7 +16,7 @@ use barrier_check::validation::scenes::{ball, free_model};
 const AXIAL_STIFFNESS: f64 = 3.21699e6;
 
 fn node(position: Vec3, mass: f64, fixed: bool) -> Node {
-    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: 0.016, segments: Vec::new() }
+    Node { position, velocity: Vec3::zeros(), pace: Vec3::zeros(), mass, fixed, radius: 0.016, lines: Vec::new() }
 }
 
 fn segment(nodes: [u32; 2], rest_length: f64, damping: f64) -> Segment {

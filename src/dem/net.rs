@@ -1,8 +1,10 @@
-//! Forces within a flexible barrier in one step.
+//! Forces within a flexible barrier at one instant, and their mean over a step of the grains.
 
 use crate::dem::Vec3;
+use crate::dem::contact::law::{LawConstants, Memory};
 use crate::dem::contact::ropes::Push;
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::ring::{RingContext, RingForce, RingSide};
 use crate::dem::elements::rope::pull;
 use crate::dem::tables::barrier::Barrier;
 
@@ -23,52 +25,38 @@ pub struct NetForces {
     pub from_grains: Vec3,
     /// Elastic energy (J).
     pub stored: f64,
-    /// Lost in rope damping in this step (J).
+    /// Lost in rope damping (J).
     pub lost_ropes: f64,
-    /// Dissipators with the stroke of this step, to be taken over.
+    /// Lost by rings sliding on their ropes, and in their dashpots (J).
+    pub lost_rings: f64,
+    /// Lost in dissipators (J).
+    pub lost_dissipators: f64,
+    /// Dissipators with the stroke of this step, and rings with what they remember now, to be taken over.
     slipped: Vec<Dissipator>,
-    lost_dissipators: f64,
+    slid: Vec<(u32, Memory)>,
 }
 
-/// Stretches every element to the present places of the nodes.
-pub fn pull_all(barrier: &Barrier, time_step: f64) -> NetForces {
+/// Stretches every element to the present places of the nodes; `law` holds the barrier's own step.
+pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
     let mut net = NetForces {
         forces: vec![Vec3::zeros(); barrier.nodes.len()],
         torques: vec![Vec3::zeros(); barrier.frames.len()],
         tensions: Vec::with_capacity(barrier.segments.len()),
+        axial: Vec::with_capacity(barrier.cylinders.len()),
         slipped: barrier.dissipators.clone(),
         ..NetForces::default()
     };
-    for segment in &barrier.segments {
-        let [a, b] = segment.nodes.map(|node| node as usize);
-        let result = pull(segment, &barrier.nodes[a], &barrier.nodes[b]);
-        let force = result.direction * result.tension;
-        net.forces[a] += force;
-        net.forces[b] -= force;
-        net.stored += result.stored;
-        net.lost_ropes += result.power_lost * time_step;
-        net.tensions.push(result.tension);
-    }
-    for dissipator in &mut net.slipped {
-        let [anchor, end] = dissipator.nodes.map(|node| node as usize);
-        let result = dissipator.stretch(&barrier.nodes[anchor], &barrier.nodes[end]);
-        let force = result.direction * result.tension;
-        net.forces[anchor] += force;
-        net.forces[end] -= force;
-        net.stored += result.stored;
-        net.lost_dissipators += result.lost;
-        net.brakes.push(result.tension);
-    }
-    for cylinder in &barrier.cylinders {
-        let [a, b] = cylinder.nodes.map(|node| node as usize);
-        let strain = cylinder.strain([&barrier.nodes[a], &barrier.nodes[b]], [&barrier.frames[a], &barrier.frames[b]]);
-        net.forces[a] -= strain.force;
-        net.forces[b] += strain.force;
-        net.torques[a] += strain.moments[0];
-        net.torques[b] += strain.moments[1];
-        net.stored += strain.stored;
-        net.lost_ropes += strain.power_lost * time_step;
-        net.axial.push(strain.tension);
+    net.pull_segments(barrier, law.time_step);
+    net.pull_dissipators(barrier);
+    net.strain_cylinders(barrier, law.time_step);
+    let context = RingContext {
+        nodes: &barrier.nodes,
+        frames: &barrier.frames,
+        cylinders: &barrier.cylinders,
+        moduli: barrier.ring_moduli,
+    };
+    for ring in &barrier.rings {
+        net.touch_ring(ring, &ring.force(&context, law), barrier);
     }
     net
 }
@@ -81,17 +69,109 @@ pub fn slide_all(barrier: &mut Barrier, step: f64) -> f64 {
 }
 
 impl NetForces {
-    /// Adds the force of a grain on a segment.
-    pub fn push(&mut self, push: &Push) {
-        let [a, b] = push.nodes.map(|node| node as usize);
-        self.forces[a] += push.force * (1.0 - push.share);
-        self.forces[b] += push.force * push.share;
+    fn pull_segments(&mut self, barrier: &Barrier, step: f64) {
+        for segment in &barrier.segments {
+            let [a, b] = segment.nodes.map(|node| node as usize);
+            let result = pull(segment, &barrier.nodes[a], &barrier.nodes[b]);
+            let force = result.direction * result.tension;
+            self.forces[a] += force;
+            self.forces[b] -= force;
+            self.stored += result.stored;
+            self.lost_ropes += result.power_lost * step;
+            self.tensions.push(result.tension);
+        }
+    }
+
+    fn pull_dissipators(&mut self, barrier: &Barrier) {
+        for dissipator in &mut self.slipped {
+            let [anchor, end] = dissipator.nodes.map(|node| node as usize);
+            let result = dissipator.stretch(&barrier.nodes[anchor], &barrier.nodes[end]);
+            let force = result.direction * result.tension;
+            self.forces[anchor] += force;
+            self.forces[end] -= force;
+            self.stored += result.stored;
+            self.lost_dissipators += result.lost;
+            self.brakes.push(result.tension);
+        }
+    }
+
+    fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {
+        for cylinder in &barrier.cylinders {
+            let [a, b] = cylinder.nodes.map(|node| node as usize);
+            let nodes = [&barrier.nodes[a], &barrier.nodes[b]];
+            if nodes[0].fixed && nodes[1].fixed {
+                self.axial.push(0.0);
+                continue;
+            }
+            let strain = cylinder.strain(nodes, [&barrier.frames[a], &barrier.frames[b]]);
+            self.forces[a] -= strain.force;
+            self.forces[b] += strain.force;
+            self.torques[a] += strain.moments[0];
+            self.torques[b] += strain.moments[1];
+            self.stored += strain.stored;
+            self.lost_ropes += strain.power_lost * step;
+            self.axial.push(strain.tension);
+        }
+    }
+
+    fn touch_ring(&mut self, ring: &RingSide, result: &RingForce, barrier: &Barrier) {
+        let RingForce { touch, response } = result;
+        self.stored += response.stored;
+        self.lost_rings += response.lost_friction + response.lost_damping;
+        self.slid.push((touch.near, response.memory));
+        if touch.point.overlap <= 0.0 {
+            return;
+        }
+        let force = Vec3::from(response.force);
+        for (body, cylinder, force) in [(0, ring.side, force), (1, touch.near, -force)] {
+            let nodes = barrier.cylinders[cylinder as usize].nodes;
+            let torque = touch.arms[body].cross(&force);
+            self.put(&nodes, touch.shares[body], &force, &torque);
+        }
+    }
+
+    /// Puts a force and a torque at a point that divides a line as (1−share):share on its nodes.
+    fn put(&mut self, nodes: &[u32; 2], share: f64, force: &Vec3, torque: &Vec3) {
+        for (node, share) in [(nodes[0] as usize, 1.0 - share), (nodes[1] as usize, share)] {
+            self.forces[node] += force * share;
+            if let Some(sum) = self.torques.get_mut(node) {
+                *sum += torque * share;
+            }
+        }
+    }
+
+    /// Adds the force of a grain on a line, `times` over.
+    pub fn push(&mut self, push: &Push, times: f64) {
+        self.put(&push.nodes, push.share, &(push.force * times), &(push.torque * times));
         self.from_grains += push.force;
     }
 
-    /// Hands the strokes of this step to the barrier; returns the energy they took (J).
-    pub fn slip_dissipators(&mut self, barrier: &mut Barrier) -> f64 {
+    /// Hands strokes and what rings remember to the barrier.
+    pub fn take_over(&self, barrier: &mut Barrier) {
         barrier.dissipators.clone_from_slice(&self.slipped);
-        self.lost_dissipators
+        for (ring, (near, memory)) in barrier.rings.iter_mut().zip(&self.slid) {
+            (ring.near, ring.memory) = (*near, *memory);
+        }
+    }
+
+    /// Adds what happened in a later part of the same step of the grains; losses add up, energy stored stays that of the first.
+    pub fn go_on(&mut self, later: &Self) {
+        let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        self.forces.iter_mut().zip(&later.forces).for_each(|(sum, more)| *sum += more);
+        add(&mut self.tensions, &later.tensions);
+        add(&mut self.brakes, &later.brakes);
+        add(&mut self.axial, &later.axial);
+        self.lost_ropes += later.lost_ropes;
+        self.lost_rings += later.lost_rings;
+        self.lost_dissipators += later.lost_dissipators;
+    }
+
+    /// Turns sums over `parts` parts of a step into means.
+    pub fn share_out(&mut self, parts: u32) {
+        let share = 1.0 / f64::from(parts);
+        self.forces.iter_mut().for_each(|force| *force *= share);
+        for sums in [&mut self.tensions, &mut self.brakes, &mut self.axial] {
+            sums.iter_mut().for_each(|sum| *sum *= share);
+        }
     }
 }

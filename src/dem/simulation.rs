@@ -7,12 +7,14 @@ use crate::dem::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::dem::model::Model;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
 use crate::dem::net::{NetForces, slide_all};
+use crate::dem::tables::barrier::Barrier;
+use crate::dem::time::multi_rate::{BarrierStep, step_barrier};
 use crate::dem::sweep::sweep;
 use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::grains::Grain;
 use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::tables::surfaces::SurfaceRole;
-use crate::dem::time::integrate::{Stretch, move_nodes, turn_frames};
+use crate::dem::time::integrate::Stretch;
 use crate::dem::time::links::Linked;
 use crate::dem::time::stable_step::{StepRatio, step_ratio};
 
@@ -21,6 +23,11 @@ const STEPS_PER_AUDIT: u64 = 500;
 
 /// Step over critical step to which the time step is cut when an audit finds it beyond the critical step.
 const STEP_AFTER_CUT: f64 = 0.95;
+
+/// Step of the barrier over its critical step that is aimed at where it takes several in one of the grains', and their largest
+/// number.
+const BARRIER_STEP_SHARE: f64 = 0.7;
+const MOST_PARTS: u32 = 200;
 
 /// Share of the first time step below which a run is given up.
 const SHORTEST_STEP: f64 = 0.05;
@@ -43,6 +50,8 @@ pub struct Extremes {
     pub overlap_ratio: f64,
     /// Largest step over critical step.
     pub step_ratio: StepRatio,
+    /// Grains whose centre has gone through a rope.
+    pub crossings: u32,
 }
 
 /// Sums over all blocks for the step just made.
@@ -85,6 +94,10 @@ pub struct Simulation {
     pub extremes: Extremes,
     /// How often an audit has shortened the time step.
     pub step_cuts: u32,
+    /// Steps of the barrier in one of the grains'.
+    pub barrier_parts: u32,
+    /// Motion of the barrier when the last step began.
+    barrier_motion: MotionEnergy,
     first_time_step: f64,
     law: LawConstants,
     /// Speed no grain or node can have by honest means (m/s).
@@ -106,6 +119,8 @@ impl Simulation {
             ledger: Ledger::default(),
             extremes: Extremes::default(),
             step_cuts: 0,
+            barrier_parts: 1,
+            barrier_motion: MotionEnergy::default(),
             first_time_step: time_step,
             law: LawConstants::new(model.material.restitution, model.material.tangential_ratio, time_step),
             speed_limit,
@@ -127,9 +142,10 @@ impl Simulation {
         let before = self.motion_now();
         self.advance();
         let after = self.motion_now();
-        self.ledger.kinetic = 0.5 * (before.kinetic + after.kinetic);
-        self.ledger.rotational = 0.5 * (before.rotational + after.rotational);
-        self.ledger.potential = before.potential;
+        let barrier = &self.barrier_motion;
+        self.ledger.kinetic = 0.5 * (before.kinetic + after.kinetic) + barrier.kinetic;
+        self.ledger.rotational = 0.5 * (before.rotational + after.rotational) + barrier.rotational;
+        self.ledger.potential = before.potential + barrier.potential;
         Ok(())
     }
 
@@ -155,6 +171,13 @@ impl Simulation {
         })
     }
 
+    /// Puts a barrier up, and chooses how many steps it takes in one of the grains'.
+    pub fn put_up(&mut self, barrier: Barrier) {
+        self.model.barrier = Some(barrier);
+        self.neighbours.lose();
+        self.choose_parts();
+    }
+
     /// Puts the grain in `row` somewhere else, without velocity; it spins on.
     pub fn put(&mut self, row: usize, position: &Vec3) {
         self.grains.place[row].set_vector(position);
@@ -177,6 +200,11 @@ impl Simulation {
 
     fn law(&self) -> LawConstants {
         LawConstants { time_step: self.time_step, ..self.law }
+    }
+
+    /// The law within the barrier, whose steps are shorter.
+    fn barrier_law(&self) -> LawConstants {
+        LawConstants { time_step: self.time_step / f64::from(self.barrier_parts), ..self.law }
     }
 
     /// Sees to it that lists and time step are good for the step to come.
@@ -222,15 +250,11 @@ impl Simulation {
         for block in &self.neighbours.blocks {
             contacts.add(&block.sums);
             surfaces.add(&block.surface_forces);
-            for push in &block.ropes.pushes {
-                self.sums.net.push(push);
-            }
+            self.extremes.crossings += block.ropes.crossings;
         }
         self.ledger.lost_damping += contacts.lost_damping;
         self.ledger.lost_friction += contacts.lost_friction;
         self.ledger.stored_contacts = contacts.stored;
-        self.ledger.stored_barrier = self.sums.net.stored;
-        self.ledger.lost_ropes += self.sums.net.lost_ropes;
         self.extremes.overlap_ratio = self.extremes.overlap_ratio.max(contacts.overlap_ratio);
         self.sums.contacts = contacts;
     }
@@ -238,19 +262,21 @@ impl Simulation {
     /// Holds the time step against what is connected now, and cuts it where it is too long.
     fn audit(&mut self) -> Result<(), Unstable> {
         let barrier = self.model.barrier.as_ref();
-        let linked = Linked {
-            grains: self.grains.rows(),
-            surfaces: &self.model.surfaces,
-            barrier,
-            blocks: &self.neighbours.blocks,
-            law: self.law(),
-            modulus: self.model.material.modulus,
-            friction: self.model.material.friction,
+        let mut links = self.linked(self.law()).contacts();
+        let within = self.linked(self.barrier_law()).within_barrier();
+        let ratio = if self.barrier_parts == 1 {
+            links.extend(within);
+            step_ratio(&links, &self.grains, barrier, self.time_step)
+        } else {
+            let own = step_ratio(&within, &self.grains, barrier, self.barrier_law().time_step);
+            let grains = step_ratio(&links, &self.grains, barrier, self.time_step);
+            if own.value > 1.0 {
+                self.note_ratio(own);
+                self.choose_parts();
+            }
+            if own.value > grains.value { StepRatio { value: own.value.min(1.0), ..own } } else { grains }
         };
-        let ratio = step_ratio(&linked.links(), &self.grains, barrier, self.time_step);
-        if ratio.value > self.extremes.step_ratio.value {
-            self.extremes.step_ratio = ratio;
-        }
+        self.note_ratio(ratio);
         if ratio.value > 1.0 {
             self.time_step *= STEP_AFTER_CUT / ratio.value;
             self.step_cuts += 1;
@@ -261,6 +287,33 @@ impl Simulation {
         Ok(())
     }
 
+    fn note_ratio(&mut self, ratio: StepRatio) {
+        if ratio.value > self.extremes.step_ratio.value || !ratio.value.is_finite() {
+            self.extremes.step_ratio = ratio;
+        }
+    }
+
+    fn linked(&self, law: LawConstants) -> Linked<'_> {
+        Linked {
+            grains: self.grains.rows(),
+            surfaces: &self.model.surfaces,
+            barrier: self.model.barrier.as_ref(),
+            blocks: &self.neighbours.blocks,
+            law,
+            modulus: self.model.material.modulus,
+            friction: self.model.material.friction,
+        }
+    }
+
+    /// As many steps of the barrier in one of the grains' as what holds it together needs.
+    fn choose_parts(&mut self) {
+        let within = self.linked(self.barrier_law()).within_barrier();
+        let barrier = self.model.barrier.as_ref();
+        let ratio = step_ratio(&within, &self.grains, barrier, self.time_step).value;
+        let wanted = (ratio / BARRIER_STEP_SHARE).ceil();
+        self.barrier_parts = if wanted.is_finite() { (wanted as u32).clamp(1, MOST_PARTS) } else { 1 };
+    }
+
     /// Moves everything through the step.
     fn advance(&mut self) {
         let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
@@ -268,20 +321,31 @@ impl Simulation {
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_friction += slide_all(barrier, time.step);
         }
-        let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, &time);
-        self.sums.net = net;
+        let own = self.barrier_law();
+        let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, own, &time);
         self.gather_sums();
-        let mut fastest_node = 0.0;
-        if let Some(barrier) = &mut self.model.barrier {
-            self.ledger.lost_dissipators += self.sums.net.slip_dissipators(barrier);
-            fastest_node = move_nodes(&mut barrier.nodes, &self.sums.net.forces, &time.gravity, time.step).sqrt();
-            turn_frames(&mut barrier.frames, &self.sums.net.torques, time.step);
-        }
+        let fastest_node = self.advance_barrier(net, &own, &time);
         self.neighbours.tick(&paces, time.step, fastest_node);
         self.steps += 1;
         self.time += self.time_step;
     }
 
+    /// Moves the barrier under its own forces at the start of the step, `net`, and those of the grains; returns the largest speed of
+    /// a node (m/s).
+    fn advance_barrier(&mut self, net: NetForces, own: &LawConstants, time: &Stretch) -> f64 {
+        let Some(barrier) = &mut self.model.barrier else { return 0.0 };
+        let pushes = self.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
+        let BarrierStep { net, motion, fastest } = step_barrier(barrier, net, pushes, own, time, self.barrier_parts);
+        self.ledger.stored_barrier = net.stored;
+        self.ledger.lost_ropes += net.lost_ropes;
+        self.ledger.lost_friction += net.lost_rings;
+        self.ledger.lost_dissipators += net.lost_dissipators;
+        self.barrier_motion = motion;
+        self.sums.net = net;
+        fastest
+    }
+
+    /// Energies of the grains.
     fn motion_now(&self) -> MotionEnergy {
         let mut sums = MotionEnergy::default();
         for row in 0..self.grains.len() {
@@ -290,15 +354,6 @@ impl Simulation {
             sums.kinetic += kinetic;
             sums.rotational += rotational;
             sums.potential -= grain.body.mass * self.model.gravity.dot(&grain.position);
-        }
-        for node in self.model.barrier.iter().flat_map(|barrier| &barrier.nodes).filter(|node| !node.fixed) {
-            sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
-            sums.potential -= node.mass * self.model.gravity.dot(&node.position);
-        }
-        for frame in self.model.barrier.iter().flat_map(|barrier| &barrier.frames).filter(|frame| !frame.held) {
-            let turning = 0.5 * frame.inertia * frame.spin.norm_squared();
-            sums.kinetic += turning;
-            sums.rotational += turning;
         }
         sums
     }

@@ -29,6 +29,7 @@ pub fn sweep(
     sheets: &LoadSheets,
     neighbours: &mut Neighbours,
     law: LawConstants,
+    barrier_law: LawConstants,
     time: &Stretch,
 ) -> (NetForces, Vec<Pace>) {
     let Neighbours { blocks, outboxes, drift, .. } = neighbours;
@@ -37,7 +38,7 @@ pub fn sweep(
     let forces = BlockForces { model, grains: rows.seen(), law, hands: crew::hands() };
     let mut net = None;
     let mut paces = vec![Pace::default(); blocks.len()];
-    let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &mut net));
+    let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &barrier_law, &mut net));
     let turns = blocks.iter_mut().zip(&mut paces).enumerate();
     let turns = turns.map(|(number, (block, pace))| {
         let foresight = Foresight::none(rows.seen());
@@ -46,7 +47,7 @@ pub fn sweep(
     crew::wave(
         elements.into_iter().chain(turns),
         |part| match part {
-            Part::Elements(barrier, net) => **net = Some(pull_all(barrier, law.time_step)),
+            Part::Elements(barrier, own, net) => **net = Some(pull_all(barrier, own)),
             Part::Block(turn) => {
                 let mut outbox = outboxes[turn.number].write().unwrap_or_else(PoisonError::into_inner);
                 turn.loads = sheets.take(turn.block.grains.len());
@@ -70,7 +71,7 @@ pub fn sweep(
 
 /// A part of the work of a step.
 enum Part<'a> {
-    Elements(&'a Barrier, &'a mut Option<NetForces>),
+    Elements(&'a Barrier, &'a LawConstants, &'a mut Option<NetForces>),
     Block(Turn<'a>),
 }
 

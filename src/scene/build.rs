@@ -99,7 +99,9 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
         settle(&mut simulation, &block)?;
     }
     simulation.remove_surfaces(SurfaceRole::Gate);
-    simulation.model.barrier = net.as_ref().map(|net| net.barrier.clone());
+    if let Some(net) = &net {
+        simulation.put_up(net.barrier.clone());
+    }
     simulation.start_account();
     let recorder = recorder_setup(design, net);
     Ok(Scene {

@@ -1,8 +1,12 @@
-//! Contacts of grains with rope segments and nodes of a flexible barrier.
+//! Contacts of grains with the lines of a flexible barrier, and with the nodes where they end.
 //!
-//! A sphere meets a segment as a capsule. Where the nearest point of every segment at a node is the node
-//! itself, the node is touched once, through the segment with the lowest number, so that a grain on the convex side of a
-//! crossing is not pushed once by each rope. On a flat crossing a grain still touches each rope that it reaches.
+//! A sphere meets a line as a capsule. Lines that meet in a node overlap each other there, and a grain near the node must not be
+//! pushed by each of them in full. So they count as one body, whose energy is ½k (Σ u_i² − Σ (m_e − 1) u_e²): u_i is the
+//! overlap with line i, u_e that with node e, and m_e the number of lines that run on from the node towards the grain. Each of
+//! these gives up (m_e − 1)/m_e of u_e. A node from which all lines lead away is touched once. So the force neither jumps
+//! nor doubles where a grain passes a node.
+//!
+//! The friction spring goes along when a grain slides from one line to the next.
 
 use std::ops::Range;
 
@@ -16,20 +20,26 @@ use crate::dem::tables::barrier::{Barrier, Node};
 use crate::dem::tables::grain_rows::{GrainRows, Member};
 use crate::dem::tables::grain_table::{GrainLoad, Quad};
 
-/// Candidate pairs (member, segment) of one block, and the forces they put on nodes in this step.
+/// Candidate pairs (member, line) of one block, and the forces they put on nodes in this step.
 #[derive(Clone, Debug, Default)]
 pub struct RopeContacts {
     pub list: PairList,
     pub pushes: Vec<Push>,
+    /// Grains whose centre has gone through a line in this step.
+    pub crossings: u32,
+    /// Scratch: the contact of every touching pair.
+    touches: Vec<Option<RopeTouch>>,
 }
 
-/// Force of one grain on one segment.
+/// Force of one grain on one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
     pub nodes: [u32; 2],
     /// Share of the force that the second node takes.
     pub share: f64,
     pub force: Vec3,
+    /// About the axis of the line at the nearest point (N m): what the force at the surface turns.
+    pub torque: Vec3,
 }
 
 pub struct RopeContext<'a> {
@@ -42,13 +52,18 @@ pub struct RopeContext<'a> {
     pub clock: Clock,
 }
 
-/// A sphere on a rope: the contact, its foot, and how the force is shared between the segment's nodes.
+/// A sphere on a line: the contact, its foot, and how the force is shared between the line's nodes.
+#[derive(Clone, Copy, Debug)]
 pub struct RopeTouch {
     pub point: ContactPoint,
     /// 1/m_r (1/kg).
     pub inverse_mass: f64,
     pub foot: Vec3,
+    /// Nearest point on the axis of the line.
+    pub axis_point: Vec3,
     pub share: f64,
+    /// Whether the centre has gone through the axis in the step just made.
+    pub crossed: bool,
 }
 
 impl RopeContacts {
@@ -56,108 +71,180 @@ impl RopeContacts {
     pub fn load(&mut self, context: &RopeContext, range: &Range<usize>, loads: &mut [GrainLoad]) -> ContactSums {
         let mut sums = ContactSums::default();
         self.pushes.clear();
-        let Self { list, pushes } = self;
+        self.crossings = 0;
         let (grains, barrier) = (context.grains, context.barrier);
-        let on_ropes = OnRopes { grains, barrier };
-        list.sort_near(&context.clock, &on_ropes);
+        self.list.sort_near(&context.clock, &OnRopes { grains, barrier });
+        sums.lost_friction += self.find_touches(context);
         let per_grain = grains.shape.members();
-        let PairList { touching, memory, ended, .. } = list;
-        for (place, (pair, memory)) in touching.iter().zip(memory).enumerate() {
-            let [index, segment] = *pair;
+        let Self { list, pushes, touches, crossings } = self;
+        for ((pair, memory), contact) in list.touching.iter().zip(&mut list.memory).zip(touches) {
+            let [index, line] = *pair;
+            let Some(contact) = contact else { continue };
             let member = grains.member(index as usize);
-            if on_ropes.gap(*pair) >= 0.0 {
-                ended.push(place as u32);
-                continue;
-            }
-            let Some(contact) = touch(&member, segment, context) else {
-                *memory = Quad::default();
-                continue;
-            };
             let response = respond(&contact.point, &Memory::from_quad(*memory), &context.law);
             *memory = response.memory.quad();
             let force = Vec3::from(response.force);
             let row = index as usize / per_grain - range.start;
             loads[row].add(&force, &(contact.foot - member.centre + member.arm));
-            let nodes = barrier.segments[segment as usize].nodes;
-            pushes.push(Push { nodes, share: contact.share, force: -force });
+            let nodes = barrier.lines[line as usize].nodes;
+            let torque = (contact.foot - contact.axis_point).cross(&-force);
+            pushes.push(Push { nodes, share: contact.share, force: -force, torque });
             sums.count(&response, contact.point.overlap / member.radius);
+            *crossings += u32::from(contact.crossed);
         }
-        list.end_contacts();
+        self.list.end_contacts();
         sums
+    }
+
+    /// Finds the contact of every touching pair, notes those that have ended, and hands the friction springs of pairs whose
+    /// contact has passed to another line at the same node on to that. Returns the energy of springs that nobody takes (J).
+    fn find_touches(&mut self, context: &RopeContext) -> f64 {
+        let (grains, barrier) = (context.grains, context.barrier);
+        let on_ropes = OnRopes { grains, barrier };
+        let Self { list, touches, .. } = self;
+        touches.clear();
+        for (place, &[index, line]) in list.touching.iter().enumerate() {
+            if on_ropes.gap([index, line]) >= 0.0 {
+                list.ended.push(place as u32);
+                touches.push(None);
+            } else {
+                touches.push(touch(&grains.member(index as usize), line, context));
+            }
+        }
+        let mut lost = 0.0;
+        for place in 0..touches.len() {
+            let memory = Memory::from_quad(list.memory[place]);
+            if touches[place].is_some() || memory == Memory::default() {
+                continue;
+            }
+            list.memory[place] = Quad::default();
+            let heir = heir(place, list, touches, barrier);
+            match heir {
+                Some(heir) => list.memory[heir] = memory.quad(),
+                None => lost += self::stored(&memory, list.touching[place], context),
+            }
+        }
+        lost
     }
 }
 
-/// Member spheres and rope segments, taken as thick as the thicker of their ends: never closer than they are.
+/// The pair of the same grain and of a line at the same node that has just begun to touch.
+fn heir(place: usize, list: &PairList, touches: &[Option<RopeTouch>], barrier: &Barrier) -> Option<usize> {
+    let [member, line] = list.touching[place];
+    let nodes = barrier.lines[line as usize].nodes;
+    (0..touches.len()).find(|&other| {
+        let [same, next] = list.touching[other];
+        same == member
+            && touches[other].is_some()
+            && list.memory[other] == Quad::default()
+            && barrier.lines[next as usize].nodes.iter().any(|node| nodes.contains(node))
+    })
+}
+
+/// Energy that a friction spring holds (J).
+fn stored(memory: &Memory, [member, line]: [u32; 2], context: &RopeContext) -> f64 {
+    let grain = context.grain_modulus * context.grains.sphere(member as usize).1;
+    let rope = context.barrier.contact_modulus * context.barrier.lines[line as usize].radius;
+    let compliance = context.law.half_tangential_compliance / contact_stiffness(grain, rope);
+    Vec3::from(memory.tangential).norm_squared() * compliance
+}
+
+/// Member spheres and lines, taken as thick as the thicker of their ends: never closer than they are.
 pub struct OnRopes<'a> {
     pub grains: GrainRows<'a>,
     pub barrier: &'a Barrier,
 }
 
 impl Separation for OnRopes<'_> {
-    fn of(&self, [member, segment]: [u32; 2]) -> (f64, f64) {
+    fn of(&self, [member, line]: [u32; 2]) -> (f64, f64) {
         let (centre, radius) = self.grains.sphere(member as usize);
-        let ends = self.barrier.segments[segment as usize].nodes;
+        let ends = self.barrier.lines[line as usize].nodes;
         let [a, b] = ends.map(|node| &self.barrier.nodes[node as usize].position);
         let nearest = nearest_on_segment(&centre, a, b).point;
-        ((nearest - centre).norm_squared(), radius + self.barrier.thickness(segment))
+        ((nearest - centre).norm_squared(), radius + self.barrier.thickness(line))
     }
 }
 
-/// Geometry of sphere against segment, or against the node a segment ends in.
-pub fn touch(member: &Member, segment_index: u32, context: &RopeContext) -> Option<RopeTouch> {
+/// Share of its overlap that a line keeps at least, whatever it gives up at its nodes.
+const LEAST_KEPT: f64 = 0.1;
+
+/// Geometry of sphere against line, or against the node a line ends in.
+pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<RopeTouch> {
     let barrier = context.barrier;
-    let segment = &barrier.segments[segment_index as usize];
-    let [a, b] = segment.nodes.map(|node| &barrier.nodes[node as usize]);
+    let line = &barrier.lines[line_index as usize];
+    let [a, b] = line.nodes.map(|node| &barrier.nodes[node as usize]);
     let centre = member.centre;
     let along = nearest_on_segment(&centre, &a.position, &b.position);
     let towards = along.point - centre;
     let end = usize::from(along.share > 0.5);
-    let rope_radius = if along.inside { segment.radius } else { [a, b][end].radius };
+    let rope_radius = if along.inside { line.radius } else { [a, b][end].radius };
     let reach = member.radius + rope_radius;
     let distance_squared = towards.norm_squared();
     if distance_squared >= reach * reach || distance_squared == 0.0 {
         return None;
     }
-    if !along.inside && !owns_node(segment_index, segment.nodes[end], &centre, barrier) {
+    if !along.inside && !owns_node(line_index, line.nodes[end], &centre, barrier) {
         return None;
     }
     let distance = distance_squared.sqrt();
     let overlap = reach - distance;
     let normal = towards / distance;
     let foot = centre + normal * (member.radius - 0.5 * overlap);
-    let rope_velocity = a.velocity * (1.0 - along.share) + b.velocity * along.share;
+    let spin = barrier.spin_at(line, along.share);
+    let axis_velocity = a.pace * (1.0 - along.share) + b.pace * along.share;
+    let rope_velocity = axis_velocity + spin.cross(&(foot - along.point));
     let velocity = rope_velocity - member.velocity - member.spin.cross(&(foot - centre));
     let grain = context.grain_modulus * member.radius;
     let rope = barrier.contact_modulus * rope_radius;
     let inverse_mass = member.inverse_mass + inverse_mass_at(a, b, along.share);
+    let given_up = if along.inside { given_up(member, line_index, barrier) / overlap } else { 0.0 };
+    let kept = (1.0 - given_up).max(LEAST_KEPT);
     let point = ContactPoint {
         normal: normal.into(),
         overlap,
         velocity: velocity.into(),
-        twist: 0.5 * member.spin.dot(&normal),
-        spring: Spring::new(contact_stiffness(grain, rope), inverse_mass),
+        twist: 0.5 * (member.spin + spin).dot(&normal),
+        spring: Spring::new(kept * contact_stiffness(grain, rope), inverse_mass),
         friction: barrier.friction.min(context.grain_friction),
     };
-    Some(RopeTouch { point, inverse_mass, foot, share: along.share })
+    let before = towards - (axis_velocity - member.velocity) * context.law.time_step;
+    let crossed = before.dot(&towards) < 0.0;
+    Some(RopeTouch { point, inverse_mass, foot, axis_point: along.point, share: along.share, crossed })
 }
 
-/// 1/m felt at the point that divides a segment as (1−share):share; a fixed node counts as infinitely heavy.
+/// Overlap that a line gives up at its nodes because other lines have it as well (m).
+fn given_up(member: &Member, line_index: u32, barrier: &Barrier) -> f64 {
+    let line = &barrier.lines[line_index as usize];
+    let at_node = |node: u32| {
+        let here = &barrier.nodes[node as usize];
+        let from_node = member.centre - here.position;
+        let overlap = member.radius + line.radius - from_node.norm();
+        if overlap <= 0.0 {
+            return 0.0;
+        }
+        let shared = here.lines.iter().filter(|&&other| leads_to(other, node, &from_node, barrier)).count();
+        overlap * shared.saturating_sub(1) as f64 / shared.max(1) as f64
+    };
+    line.nodes.into_iter().map(at_node).sum()
+}
+
+/// Whether a line runs on from its end `node` towards a point that lies `from_node` off it.
+fn leads_to(line: u32, node: u32, from_node: &Vec3, barrier: &Barrier) -> bool {
+    let [a, b] = barrier.lines[line as usize].nodes;
+    let far = if a == node { b } else { a };
+    from_node.dot(&(barrier.nodes[far as usize].position - barrier.nodes[node as usize].position)) > 0.0
+}
+
+/// 1/m felt at the point that divides a line as (1−share):share; a fixed node counts as infinitely heavy.
 fn inverse_mass_at(a: &Node, b: &Node, share: f64) -> f64 {
     let inverse = |node: &Node| if node.fixed { 0.0 } else { 1.0 / node.mass };
     (1.0 - share).powi(2) * inverse(a) + share.powi(2) * inverse(b)
 }
 
-/// Whether `segment` stands for its end `node` towards a sphere at `centre`: every segment at the node must
+/// Whether `line` stands for its end `node` towards a sphere at `centre`: every line at the node must
 /// have the node as its nearest point, and this one must be the first of them.
-fn owns_node(segment: u32, node: u32, centre: &Vec3, barrier: &Barrier) -> bool {
+fn owns_node(line: u32, node: u32, centre: &Vec3, barrier: &Barrier) -> bool {
     let here = &barrier.nodes[node as usize];
-    if here.segments.first() != Some(&segment) {
-        return false;
-    }
     let from_node = centre - here.position;
-    here.segments.iter().all(|&other| {
-        let [a, b] = barrier.segments[other as usize].nodes;
-        let far = if a == node { b } else { a };
-        from_node.dot(&(barrier.nodes[far as usize].position - here.position)) <= 0.0
-    })
+    here.lines.first() == Some(&line) && here.lines.iter().all(|&other| !leads_to(other, node, &from_node, barrier))
 }

@@ -2,5 +2,6 @@
 
 pub mod cylinder;
 pub mod dissipator;
+pub mod ring;
 pub mod rope;
 pub mod sliding;

@@ -21,13 +21,13 @@ pub fn grain_box(grains: GrainRows, row: usize, margin: f64) -> Box3 {
     (first + 1..first + per_grain).fold(member_box(first), |whole, index| Box3::joining(&whole, &member_box(index)))
 }
 
-/// Boxes around all rope segments, grown by `margin` (m).
-pub fn segment_boxes(barrier: &Barrier, margin: f64) -> Vec<Box3> {
+/// Boxes around all lines of the barrier, grown by `margin` (m).
+pub fn line_boxes(barrier: &Barrier, margin: f64) -> Vec<Box3> {
     let grown = |node: u32, reach: f64| Box3::around(&barrier.nodes[node as usize].position, reach);
-    (0..barrier.segments.len())
+    (0..barrier.lines.len())
         .map(|index| {
             let reach = barrier.thickness(index as u32) + margin;
-            let [a, b] = barrier.segments[index].nodes;
+            let [a, b] = barrier.lines[index].nodes;
             Box3::joining(&grown(a, reach), &grown(b, reach))
         })
         .collect()
@@ -58,10 +58,10 @@ fn add_near(list: &mut PairList, grains: GrainRows, [a, b]: [u32; 2], skin: f64)
     }
 }
 
-/// Files every pair of a member of the block and a rope segment nearer than `skin`.
+/// Files every pair of a member of the block and a line of the barrier nearer than `skin`.
 pub fn find_rope_pairs(
     tree: &BoxTree,
-    segments: &BoxTree,
+    lines: &BoxTree,
     barrier: &Barrier,
     grains: GrainRows,
     skin: f64,
@@ -69,12 +69,12 @@ pub fn find_rope_pairs(
 ) {
     let per_grain = grains.shape.members();
     let start = block.grains.start;
-    tree.pairs_with(segments, |row, segment| {
+    tree.pairs_with(lines, |row, line| {
         let first = (start + row as usize) * per_grain;
         for index in first..first + per_grain {
-            let gap = OnRopes { grains, barrier }.gap([index as u32, segment]);
+            let gap = OnRopes { grains, barrier }.gap([index as u32, line]);
             if gap < skin {
-                block.ropes.list.add([index as u32, segment], gap);
+                block.ropes.list.add([index as u32, line], gap);
             }
         }
     });

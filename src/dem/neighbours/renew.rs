@@ -6,7 +6,7 @@ use crate::dem::crew;
 use crate::dem::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
 use crate::dem::neighbours::broad_phase::{Box3, BoxTree};
 use crate::dem::neighbours::candidates::{
-    find_border_pairs, find_inner_pairs, find_rope_pairs, find_surface_pairs, grain_box, segment_boxes,
+    find_border_pairs, find_inner_pairs, find_rope_pairs, find_surface_pairs, grain_box, line_boxes,
 };
 use crate::dem::neighbours::clocks::Clocks;
 use crate::dem::neighbours::drift::{Drift, strayed};
@@ -248,9 +248,9 @@ impl Neighbours {
             find_inner_pairs(tree, grains, skin, block);
             find_surface_pairs(block, grains, bodies.surfaces, fixed_skin);
         });
-        let barrier = bodies.barrier.filter(|barrier| !barrier.segments.is_empty());
+        let barrier = bodies.barrier.filter(|barrier| !barrier.lines.is_empty());
         // The boxes of the grains do not reach as far as these lists, so those of the segments do.
-        let ropes = barrier.map(|barrier| (barrier, BoxTree::new(&segment_boxes(barrier, fixed_skin))));
+        let ropes = barrier.map(|barrier| (barrier, BoxTree::new(&line_boxes(barrier, fixed_skin))));
         let starts: Vec<usize> = self.blocks.iter().map(|block| block.grains.start).collect();
         let trees = &self.trees;
         crew::for_each(&mut self.blocks, |number, block| {

@@ -294,6 +294,7 @@ fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, net: &NetForces, ropes
             }
             SegmentKind::Net => net_largest = net_largest.max(tension),
             SegmentKind::Lateral => lateral_largest = lateral_largest.max(tension),
+            SegmentKind::Ring => {}
         }
     }
     let mut brakes = vec![0.0_f64; ropes];

@@ -5,22 +5,25 @@ use nalgebra::UnitQuaternion;
 use crate::dem::Vec3;
 use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::ring::RingSide;
 use crate::dem::elements::sliding::Chain;
 
 /// A point mass of the net or of a rope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     pub position: Vec3,
-    /// At half steps, like the grains'.
+    /// At half steps, like the grains'; where the barrier takes several steps in one of the grains', at those.
     pub velocity: Vec3,
+    /// Mean velocity over the last step of the grains, which is what they feel.
+    pub pace: Vec3,
     /// kg
     pub mass: f64,
     /// A fixed node never moves: an anchor, or a rope bolted to the bed.
     pub fixed: bool,
     /// Radius with which grains touch the node (m): the thickest rope that meets there.
     pub radius: f64,
-    /// Segments that end here; grains that touch the very node are found through it.
-    pub segments: Vec<u32>,
+    /// Lines that end here; grains that touch the very node are found through it.
+    pub lines: Vec<u32>,
 }
 
 /// How a node is turned, where cylinders meet in it.
@@ -29,6 +32,8 @@ pub struct Frame {
     pub orientation: UnitQuaternion<f64>,
     /// Angular velocity (rad/s), at half steps.
     pub spin: Vec3,
+    /// Mean angular velocity over the last step of the grains (rad/s).
+    pub pace: Vec3,
     /// Moment of inertia, the same about all axes (kg m²).
     pub inertia: f64,
     /// A clamped node never turns.
@@ -58,12 +63,22 @@ impl Segment {
     }
 }
 
-/// Which part of the barrier a segment belongs to; `Main` carries the number of its rope from the bottom.
+/// Which part of the barrier a segment or cylinder belongs to; `Main` carries the number of its rope from the bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SegmentKind {
     Net,
     Main(u16),
     Lateral,
+    /// A ring, or what ties it to the net. Grains pass it by: it lies behind the net.
+    Ring,
+}
+
+/// A segment or cylinder as grains touch it: a line between two nodes, with a thickness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    pub nodes: [u32; 2],
+    /// m
+    pub radius: f64,
 }
 
 /// An anchor point with the main rope it holds.
@@ -83,8 +98,13 @@ pub struct Barrier {
     pub cylinders: Vec<Cylinder>,
     pub frames: Vec<Frame>,
     pub anchors: Vec<Anchor>,
+    /// What grains can touch; made by [`Self::connect`].
+    pub lines: Vec<Line>,
     /// Ropes that slide through their rings; empty where rings are pinned.
     pub chains: Vec<Chain>,
+    /// Sides of rings round ropes of cylinders, and the moduli of ring and rope in contact (Pa).
+    pub rings: Vec<RingSide>,
+    pub ring_moduli: [f64; 2],
     /// Friction coefficient between grain and rope, tan φ.
     pub friction: f64,
     /// Young's modulus of the rope in contact with a grain (Pa).
@@ -92,21 +112,29 @@ pub struct Barrier {
 }
 
 impl Barrier {
-    /// Radius with which grains may touch a segment or either of its nodes (m).
-    pub fn thickness(&self, segment: u32) -> f64 {
-        let segment = &self.segments[segment as usize];
-        let ends = segment.nodes.map(|node| self.nodes[node as usize].radius);
-        segment.radius.max(ends[0]).max(ends[1])
+    /// Radius with which grains may touch a line or either of its nodes (m).
+    pub fn thickness(&self, line: u32) -> f64 {
+        let line = &self.lines[line as usize];
+        let ends = line.nodes.map(|node| self.nodes[node as usize].radius);
+        line.radius.max(ends[0]).max(ends[1])
     }
 
-    /// Records at every node which segments end there. Call once all segments stand.
+    /// Angular velocity of the point that divides a line as (1−share):share (rad/s); zero where nodes do not turn.
+    pub fn spin_at(&self, line: &Line, share: f64) -> Vec3 {
+        let [a, b] = line.nodes.map(|node| self.frames.get(node as usize).map_or(Vec3::zeros(), |frame| frame.pace));
+        a * (1.0 - share) + b * share
+    }
+
+    /// Lists the lines that grains can touch, and at every node those that end there. Call once all elements stand.
     pub fn connect(&mut self) {
-        for node in &mut self.nodes {
-            node.segments.clear();
-        }
-        for (index, segment) in self.segments.iter().enumerate() {
-            for node in segment.nodes {
-                self.nodes[node as usize].segments.push(index as u32);
+        let segments = self.segments.iter().map(|segment| (segment.kind, segment.nodes, segment.radius));
+        let cylinders = self.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes, cylinder.section.radius));
+        let touchable = segments.chain(cylinders).filter(|(kind, ..)| *kind != SegmentKind::Ring);
+        self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius }).collect();
+        self.nodes.iter_mut().for_each(|node| node.lines.clear());
+        for (index, line) in self.lines.iter().enumerate() {
+            for node in line.nodes {
+                self.nodes[node as usize].lines.push(index as u32);
             }
         }
     }

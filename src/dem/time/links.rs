@@ -6,6 +6,7 @@ use crate::dem::contact::pair_list::Separation;
 use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::dem::crew;
 use crate::dem::elements::cylinder::Cylinder;
+use crate::dem::elements::ring::{RingContext, RingSide};
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::clocks::Clock;
 use crate::dem::tables::barrier::Barrier;
@@ -26,10 +27,10 @@ pub struct End {
     pub arm: Vec3,
 }
 
-/// A spring and dashpot between up to three bodies, or bodies and the ground.
+/// A spring and dashpot between up to four bodies, or bodies and the ground.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Link {
-    ends: [End; 3],
+    ends: [End; 4],
     count: usize,
     direction: Vec3,
     /// Stiffness along the direction and across it (N/m).
@@ -111,18 +112,46 @@ pub struct Linked<'a> {
 }
 
 impl Linked<'_> {
-    /// All links, in a fixed order; contacts with friction springs that stick, ropes as far as they are taut.
-    pub fn links(&self) -> Vec<Vec<Link>> {
-        let mut links = crew::map(self.blocks, |_, block| {
+    /// All contacts of grains, in a fixed order, with friction springs that stick.
+    pub fn contacts(&self) -> Vec<Vec<Link>> {
+        crew::map(self.blocks, |_, block| {
             let mut links = Vec::new();
             self.add_pairs(block, &mut links);
             self.add_surfaces(block, &mut links);
             self.add_ropes(block, &mut links);
             links
-        });
-        links.extend(self.barrier.map(|barrier| self.elements(barrier)));
-        links.extend(self.barrier.map(|barrier| self.cylinders(barrier)));
-        links
+        })
+    }
+
+    /// What holds the barrier together: ropes as far as they are taut, and rings as if they touched their ropes.
+    pub fn within_barrier(&self) -> Vec<Vec<Link>> {
+        let Some(barrier) = self.barrier else { return Vec::new() };
+        vec![self.elements(barrier), self.cylinders(barrier), self.rings(barrier)]
+    }
+
+    fn rings(&self, barrier: &Barrier) -> Vec<Link> {
+        let context = RingContext {
+            nodes: &barrier.nodes,
+            frames: &barrier.frames,
+            cylinders: &barrier.cylinders,
+            moduli: barrier.ring_moduli,
+        };
+        let link = |ring: &RingSide| {
+            let touch = ring.touch(&context);
+            let bodies = [(ring.side, -1.0), (touch.near, 1.0)].into_iter().enumerate();
+            let ends = bodies.flat_map(|(body, (cylinder, sign))| {
+                let nodes = barrier.cylinders[cylinder as usize].nodes;
+                let (share, arm) = (touch.shares[body], touch.arms[body]);
+                [(nodes[0], 1.0 - share), (nodes[1], share)].map(|(node, share)| {
+                    let end = self.node_end(barrier, node, share * sign);
+                    end.map(|end| End { arm, ..end })
+                })
+            });
+            let link = Link::between(ends.flatten());
+            let spring = &touch.point.spring;
+            self.contact(link, Vec3::from(touch.point.normal), spring.stiffness, touch.inverse_mass)
+        };
+        barrier.rings.iter().map(link).collect()
     }
 
     fn add_pairs(&self, block: &Block, links: &mut Vec<Link>) {
@@ -173,7 +202,7 @@ impl Linked<'_> {
             let Some(contact) = touch_rope(&self.grains.member(index as usize), segment, &context) else {
                 continue;
             };
-            let nodes = barrier.segments[segment as usize].nodes;
+            let nodes = barrier.lines[segment as usize].nodes;
             let on_nodes = [(nodes[0], 1.0 - contact.share), (nodes[1], contact.share)];
             let on_nodes = on_nodes.into_iter().filter_map(|(node, share)| self.node_end(barrier, node, share));
             let link = Link::between([self.grain_end(index, &contact.foot, -1.0)].into_iter().chain(on_nodes));
@@ -207,6 +236,7 @@ impl Linked<'_> {
             let [a, b] = cylinder.nodes.map(|node| barrier.nodes[node as usize].position);
             let line = b - a;
             let (length, section) = (cylinder.rest_length, &cylinder.section);
+            // A node that is fixed may still turn.
             let end =
                 |side: usize, share: f64| End { body: nodes + cylinder.nodes[side], share, arm: line * (0.5 * -share) };
             let shear = 12.0 * section.bending / length.powi(3);

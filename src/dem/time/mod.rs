@@ -2,4 +2,5 @@
 
 pub mod integrate;
 pub mod links;
+pub mod multi_rate;
 pub mod stable_step;

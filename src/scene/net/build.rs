@@ -82,10 +82,11 @@ impl Builder<'_> {
         self.barrier.nodes.push(Node {
             position,
             velocity: Vec3::zeros(),
+            pace: Vec3::zeros(),
             mass: 0.0,
             fixed,
             radius: 0.0,
-            segments: Vec::new(),
+            lines: Vec::new(),
         });
         self.barrier.nodes.len() as u32 - 1
     }

@@ -72,10 +72,11 @@ fn stopping() -> Result<Vec<Finding>, Broken> {
     let node = |x: f64, fixed| Node {
         position: Vec3::x() * x,
         velocity: Vec3::zeros(),
+        pace: Vec3::zeros(),
         mass,
         fixed,
         radius: 0.016,
-        segments: Vec::new(),
+        lines: Vec::new(),
     };
     let mut barrier = Barrier { nodes: vec![node(0.0, true), node(1.0, false)], ..Barrier::default() };
     barrier.nodes[1].velocity.x = speed;

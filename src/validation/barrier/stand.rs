@@ -1,6 +1,7 @@
 //! A test stand: a barrier alone, with loads on its nodes, stepped by the engine's own forces and motion.
 
 use crate::dem::Vec3;
+use crate::dem::contact::law::LawConstants;
 use crate::dem::elements::cylinder::{Cylinder, Section};
 use crate::dem::net::{NetForces, pull_all};
 use crate::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
@@ -39,14 +40,14 @@ impl Stand {
     }
 
     pub fn step(&mut self) {
-        self.net = pull_all(&self.barrier, self.step);
+        self.net = pull_all(&self.barrier, &LawConstants::new(1.0, 2.0 / 7.0, self.step));
         for (node, force, torque) in &self.loads {
             self.net.forces[*node] += force;
             if let Some(sum) = self.net.torques.get_mut(*node) {
                 *sum += torque;
             }
         }
-        self.net.slip_dissipators(&mut self.barrier);
+        self.net.take_over(&mut self.barrier);
         move_nodes(&mut self.barrier.nodes, &self.net.forces, &self.gravity, self.step);
         turn_frames(&mut self.barrier.frames, &self.net.torques, self.step);
     }
@@ -85,7 +86,7 @@ impl Stand {
 }
 
 fn node(position: Vec3, mass: f64, fixed: bool) -> Node {
-    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: RADIUS, segments: Vec::new() }
+    Node { position, velocity: Vec3::zeros(), pace: Vec3::zeros(), mass, fixed, radius: RADIUS, lines: Vec::new() }
 }
 
 /// Masses of the nodes of a line cut into `parts` equal parts.
@@ -103,6 +104,7 @@ pub fn cantilever(length: f64, parts: usize) -> Barrier {
         barrier.frames.push(Frame {
             orientation: nalgebra::UnitQuaternion::identity(),
             spin: Vec3::zeros(),
+            pace: Vec3::zeros(),
             inertia: mass * (part * part / 12.0 + RADIUS * RADIUS / 4.0),
             held: number == 0,
         });

@@ -1,0 +1,118 @@
+//! A ring on its rope: cylinder against cylinder.
+//!
+//! A ring is a square of cylinders round a rope of cylinders. Each side touches the rope at the point where it comes nearest to it,
+//! with the one contact law (k of Albaba 2015, Eq. 4.16, and Coulomb friction). The rope counts as one body: of the cylinders
+//! near the ring only the nearest is touched, and the friction spring goes along from one to the next. Force and torque
+//! go to the end nodes of both by the shares at the point of contact, so that momentum and angular momentum are conserved.
+
+use std::ops::Range;
+
+use crate::dem::Vec3;
+use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, contact_stiffness, respond};
+use crate::dem::elements::cylinder::Cylinder;
+use crate::dem::geometry::segment_segment::nearest_of_segments;
+use crate::dem::tables::barrier::{Frame, Node};
+
+/// A side of a ring and the rope it runs on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RingSide {
+    /// Number of the side's cylinder.
+    pub side: u32,
+    /// Cylinders of the rope.
+    pub rope: Range<u32>,
+    /// The one that is nearest now.
+    pub near: u32,
+    /// What the contact remembers.
+    pub memory: Memory,
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+/// How a side of a ring touches its rope.
+#[derive(Clone, Copy, Debug)]
+pub struct RingTouch {
+    pub point: ContactPoint,
+    /// Number of the rope's cylinder.
+    pub near: u32,
+    /// Shares of the second nodes of side and rope.
+    pub shares: [f64; 2],
+    /// From the axes of side and rope to the point of contact (m).
+    pub arms: [Vec3; 2],
+    /// 1/m_r (1/kg).
+    pub inverse_mass: f64,
+}
+
+/// What the contact does in one step.
+#[derive(Clone, Copy, Debug)]
+pub struct RingForce {
+    pub touch: RingTouch,
+    pub response: Response,
+}
+
+/// Nodes, frames and cylinders of a barrier, which a ring sees.
+#[derive(Clone, Copy)]
+pub struct RingContext<'a> {
+    pub nodes: &'a [Node],
+    pub frames: &'a [Frame],
+    pub cylinders: &'a [Cylinder],
+    /// Moduli of ring and rope in contact (Pa).
+    pub moduli: [f64; 2],
+}
+
+impl RingSide {
+    /// The contact at the present places; its overlap is negative where they do not touch.
+    pub fn touch(&self, context: &RingContext) -> RingTouch {
+        let near = self.near.saturating_sub(1).max(self.rope.start)..(self.near + 2).min(self.rope.end);
+        let side = &context.cylinders[self.side as usize];
+        let ends = |cylinder: &Cylinder| cylinder.nodes.map(|node| &context.nodes[node as usize]);
+        let places = |nodes: [&Node; 2]| [nodes[0].position, nodes[1].position];
+        let mine = places(ends(side));
+        let found = near.map(|number| {
+            let rope = places(ends(&context.cylinders[number as usize]));
+            let nearest = nearest_of_segments([&mine[0], &mine[1]], [&rope[0], &rope[1]]);
+            ((nearest.points[1] - nearest.points[0]).norm_squared(), number, nearest)
+        });
+        let first = |a: (f64, u32, _), b: (f64, u32, _)| if b.0 < a.0 { b } else { a };
+        let (_, number, nearest) = found.reduce(first).expect("a rope has cylinders");
+        let rope = &context.cylinders[number as usize];
+        let towards = nearest.points[1] - nearest.points[0];
+        let distance = towards.norm();
+        let radii = [side.section.radius, rope.section.radius];
+        let overlap = radii[0] + radii[1] - distance;
+        let normal = if distance > 0.0 { towards / distance } else { Vec3::zeros() };
+        let arms = [normal * (radii[0] - 0.5 * overlap), normal * -(radii[1] - 0.5 * overlap)];
+        let bodies = [side, rope];
+        let [mine, theirs] = [0, 1].map(|body| {
+            let ([a, b], share) = (ends(bodies[body]), nearest.shares[body]);
+            let frames = bodies[body].nodes.map(|node| &context.frames[node as usize]);
+            let spin = frames[0].spin * (1.0 - share) + frames[1].spin * share;
+            let velocity = a.velocity * (1.0 - share) + b.velocity * share + spin.cross(&arms[body]);
+            let inverse = |node: &Node| if node.fixed { 0.0 } else { node.mass.recip() };
+            (velocity, spin, (1.0 - share).powi(2) * inverse(a) + share.powi(2) * inverse(b))
+        });
+        let inverse_mass = mine.2 + theirs.2;
+        let stiffness = contact_stiffness(context.moduli[0] * radii[0], context.moduli[1] * radii[1]);
+        let point = ContactPoint {
+            normal: normal.into(),
+            overlap,
+            velocity: (theirs.0 - mine.0).into(),
+            twist: 0.5 * (mine.1 + theirs.1).dot(&normal),
+            spring: Spring::new(stiffness, inverse_mass),
+            friction: self.friction,
+        };
+        RingTouch { point, near: number, shares: nearest.shares, arms, inverse_mass }
+    }
+
+    /// The contact and its force.
+    pub fn force(&self, context: &RingContext, law: &LawConstants) -> RingForce {
+        let touch = self.touch(context);
+        let mut response = respond(&touch.point, &self.memory, law);
+        if touch.point.overlap <= 0.0 {
+            // What the friction spring still holds is lost when the contact parts.
+            let compliance = touch.point.spring.compliance * law.half_tangential_compliance;
+            response.lost_friction = Vec3::from(self.memory.tangential).norm_squared() * compliance;
+            response.memory = Memory::default();
+        }
+        RingForce { touch, response }
+    }
+}

@@ -1,0 +1,105 @@
+//! Several steps of the barrier within one step of the grains.
+//!
+//! The stiff, light parts of a barrier (short cylinders, rings) need shorter steps than grains do. So forces are parted: those of
+//! the grains act on the nodes as one impulse F Δt at the start of a step Δt of the grains, those within the barrier act in each
+//! of its m steps of Δt/m (the impulse method, r-RESPA, of Tuckerman, Berne & Martyna 1992). For m = 1 this is the
+//! leapfrog itself. Grains feel the mean velocity of the nodes over their step, so that the way a contact slips is the way the
+//! bodies have really gone.
+
+use nalgebra::UnitQuaternion;
+
+use crate::dem::contact::law::LawConstants;
+use crate::dem::contact::ropes::Push;
+use crate::dem::ledger::MotionEnergy;
+use crate::dem::net::{NetForces, pull_all};
+use crate::dem::tables::barrier::Barrier;
+use crate::dem::time::integrate::{Stretch, move_nodes, turn_frames};
+use crate::dem::{Vec3, larger_or_nan};
+
+/// What a step of the grains made of the barrier.
+#[derive(Clone, Debug, Default)]
+pub struct BarrierStep {
+    /// Forces, mean over the step; energy stored at its start.
+    pub net: NetForces,
+    /// Motion at the start of the step.
+    pub motion: MotionEnergy,
+    /// Largest mean speed of a node (m/s).
+    pub fastest: f64,
+}
+
+/// Moves the barrier through one step of the grains, in `parts` steps of its own. `net` holds the forces at the start; `law` the
+/// barrier's own step.
+pub fn step_barrier<'a>(
+    barrier: &mut Barrier,
+    net: NetForces,
+    pushes: impl Iterator<Item = &'a Push> + Clone,
+    law: &LawConstants,
+    time: &Stretch,
+    parts: u32,
+) -> BarrierStep {
+    let own = Stretch { step: time.step / f64::from(parts), ..*time };
+    let before: Vec<Vec3> = barrier.nodes.iter().map(|node| node.position).collect();
+    let turned: Vec<UnitQuaternion<f64>> = barrier.frames.iter().map(|frame| frame.orientation).collect();
+    let mut first = net;
+    pushes.clone().for_each(|push| first.push(push, f64::from(parts)));
+    let mut motion = motion_of(barrier, &time.gravity);
+    // The impulse of the grains acts at once, that of gravity and of the elements over the first part.
+    first.take_over(barrier);
+    let after = go(barrier, &first, &own, Some(&time.gravity));
+    motion.kinetic = 0.5 * (motion.kinetic + after.kinetic);
+    motion.rotational = 0.5 * (motion.rotational + after.rotational);
+    for _ in 1..parts {
+        let later = pull_all(barrier, law);
+        later.take_over(barrier);
+        go(barrier, &later, &own, None);
+        first.go_on(&later);
+    }
+    first.share_out(parts);
+    let fastest = if parts == 1 { note_velocities(barrier) } else { note_paces(barrier, &before, &turned, time.step) };
+    BarrierStep { net: first, motion, fastest }
+}
+
+/// Moves nodes and frames through one step; returns their motion after the kick where gravity is told for it.
+fn go(barrier: &mut Barrier, net: &NetForces, own: &Stretch, told: Option<&Vec3>) -> MotionEnergy {
+    move_nodes(&mut barrier.nodes, &net.forces, &own.gravity, own.step);
+    turn_frames(&mut barrier.frames, &net.torques, own.step);
+    told.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity))
+}
+
+/// Energies of motion and place of the nodes.
+fn motion_of(barrier: &Barrier, gravity: &Vec3) -> MotionEnergy {
+    let mut sums = MotionEnergy::default();
+    for node in barrier.nodes.iter().filter(|node| !node.fixed) {
+        sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
+        sums.potential -= node.mass * gravity.dot(&node.position);
+    }
+    for frame in barrier.frames.iter().filter(|frame| !frame.held) {
+        let turning = 0.5 * frame.inertia * frame.spin.norm_squared();
+        sums.kinetic += turning;
+        sums.rotational += turning;
+    }
+    sums
+}
+
+/// Notes the mean velocities over the step; returns the largest speed (m/s).
+fn note_paces(barrier: &mut Barrier, before: &[Vec3], turned: &[UnitQuaternion<f64>], step: f64) -> f64 {
+    let mut fastest = 0.0;
+    for (node, before) in barrier.nodes.iter_mut().zip(before) {
+        node.pace = (node.position - before) / step;
+        fastest = larger_or_nan(fastest, node.pace.norm_squared());
+    }
+    for (frame, before) in barrier.frames.iter_mut().zip(turned) {
+        frame.pace = (frame.orientation * before.inverse()).scaled_axis() / step;
+    }
+    fastest.sqrt()
+}
+
+/// The same where the barrier has taken a single step.
+fn note_velocities(barrier: &mut Barrier) -> f64 {
+    barrier.frames.iter_mut().for_each(|frame| frame.pace = frame.spin);
+    let fastest = barrier.nodes.iter_mut().fold(0.0, |fastest, node| {
+        node.pace = node.velocity;
+        larger_or_nan(fastest, node.pace.norm_squared())
+    });
+    fastest.sqrt()
+}
