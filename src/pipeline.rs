@@ -154,6 +154,7 @@ fn numerics(event: &Event) -> Numerics {
         energy_error: event.energy_error,
         overlap: event.simulation.extremes.overlap_ratio,
         step_ratio: event.simulation.extremes.step_ratio.value,
+        crossings: event.simulation.extremes.crossings,
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
             _ => None,
@@ -168,7 +169,7 @@ impl Facts {
         let simulation = &event.simulation;
         if let Some(barrier) = &simulation.model.barrier {
             self.barrier_nodes = barrier.nodes.len();
-            self.barrier_elements = barrier.segments.len() + barrier.dissipators.len();
+            self.barrier_elements = barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len();
         }
         self.simulated = simulation.time;
         self.steady = event.ending == Ending::Steady;

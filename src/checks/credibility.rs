@@ -14,6 +14,8 @@ pub struct Numerics {
     pub energy_error: f64,
     pub overlap: f64,
     pub step_ratio: f64,
+    /// Grains whose centre has gone through a rope.
+    pub crossings: u32,
     /// Why the run ended early, if it did.
     pub broke_down: Option<String>,
     /// Whether no grain ever touched the barrier.
@@ -38,6 +40,10 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     let stiffer = "a larger flow.contact_modulus makes grains stiffer";
     hold("the largest overlap over the grain's radius", numerics.overlap, OVERLAP_LIMIT, stiffer);
     hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT, finer);
+    if numerics.crossings > 0 {
+        let count = numerics.crossings;
+        doubts.push(format!("{count} times a grain has slipped through a rope; {stiffer}"));
+    }
     if numerics.missed {
         doubts.push("the flow came to rest without ever touching the barrier".to_string());
     }
@@ -59,6 +65,7 @@ mod tests {
             Numerics { energy_error: f64::NAN, ..Numerics::default() },
             Numerics { overlap: 0.21, ..Numerics::default() },
             Numerics { step_ratio: 2.0, ..Numerics::default() },
+            Numerics { crossings: 1, ..Numerics::default() },
             Numerics { missed: true, ..Numerics::default() },
             Numerics { unfinished: true, ..Numerics::default() },
             Numerics { broke_down: Some("x".into()), ..Numerics::default() },

@@ -160,6 +160,11 @@ pub struct MainRopes {
     pub ring_spacing: f64,
     /// Friction between ring and rope.
     pub ring_friction: f64,
+    /// Thickness of a ring's rod (m) and its modulus (Pa).
+    pub ring_diameter: f64,
+    pub ring_modulus: f64,
+    /// Length of the rope's cylinders, about (m).
+    pub element_length: f64,
 }
 
 /// Where the ropes along the sides of the net end.
@@ -242,4 +247,6 @@ pub enum BarrierModel {
     PinnedRopes,
     /// Ropes run through the rings with friction.
     SlidingRopes,
+    /// Everything of cylinders that bend; rings are squares of four that slide on the ropes.
+    Cylinders,
 }

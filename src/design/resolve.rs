@@ -121,6 +121,9 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             rope: rope(e, "main_ropes")?,
             ring_spacing: value("main_ropes.rings.spacing")?,
             ring_friction: value("main_ropes.rings.friction")?.tan(),
+            ring_diameter: value("main_ropes.rings.diameter")?,
+            ring_modulus: value("main_ropes.rings.modulus")?,
+            element_length: value("main_ropes.element_length")?,
         },
         lateral_rope: rope(e, "lateral_ropes")?,
         lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::RopeEnds },
@@ -170,6 +173,7 @@ fn simulation(e: &Entries) -> Option<SimulationWishes> {
     let barrier_model = match e.text("simulation.barrier_model")? {
         "pinned_ropes" => BarrierModel::PinnedRopes,
         "sliding_ropes" => BarrierModel::SlidingRopes,
+        "cylinders" => BarrierModel::Cylinders,
         _ => return None,
     };
     let seed = e.number("simulation.seed")? as u64;

@@ -160,11 +160,24 @@ const MAIN_ROPES: &[Key] = &[
     Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
     Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
     Key::required("rings", Kind::Section(RINGS), "rings that hang the net on the rope"),
+    Key::default(
+        "element_length",
+        quantity(D::Length, 0.005, 5.0),
+        "70 mm",
+        "length of the cylinders of a main rope, about; for barrier_model cylinders",
+    ),
 ];
 
 const RINGS: &[Key] = &[
     Key::required("spacing", quantity(D::Length, 0.005, 5.0), "spacing along the rope"),
     Key::required("friction", FRICTION, "friction angle between ring and rope"),
+    Key::default(
+        "diameter",
+        quantity(D::Length, 1e-4, 0.3),
+        "16 mm",
+        "thickness of the ring's own rod; for barrier_model cylinders",
+    ),
+    Key::default("modulus", quantity(D::Pressure, 1e7, 4e11), "8 GPa", "modulus of the ring; for barrier_model cylinders"),
 ];
 
 const LATERAL_ROPES: &[Key] = &[
@@ -225,9 +238,9 @@ const SIMULATION: &[Key] = &[
     Key::default("fidelity", Kind::Choice(&["fast", "standard", "fine"]), "standard", "how small a time step"),
     Key::default(
         "barrier_model",
-        Kind::Choice(&["pinned_ropes", "sliding_ropes"]),
+        Kind::Choice(&["pinned_ropes", "sliding_ropes", "cylinders"]),
         "sliding_ropes",
-        "whether main ropes are fixed to the rings of the net or run through them with friction",
+        "ropes fixed to the rings of the net, or running through them with friction; or all of cylinders that bend, with rings as squares that slide on the ropes (some ten times the time)",
     ),
     Key::default("seed", Kind::Count { low: 0, high: u32::MAX as u64 }, "1", "seed of the packing"),
     Key::default(

@@ -3,7 +3,7 @@
 use crate::dem::contact::law::contact_stiffness;
 use crate::dem::contact::restitution::damping_ratio_for;
 use crate::dem::time::stable_step::critical_step_of_pair;
-use crate::design::{BarrierDesign, Design, FidelityWish, FlexibleNet, Rope};
+use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, Rope};
 use crate::scene::flow::release::bodies;
 use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
 
@@ -73,6 +73,11 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let grain = design.flow.modulus * radius;
     let rope = net.net_rope.modulus * 0.5 * net.net_rope.diameter;
     let contact = contact_stiffness(grain, rope);
+    if design.simulation.barrier_model == BarrierModel::Cylinders {
+        // What holds the barrier together has steps of its own; a grain presses on a piece of the rope.
+        let (piece, _) = knot(&net.main_ropes.rope, net.main_ropes.element_length, 2.0, 4.0);
+        return critical_step_of_pair(contact, net_mass.min(piece), ROPE_DAMPING_RATIO);
+    }
     let on_net = net_mass / (net_stiffness + contact);
     let on_rope = (rope_mass + net_mass) / (rope_stiffness + net_stiffness + contact);
     critical_step_of_pair(1.0, on_net.min(on_rope), ROPE_DAMPING_RATIO)

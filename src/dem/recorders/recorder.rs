@@ -284,12 +284,14 @@ fn push_rows(rows: &mut Vec<Vec<f64>>, values: &[f64], factor: f64) {
 fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, net: &NetForces, ropes: usize) {
     let (mut mean, mut largest) = (vec![[0.0, 0.0]; ropes], vec![0.0_f64; ropes]);
     let (mut net_largest, mut lateral_largest) = (0.0_f64, 0.0_f64);
-    for (segment, &tension) in barrier.segments.iter().zip(&net.tensions) {
-        match segment.kind {
+    let segments = barrier.segments.iter().map(|segment| (segment.kind, segment.rest_length)).zip(&net.tensions);
+    let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.rest_length)).zip(&net.axial);
+    for ((kind, rest_length), &tension) in segments.chain(cylinders) {
+        match kind {
             SegmentKind::Main(rope) => {
                 let [weighted, length] = &mut mean[rope as usize];
-                *weighted += tension * segment.rest_length;
-                *length += segment.rest_length;
+                *weighted += tension * rest_length;
+                *length += rest_length;
                 largest[rope as usize] = largest[rope as usize].max(tension);
             }
             SegmentKind::Net => net_largest = net_largest.max(tension),

@@ -193,10 +193,9 @@ fn first_forces(links: &[Vec<Link>], inertias: &[Inertia]) -> Vec<Twist> {
     bodies
         .map(|(number, (strength, inertia))| {
             let strength = (strength / scale).powi(4);
-            let force = strength / inertia.inverse_mass.sqrt();
-            // A node has no inertia against turning.
-            let torque =
-                if inertia.inverse_transverse > 0.0 { strength / inertia.inverse_transverse.sqrt() } else { 0.0 };
+            // A fixed node does not move, and a node without cylinders does not turn.
+            let against = |inverse: f64| if inverse == 0.0 { 0.0 } else { strength / inverse.sqrt() };
+            let (force, torque) = (against(inertia.inverse_mass), against(inertia.inverse_transverse));
             [scattered(2 * number as u32) * force, scattered(2 * number as u32 + 1) * torque]
         })
         .collect()

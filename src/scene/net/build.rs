@@ -3,12 +3,16 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use nalgebra::UnitQuaternion;
+
 use crate::dem::Vec3;
+use crate::dem::elements::cylinder::Section;
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::sliding::Chain;
-use crate::dem::tables::barrier::{Anchor, Barrier, Node, Segment, SegmentKind};
+use crate::dem::tables::barrier::{Anchor, Barrier, Frame, Node, Segment, SegmentKind};
 use crate::design::{BarrierModel, Bottom, Channel, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
+use crate::scene::net::rings::{POISSON, ring_stand_off};
 
 /// Density of wire rope over its full circle (kg/m³): steel.
 pub const ROPE_DENSITY: f64 = 7850.0;
@@ -47,9 +51,11 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel) -> Bu
         barrier: Barrier {
             friction: channel.barrier_friction,
             contact_modulus: design.net_rope.modulus,
+            ring_moduli: [design.main_ropes.ring_modulus, design.main_ropes.rope.modulus],
             ..Barrier::default()
         },
         knots: BTreeMap::new(),
+        rope_nodes: BTreeMap::new(),
     };
     builder.add_knots();
     builder.add_net();
@@ -58,18 +64,37 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel) -> Bu
     builder.finish()
 }
 
-struct Builder<'a> {
-    design: &'a FlexibleNet,
+pub(super) struct Builder<'a> {
+    pub(super) design: &'a FlexibleNet,
     channel: &'a Channel,
     model: BarrierModel,
-    grid: Grid,
-    barrier: Barrier,
-    knots: BTreeMap<(usize, usize), u32>,
+    pub(super) grid: Grid,
+    pub(super) barrier: Barrier,
+    pub(super) knots: BTreeMap<(usize, usize), u32>,
+    /// Nodes of main ropes that are not knots, from side to side, by row.
+    pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
 }
 
 impl Builder<'_> {
+    /// Whether a main rope that is free to move runs along a row.
+    fn has_free_rope(&self, row: usize) -> bool {
+        self.grid.rope_rows.contains(&row) && (row > 0 || self.design.bottom != Bottom::Fixed)
+    }
+
+    /// Distance of a column from the first side wall (m).
+    pub(super) fn across(&self, column: usize) -> f64 {
+        let inner = self.channel.width - 2.0 * END_PIECE;
+        END_PIECE + inner * column as f64 / self.grid.columns as f64
+    }
+
+    /// Unit vectors up the barrier's plane and out of it, upstream.
+    pub(super) fn directions(&self) -> [Vec3; 2] {
+        let lean = self.channel.slope + self.design.tilt;
+        [Vec3::new(-lean.sin(), 0.0, lean.cos()), Vec3::new(-lean.cos(), 0.0, -lean.sin())]
+    }
+
     /// A point of the barrier's plane: `across` from the first side wall, `up` along the plane.
-    fn place(&self, across: f64, up: f64) -> Vec3 {
+    pub(super) fn place(&self, across: f64, up: f64) -> Vec3 {
         let lean = self.channel.slope + self.design.tilt;
         let lift = match self.design.bottom {
             Bottom::Fixed => 0.0,
@@ -78,7 +103,7 @@ impl Builder<'_> {
         Vec3::new(-lean.sin() * up, across, lean.cos() * up + lift)
     }
 
-    fn add_node(&mut self, position: Vec3, fixed: bool) -> u32 {
+    pub(super) fn add_node(&mut self, position: Vec3, fixed: bool) -> u32 {
         self.barrier.nodes.push(Node {
             position,
             velocity: Vec3::zeros(),
@@ -88,16 +113,28 @@ impl Builder<'_> {
             radius: 0.0,
             lines: Vec::new(),
         });
+        if self.model == BarrierModel::Cylinders {
+            self.barrier.frames.push(Frame {
+                orientation: UnitQuaternion::identity(),
+                spin: Vec3::zeros(),
+                pace: Vec3::zeros(),
+                inertia: 0.0,
+                held: true,
+            });
+        }
         self.barrier.nodes.len() as u32 - 1
     }
 
     fn add_knots(&mut self) {
-        let inner = self.channel.width - 2.0 * END_PIECE;
         let bottom_fixed = self.design.bottom == Bottom::Fixed;
+        let [_, upstream] = self.directions();
         for row in 0..self.grid.row_heights.len() {
             for column in self.grid.knot_columns(row) {
-                let across = END_PIECE + inner * column as f64 / self.grid.columns as f64;
-                let position = self.place(across, self.grid.row_heights[row]);
+                let mut position = self.place(self.across(column), self.grid.row_heights[row]);
+                let at_end = column == 0 || column == self.grid.columns;
+                if self.model == BarrierModel::Cylinders && self.has_free_rope(row) && !at_end {
+                    position += upstream * ring_stand_off(&self.design.main_ropes);
+                }
                 let node = self.add_node(position, bottom_fixed && row == 0);
                 self.knots.insert((column, row), node);
             }
@@ -114,7 +151,7 @@ impl Builder<'_> {
             }
         }
         for nodes in pairs {
-            self.add_segment(nodes, SegmentKind::Net, &self.design.net_rope);
+            self.add_line(nodes, SegmentKind::Net, &self.design.net_rope);
         }
     }
 
@@ -123,8 +160,12 @@ impl Builder<'_> {
             let kind = SegmentKind::Main(rope as u16);
             let nodes: Vec<u32> = self.knots_of_row(row);
             let first_segment = self.barrier.segments.len() as u32;
-            for pair in nodes.windows(2) {
-                self.add_segment([pair[0], pair[1]], kind, &self.design.main_ropes.rope);
+            if self.model == BarrierModel::Cylinders && self.has_free_rope(row) {
+                self.add_ringed_rope(rope as u16, row);
+            } else {
+                for pair in nodes.windows(2) {
+                    self.add_line([pair[0], pair[1]], kind, &self.design.main_ropes.rope);
+                }
             }
             let held_by_bed = rope == 0 && self.design.bottom == Bottom::Fixed;
             if !held_by_bed {
@@ -160,7 +201,7 @@ impl Builder<'_> {
                 stroke: dissipator.stroke,
                 used: 0.0,
             }),
-            None => self.add_segment([anchor, end], SegmentKind::Main(rope), &self.design.main_ropes.rope),
+            None => self.add_line([anchor, end], SegmentKind::Main(rope), &self.design.main_ropes.rope),
         }
     }
 
@@ -172,7 +213,7 @@ impl Builder<'_> {
                 line.push(self.lateral_stop(column, row));
             }
             for pair in line.windows(2) {
-                self.add_segment([pair[0], pair[1]], SegmentKind::Lateral, &self.design.lateral_rope);
+                self.add_line([pair[0], pair[1]], SegmentKind::Lateral, &self.design.lateral_rope);
             }
         }
     }
@@ -193,8 +234,17 @@ impl Builder<'_> {
         self.grid.knot_columns(row).map(|column| self.knots[&(column, row)]).collect()
     }
 
+    /// Adds a straight rope between two nodes, as a segment or as a cylinder.
+    fn add_line(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
+        if self.model == BarrierModel::Cylinders {
+            self.add_cylinder(nodes, kind, Section::round(0.5 * rope.diameter, rope.modulus, POISSON));
+        } else {
+            self.add_segment(nodes, kind, rope);
+        }
+    }
+
     /// Adds a straight rope between two nodes, unstretched as it lies, half its mass to each.
-    fn add_segment(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
+    pub(super) fn add_segment(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
         let radius = 0.5 * rope.diameter;
         let area = PI * radius * radius;
         let [a, b] = nodes.map(|node| self.barrier.nodes[node as usize].position);
@@ -212,7 +262,9 @@ impl Builder<'_> {
 
     fn finish(mut self) -> BuiltNet {
         self.barrier.connect();
-        let rows = (0..self.grid.row_heights.len()).map(|row| self.knots_of_row(row)).collect();
+        // Where rings carry the net, the rope tells how high a row stands and how wide.
+        let row = |row| self.rope_nodes.get(&row).cloned().unwrap_or_else(|| self.knots_of_row(row));
+        let rows = (0..self.grid.row_heights.len()).map(row).collect();
         BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }
     }
 }

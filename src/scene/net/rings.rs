@@ -1,0 +1,111 @@
+//! Main ropes of cylinders, with rings as squares of four cylinders round them (Albaba 2015, sections 4.2.2 and 4.2.3).
+//!
+//! A ring stands across its rope, with a corner upstream that one more cylinder ties to a knot of the net. So the knots on a main
+//! rope stand a little upstream of it. Two diagonals hold a ring in shape. The outermost knots are the ends of the rope.
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+use crate::dem::Vec3;
+use crate::dem::elements::cylinder::{Cylinder, Section};
+use crate::dem::elements::ring::RingSide;
+use crate::dem::contact::law::Memory;
+use crate::dem::tables::barrier::SegmentKind;
+use crate::design::{MainRopes, Rope};
+use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY};
+
+/// Poisson's ratio of all cylinders, for twisting only.
+pub const POISSON: f64 = 0.3;
+/// Play between ring and rope, over the sum of their radii: 1 mm with the ropes of the thesis.
+const PLAY: f64 = 1.0 / 24.0;
+
+/// Length of a ring's sides (m), and of what ties it to the net.
+fn ring_side(ropes: &MainRopes) -> f64 {
+    (ropes.rope.diameter + ropes.ring_diameter) * (1.0 + PLAY)
+}
+
+/// How far a knot stands off the rope it hangs on (m).
+pub fn ring_stand_off(ropes: &MainRopes) -> f64 {
+    ring_side(ropes) * (1.0 + FRAC_1_SQRT_2)
+}
+
+impl Builder<'_> {
+    /// Adds a main rope of cylinders along `row`, and the rings on it.
+    pub(super) fn add_ringed_rope(&mut self, rope: u16, row: usize) {
+        let ropes = self.design.main_ropes.clone();
+        let up = self.grid.row_heights[row];
+        let columns: Vec<usize> = self.grid.knot_columns(row).collect();
+        let spacing = self.across(columns[1]) - self.across(columns[0]);
+        let parts = (spacing / ropes.element_length).round().max(1.0) as usize;
+        let mut nodes = vec![self.knots[&(columns[0], row)]];
+        for pair in columns.windows(2) {
+            let [from, to] = [pair[0], pair[1]].map(|column| self.across(column));
+            let last = if pair[1] == self.grid.columns { parts - 1 } else { parts };
+            for part in 1..=last {
+                let across = from + (to - from) * part as f64 / parts as f64;
+                nodes.push(self.add_node(self.place(across, up), false));
+            }
+        }
+        nodes.push(self.knots[&(self.grid.columns, row)]);
+        let section = Section::round(0.5 * ropes.rope.diameter, ropes.rope.modulus, POISSON);
+        let first = self.barrier.cylinders.len() as u32;
+        for pair in nodes.windows(2) {
+            self.add_cylinder([pair[0], pair[1]], SegmentKind::Main(rope), section);
+        }
+        let cylinders = first..self.barrier.cylinders.len() as u32;
+        for (number, &column) in columns.iter().enumerate().skip(1) {
+            if column < self.grid.columns {
+                let knot = self.knots[&(column, row)];
+                let near = first + (number * parts) as u32;
+                let ring = RingSide {
+                    side: 0,
+                    rope: cylinders.clone(),
+                    near,
+                    memory: Memory::default(),
+                    friction: ropes.ring_friction,
+                };
+                self.add_ring(knot, self.place(self.across(column), up), &ring);
+            }
+        }
+        self.rope_nodes.insert(row, nodes);
+    }
+
+    /// Adds a ring round `centre`, tied to `knot`; `ring` tells of the rope.
+    fn add_ring(&mut self, knot: u32, centre: Vec3, ring: &RingSide) {
+        let ropes = &self.design.main_ropes;
+        let half_diagonal = ring_side(ropes) * FRAC_1_SQRT_2;
+        let section = Section::round(0.5 * ropes.ring_diameter, ropes.ring_modulus, POISSON);
+        let rod = Rope { diameter: ropes.ring_diameter, modulus: ropes.ring_modulus, breaking_load: f64::INFINITY };
+        let [upward, upstream] = self.directions();
+        let corners = [upstream, upward, -upstream, -upward]
+            .map(|direction| self.add_node(centre + direction * half_diagonal, false));
+        for corner in 0..4 {
+            let side = self.barrier.cylinders.len() as u32;
+            self.add_cylinder([corners[corner], corners[(corner + 1) % 4]], SegmentKind::Ring, section);
+            self.barrier.rings.push(RingSide { side, ..ring.clone() });
+        }
+        self.add_segment([corners[0], corners[2]], SegmentKind::Ring, &rod);
+        self.add_segment([corners[1], corners[3]], SegmentKind::Ring, &rod);
+        self.add_cylinder([corners[0], knot], SegmentKind::Ring, section);
+    }
+
+    /// Adds a cylinder between two nodes, at rest as it lies, half its mass and inertia to each.
+    pub(super) fn add_cylinder(&mut self, nodes: [u32; 2], kind: SegmentKind, section: Section) {
+        let ends = nodes.map(|node| node as usize);
+        let barrier = &mut self.barrier;
+        let places = ends.map(|end| barrier.nodes[end].position);
+        let frames = ends.map(|end| &barrier.frames[end]);
+        let mut cylinder = Cylinder::between(nodes, kind, section, [&places[0], &places[1]], frames);
+        let (length, radius) = (cylinder.rest_length, section.radius);
+        let half_mass = 0.5 * ROPE_DENSITY * PI * radius * radius * length;
+        cylinder.damping_time = 2.0 * ROPE_DAMPING_RATIO * (half_mass * length / section.axial).sqrt();
+        for end in ends {
+            let node = &mut barrier.nodes[end];
+            node.mass += half_mass;
+            node.radius = node.radius.max(radius);
+            let frame = &mut barrier.frames[end];
+            frame.inertia += half_mass * (length * length / 12.0 + radius * radius / 4.0);
+            frame.held = false;
+        }
+        barrier.cylinders.push(cylinder);
+    }
+}
