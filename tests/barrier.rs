@@ -5,13 +5,17 @@
 
 use approx::assert_relative_eq;
 use barrier_check::dem::Vec3;
+use barrier_check::dem::contact::law::Memory;
+use barrier_check::dem::elements::cylinder::{Cylinder, Section};
 use barrier_check::dem::elements::dissipator::Dissipator;
+use barrier_check::dem::elements::ring::RingSide;
 use barrier_check::dem::elements::sliding::Chain;
 use barrier_check::dem::model::Model;
 use barrier_check::dem::simulation::{Simulation, Unstable};
-use barrier_check::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use barrier_check::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
 use barrier_check::dem::tables::grains::GrainShape;
 use barrier_check::validation::scenes::{ball, free_model};
+use nalgebra::UnitQuaternion;
 
 const AXIAL_STIFFNESS: f64 = 3.21699e6;
 
@@ -171,4 +175,156 @@ fn a_grain_on_a_knot_is_pushed_once() {
     let (grain, rope) = (1e8 * radius, 4e9 * 0.016);
     let stiffness = 2.0 * grain * rope / (grain + rope);
     assert_relative_eq!(-simulation.sums.net.from_grains.z, stiffness * 0.001, max_relative = 1e-9);
+}
+
+/// A grain that lies near a flat crossing of two ropes: what both ropes have at the crossing counts once, so that the force does
+/// not jump when the grain leaves the middle. Energy ½k (u₁² + u₂² − u_k²) and its gradient, with the feet of both ropes apart.
+#[test]
+fn a_grain_beside_a_flat_crossing_is_not_pushed_twice() {
+    let (radius, above) = (0.2, 0.215);
+    let push_at = |x: f64, y: f64| {
+        let mut barrier = Barrier::default();
+        barrier.contact_modulus = 4e9;
+        barrier.nodes = vec![node(Vec3::zeros(), 1.0, true)];
+        for (index, [x, y]) in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].into_iter().enumerate() {
+            barrier.nodes.push(node(Vec3::new(x, y, 0.0), 1.0, true));
+            barrier.segments.push(segment([0, index as u32 + 1], 2.0, 0.0));
+        }
+        barrier.connect();
+        let grain = ball(0, Vec3::new(x, y, above), radius, 2600.0);
+        let model = Model { barrier: Some(barrier), ..free_model(vec![grain], GrainShape::Sphere) };
+        let mut simulation = Simulation::new(model, 1e-6, 0.05, 1e3);
+        simulation.step().expect("stable");
+        -simulation.sums.net.from_grains.z
+    };
+    let middle = push_at(0.0, 0.0);
+    assert_relative_eq!(push_at(1e-4, 0.0), middle, max_relative = 1e-3);
+    assert_relative_eq!(push_at(1e-4, 1e-4), middle, max_relative = 1e-3);
+    assert_relative_eq!(push_at(-1e-4, 2e-4), middle, max_relative = 1e-3);
+    // Far from the crossing each rope pushes for itself: its overlap, less what the crossing has of it.
+    let (at, reach) = (0.01_f64, radius + 0.016);
+    let overlap = reach - (above * above + at * at).sqrt();
+    let shared = reach - (above * above + 2.0 * at * at).sqrt();
+    let wanted = (2.0 * overlap - shared) / (reach - above) * middle;
+    assert_relative_eq!(push_at(at, at), wanted, max_relative = 2e-3);
+}
+
+/// A grain that slides along a rope past a node keeps its friction: the force along the rope does not drop out there.
+#[test]
+fn friction_goes_along_from_one_line_to_the_next() {
+    let radius = 0.2;
+    let mut barrier = Barrier::default();
+    barrier.contact_modulus = 4e9;
+    barrier.friction = 0.3;
+    barrier.nodes = (0..5).map(|i| node(Vec3::new(f64::from(i) - 2.0, 0.0, 0.0), 1.0, true)).collect();
+    barrier.segments = (0..4).map(|i| segment([i, i + 1], 1.0, 0.0)).collect();
+    barrier.connect();
+    let mut grain = ball(0, Vec3::new(-0.02, 0.0, radius + 0.016 - 1e-4), radius, 2600.0);
+    grain.velocity.x = 2.0;
+    let model = Model {
+        barrier: Some(barrier),
+        gravity: Vec3::new(0.0, 0.0, -9.81),
+        ..free_model(vec![grain], GrainShape::Sphere)
+    };
+    let mut simulation = Simulation::new(model, 1e-5, 0.05, 1e3);
+    let mut least = f64::INFINITY;
+    for step in 0..2000 {
+        simulation.step().expect("stable");
+        let force = simulation.sums.net.from_grains;
+        if step > 300 {
+            least = least.min(force.x / -force.z);
+        }
+    }
+    assert!(simulation.grains.place[0].0[0] > 0.005, "the grain has passed the node");
+    // Sliding throughout: the friction stays at its limit, the smaller of the two.
+    assert_relative_eq!(least, 0.3, max_relative = 1e-3);
+}
+
+/// A grain thrown so hard that its centre goes through a rope is counted.
+#[test]
+fn a_grain_that_slips_through_a_rope_is_noticed() {
+    let crossings = |speed: f64| {
+        let mut barrier = Barrier::default();
+        barrier.contact_modulus = 4e9;
+        barrier.nodes = vec![node(Vec3::x() * -1.0, 1.0, true), node(Vec3::x(), 1.0, true)];
+        barrier.segments = vec![segment([0, 1], 2.0, 0.0)];
+        barrier.connect();
+        let mut grain = ball(0, Vec3::new(0.0, 0.0, 0.25), 0.2, 2600.0);
+        grain.velocity.z = -speed;
+        let model = Model { barrier: Some(barrier), ..free_model(vec![grain], GrainShape::Sphere) };
+        let mut simulation = Simulation::new(model, 1e-5, 0.05, 1e4);
+        (0..30_000).try_for_each(|_| simulation.step()).expect("stable");
+        simulation.extremes.crossings
+    };
+    assert_eq!(crossings(1.0), 0);
+    assert_eq!(crossings(400.0), 1);
+}
+
+/// A free ring on a free rope, thrown against it at an angle and spinning: momentum and angular momentum stay, and the energy
+/// account closes, with the barrier at several steps to one of the grains'.
+#[test]
+fn a_ring_on_its_rope_conserves_momentum_and_energy() {
+    let mut barrier = Barrier::default();
+    barrier.ring_moduli = [8e9, 4e9];
+    let section = |radius: f64, modulus: f64| Section::round(radius, modulus, 0.3);
+    let add = |barrier: &mut Barrier, position: Vec3, velocity: Vec3| {
+        barrier.nodes.push(Node { velocity, radius: 0.0, ..node(position, 0.4, false) });
+        barrier.frames.push(Frame {
+            orientation: UnitQuaternion::identity(),
+            spin: Vec3::new(3.0, 1.0, -2.0),
+            pace: Vec3::zeros(),
+            inertia: 2e-4,
+            held: false,
+        });
+        barrier.nodes.len() as u32 - 1
+    };
+    let cylinder = |barrier: &Barrier, nodes: [u32; 2], kind, section| {
+        let places = nodes.map(|node| barrier.nodes[node as usize].position);
+        let frames = nodes.map(|node| &barrier.frames[node as usize]);
+        Cylinder::between(nodes, kind, section, [&places[0], &places[1]], frames)
+    };
+    for part in 0..11 {
+        add(&mut barrier, Vec3::new(0.0, 0.07 * f64::from(part), 0.0), Vec3::zeros());
+    }
+    for part in 0..10 {
+        let made = cylinder(&barrier, [part, part + 1], SegmentKind::Main(0), section(0.016, 4e9));
+        barrier.cylinders.push(made);
+    }
+    let velocity = Vec3::new(2.0, 1.0, 0.7);
+    let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
+        .map(|[x, z]| add(&mut barrier, Vec3::new(0.0354 * x, 0.35, 0.0354 * z), velocity));
+    for corner in 0..4 {
+        let side = barrier.cylinders.len() as u32;
+        let nodes = [corners[corner], corners[(corner + 1) % 4]];
+        let made = cylinder(&barrier, nodes, SegmentKind::Ring, section(0.008, 8e9));
+        barrier.cylinders.push(made);
+        barrier.rings.push(RingSide { side, rope: 0..10, near: 5, memory: Memory::default(), friction: 0.0875 });
+    }
+    let momenta = |simulation: &Simulation| {
+        let barrier = simulation.model.barrier.as_ref().expect("a barrier");
+        let mut sums = [Vec3::zeros(); 2];
+        for (node, frame) in barrier.nodes.iter().zip(&barrier.frames) {
+            // Places at whole steps, velocities at half: the way between is along the velocity and adds nothing.
+            sums[0] += node.velocity * node.mass;
+            sums[1] += node.position.cross(&(node.velocity * node.mass)) + frame.spin * frame.inertia;
+        }
+        sums
+    };
+    let mut simulation = simulate(barrier.clone(), Vec3::zeros(), 1e-5);
+    simulation.put_up(simulation.model.barrier.clone().expect("a barrier"));
+    let start = momenta(&simulation);
+    simulation.step_and_account().expect("stable");
+    let account = simulation.ledger;
+    for _ in 0..20_000 {
+        simulation.step_and_account().expect("stable");
+    }
+    let end = momenta(&simulation);
+    assert!((end[0] - start[0]).norm() < 1e-10 * start[0].norm());
+    assert!((end[1] - start[1]).norm() < 1e-10 * start[1].norm());
+    assert!(simulation.ledger.lost_friction > 0.1 * account.kinetic, "the ring slides and knocks");
+    assert!((simulation.ledger.total() / account.total() - 1.0).abs() < 2e-3);
+    let barrier = simulation.model.barrier.as_ref().expect("a barrier");
+    let ring = corners.map(|corner| barrier.nodes[corner as usize].position).iter().sum::<Vec3>() / 4.0;
+    let rope = barrier.nodes[..11].iter().map(|node| (node.position - ring).norm()).fold(f64::INFINITY, f64::min);
+    assert!(rope < 0.07, "the ring is still on its rope");
 }

@@ -7,15 +7,15 @@ use crate::dem::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::dem::model::Model;
 use crate::dem::neighbours::renew::{Bodies, Neighbours};
 use crate::dem::net::{NetForces, slide_all};
-use crate::dem::tables::barrier::Barrier;
-use crate::dem::time::multi_rate::{BarrierStep, step_barrier};
 use crate::dem::sweep::sweep;
+use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grain_table::GrainTable;
 use crate::dem::tables::grains::Grain;
 use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::tables::surfaces::SurfaceRole;
 use crate::dem::time::integrate::Stretch;
 use crate::dem::time::links::Linked;
+use crate::dem::time::multi_rate::{BarrierStep, step_barrier};
 use crate::dem::time::stable_step::{StepRatio, step_ratio};
 
 /// Steps between two audits of the stable step.

@@ -177,7 +177,12 @@ const RINGS: &[Key] = &[
         "16 mm",
         "thickness of the ring's own rod; for barrier_model cylinders",
     ),
-    Key::default("modulus", quantity(D::Pressure, 1e7, 4e11), "8 GPa", "modulus of the ring; for barrier_model cylinders"),
+    Key::default(
+        "modulus",
+        quantity(D::Pressure, 1e7, 4e11),
+        "8 GPa",
+        "modulus of the ring; for barrier_model cylinders",
+    ),
 ];
 
 const LATERAL_ROPES: &[Key] = &[

@@ -6,9 +6,9 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use crate::dem::Vec3;
+use crate::dem::contact::law::Memory;
 use crate::dem::elements::cylinder::{Cylinder, Section};
 use crate::dem::elements::ring::RingSide;
-use crate::dem::contact::law::Memory;
 use crate::dem::tables::barrier::SegmentKind;
 use crate::design::{MainRopes, Rope};
 use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY};
