@@ -272,7 +272,6 @@ fn a_ring_on_its_rope_conserves_momentum_and_energy() {
         barrier.frames.push(Frame {
             orientation: UnitQuaternion::identity(),
             spin: Vec3::new(3.0, 1.0, -2.0),
-            pace: Vec3::zeros(),
             inertia: 2e-4,
             held: false,
         });

@@ -28,6 +28,11 @@ fn wall_cases_hold() {
 }
 
 #[test]
+fn barrier_cases_hold() {
+    ["rope", "dissipator", "net"].into_iter().for_each(holds);
+}
+
+#[test]
 fn unknown_names_are_told() {
     let names = ["contact".to_string(), "A99".to_string()];
     let unknown = Selection { names: &names, quick_only: false }.cases().err();

@@ -3,6 +3,7 @@
 use crate::dem::Vec3;
 use crate::dem::contact::law::{LawConstants, Memory};
 use crate::dem::contact::ropes::Push;
+use crate::dem::elements::cylinder::strain_all;
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::ring::{RingContext, RingForce, RingSide};
 use crate::dem::elements::rope::pull;
@@ -96,22 +97,20 @@ impl NetForces {
     }
 
     fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {
-        for cylinder in &barrier.cylinders {
-            let [a, b] = cylinder.nodes.map(|node| node as usize);
-            let nodes = [&barrier.nodes[a], &barrier.nodes[b]];
-            if nodes[0].fixed && nodes[1].fixed {
-                self.axial.push(0.0);
-                continue;
-            }
-            let strain = cylinder.strain(nodes, [&barrier.frames[a], &barrier.frames[b]]);
-            self.forces[a] -= strain.force;
-            self.forces[b] += strain.force;
-            self.torques[a] += strain.moments[0];
-            self.torques[b] += strain.moments[1];
-            self.stored += strain.stored;
-            self.lost_ropes += strain.power_lost * step;
+        let (mut stored, mut power) = (0.0, 0.0);
+        strain_all(barrier, |number, strain| {
+            let [a, b] = barrier.cylinders[number].nodes.map(|node| node as usize);
+            let force = Vec3::from(strain.force);
+            self.forces[a] -= force;
+            self.forces[b] += force;
+            self.torques[a] += Vec3::from(strain.moments[0]);
+            self.torques[b] += Vec3::from(strain.moments[1]);
+            stored += strain.stored;
+            power += strain.power_lost;
             self.axial.push(strain.tension);
-        }
+        });
+        self.stored += stored;
+        self.lost_ropes += power * step;
     }
 
     fn touch_ring(&mut self, ring: &RingSide, result: &RingForce, barrier: &Barrier) {
@@ -142,7 +141,7 @@ impl NetForces {
 
     /// Adds the force of a grain on a line, `times` over.
     pub fn push(&mut self, push: &Push, times: f64) {
-        self.put(&push.nodes, push.share, &(push.force * times), &(push.torque * times));
+        self.put(&push.nodes, push.share, &(push.force * times), &Vec3::zeros());
         self.from_grains += push.force;
     }
 

@@ -31,10 +31,15 @@ pub enum Suite {
     Rope,
     /// Dissipators.
     Dissipator,
+    /// Nets.
+    Net,
+    /// Whole barriers in the design's own scenes.
+    FullScale,
 }
 
 impl Suite {
-    pub const ALL: [Self; 5] = [Self::Contact, Self::Bulk, Self::Wall, Self::Rope, Self::Dissipator];
+    pub const ALL: [Self; 7] =
+        [Self::Contact, Self::Bulk, Self::Wall, Self::Rope, Self::Dissipator, Self::Net, Self::FullScale];
 
     pub fn word(self) -> &'static str {
         match self {
@@ -43,6 +48,8 @@ impl Suite {
             Self::Wall => "wall",
             Self::Rope => "rope",
             Self::Dissipator => "dissipator",
+            Self::Net => "net",
+            Self::FullScale => "full-scale",
         }
     }
 }

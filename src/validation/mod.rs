@@ -62,4 +62,7 @@ pub const CASES: &[&Case] = &[
     &barrier::contacts::STIFFNESS,
     &barrier::brakes::CYCLE,
     &barrier::brakes::STOPPING,
+    &barrier::punching::CASE,
+    &barrier::full_scale::BRAKED,
+    &barrier::full_scale::UNBRAKED,
 ];

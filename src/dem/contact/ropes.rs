@@ -6,6 +6,9 @@
 //! these gives up (m_e − 1)/m_e of u_e. A node from which all lines lead away is touched once. So the force neither jumps
 //! nor doubles where a grain passes a node.
 //!
+//! The force acts on the axis of the line: a rope does not roll under a grain, its weave holds it. (Where nodes turn, the friction at the
+//! surface, some 8 mm off the axis, would spin the knots of a net round and round.)
+//!
 //! The friction spring goes along when a grain slides from one line to the next.
 
 use std::ops::Range;
@@ -38,8 +41,6 @@ pub struct Push {
     /// Share of the force that the second node takes.
     pub share: f64,
     pub force: Vec3,
-    /// About the axis of the line at the nearest point (N m): what the force at the surface turns.
-    pub torque: Vec3,
 }
 
 pub struct RopeContext<'a> {
@@ -59,8 +60,6 @@ pub struct RopeTouch {
     /// 1/m_r (1/kg).
     pub inverse_mass: f64,
     pub foot: Vec3,
-    /// Nearest point on the axis of the line.
-    pub axis_point: Vec3,
     pub share: f64,
     /// Whether the centre has gone through the axis in the step just made.
     pub crossed: bool,
@@ -87,8 +86,7 @@ impl RopeContacts {
             let row = index as usize / per_grain - range.start;
             loads[row].add(&force, &(contact.foot - member.centre + member.arm));
             let nodes = barrier.lines[line as usize].nodes;
-            let torque = (contact.foot - contact.axis_point).cross(&-force);
-            pushes.push(Push { nodes, share: contact.share, force: -force, torque });
+            pushes.push(Push { nodes, share: contact.share, force: -force });
             sums.count(&response, contact.point.overlap / member.radius);
             *crossings += u32::from(contact.crossed);
         }
@@ -190,9 +188,7 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
     let overlap = reach - distance;
     let normal = towards / distance;
     let foot = centre + normal * (member.radius - 0.5 * overlap);
-    let spin = barrier.spin_at(line, along.share);
-    let axis_velocity = a.pace * (1.0 - along.share) + b.pace * along.share;
-    let rope_velocity = axis_velocity + spin.cross(&(foot - along.point));
+    let rope_velocity = a.pace * (1.0 - along.share) + b.pace * along.share;
     let velocity = rope_velocity - member.velocity - member.spin.cross(&(foot - centre));
     let grain = context.grain_modulus * member.radius;
     let rope = barrier.contact_modulus * rope_radius;
@@ -203,13 +199,13 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
         normal: normal.into(),
         overlap,
         velocity: velocity.into(),
-        twist: 0.5 * (member.spin + spin).dot(&normal),
+        twist: 0.5 * member.spin.dot(&normal),
         spring: Spring::new(kept * contact_stiffness(grain, rope), inverse_mass),
         friction: barrier.friction.min(context.grain_friction),
     };
-    let before = towards - (axis_velocity - member.velocity) * context.law.time_step;
+    let before = towards - (rope_velocity - member.velocity) * context.law.time_step;
     let crossed = before.dot(&towards) < 0.0;
-    Some(RopeTouch { point, inverse_mass, foot, axis_point: along.point, share: along.share, crossed })
+    Some(RopeTouch { point, inverse_mass, foot, share: along.share, crossed })
 }
 
 /// Overlap that a line gives up at its nodes because other lines have it as well (m).

@@ -13,7 +13,11 @@
 use nalgebra::UnitQuaternion;
 
 use crate::dem::Vec3;
-use crate::dem::tables::barrier::{Frame, Node, SegmentKind};
+use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, minus, negative, plus, scaled};
+use crate::dem::simd::widest::{Work, with_widest};
+use crate::dem::tables::barrier::{Barrier, Frame, SegmentKind};
+use crate::dem::tables::grain_table::Quad;
 
 /// A cylinder between two nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +27,10 @@ pub struct Cylinder {
     /// m
     pub rest_length: f64,
     pub section: Section,
-    /// Damping over stiffness, of all deformations alike (s).
+    /// Damping over stiffness along the axis (s).
     pub damping_time: f64,
+    /// The same against bending and twisting (s).
+    pub turning_time: f64,
     /// Frame of the cylinder at rest as each node sees it: turned by the node's orientation it is the node's own axes.
     pub rest_frames: [UnitQuaternion<f64>; 2],
 }
@@ -54,20 +60,17 @@ impl Section {
 
 /// What a cylinder does to its nodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strain {
+pub struct Strain<R = f64> {
     /// Axial force (N), tension positive.
-    pub tension: f64,
+    pub tension: R,
     /// Force on the second node (N); the first gets the opposite.
-    pub force: Vec3,
+    pub force: Triple<R>,
     /// Moments on the nodes (N m).
-    pub moments: [Vec3; 2],
+    pub moments: [Triple<R>; 2],
     /// Elastic energy (J).
-    pub stored: f64,
+    pub stored: R,
     /// Dissipated power (W).
-    pub power_lost: f64,
-    /// Magnitude of the larger bending moment and of the twisting moment (N m), for elastic limits.
-    pub bending: f64,
-    pub twisting: f64,
+    pub power_lost: R,
 }
 
 impl Cylinder {
@@ -87,54 +90,197 @@ impl Cylinder {
             rest_length: line.norm(),
             section,
             damping_time: 0.0,
+            turning_time: 0.0,
             rest_frames: frames.map(|frame| frame.orientation.inverse() * own),
         }
     }
+}
 
-    /// Strains the cylinder to the present places and orientations of its nodes.
-    pub fn strain(&self, ends: [&Node; 2], frames: [&Frame; 2]) -> Strain {
-        let line = ends[1].position - ends[0].position;
-        let length = line.norm();
-        let along = line / length;
-        let axes = [0, 1].map(|end| frames[end].orientation * self.rest_frames[end]);
-        let middle = axes[0] * Vec3::y() + axes[1] * Vec3::y();
-        let third = along.cross(&middle).normalize();
-        let second = third.cross(&along);
-        let matrix = nalgebra::Matrix3::from_columns(&[along, second, third]);
-        let frame = UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(matrix));
-        let [first, last] = axes.map(|axes| (frame.inverse() * axes).scaled_axis());
-        let Section { axial, bending, twisting, .. } = self.section;
-        let (stretch, twist) = (length - self.rest_length, last.x - first.x);
-        // Rates in the same frame; rigid turning of the frame, seen from the nodes, is that of the line between them.
-        let turning = along.cross(&(ends[1].velocity - ends[0].velocity)) / length;
-        let spin = frames.map(|node| frame.inverse() * (node.spin - turning));
-        let rate = (ends[1].velocity - ends[0].velocity).dot(&along);
-        let (k_bend, k_twist, k_axial) =
-            (bending / self.rest_length, twisting / self.rest_length, axial / self.rest_length);
-        let moment = |mine: &Vec3, other: &Vec3| {
-            Vec3::new(0.0, 4.0 * mine.y + 2.0 * other.y, 4.0 * mine.z + 2.0 * other.z) * k_bend
-        };
-        let elastic = [moment(&first, &last), moment(&last, &first)];
-        let lossy = [moment(&spin[0], &spin[1]), moment(&spin[1], &spin[0])].map(|part| part * self.damping_time);
-        let torsion = k_twist * (twist + self.damping_time * (spin[1].x - spin[0].x));
+/// A cylinder as its nodes lie and move now, or several side by side. Turns are quaternions with the real part last.
+pub struct Bent<R> {
+    /// From node to node (m), and how fast it changes (m/s).
+    pub line: Triple<R>,
+    pub parting: Triple<R>,
+    pub orientations: [[R; 4]; 2],
+    /// rad/s
+    pub spins: [Triple<R>; 2],
+    pub rest_frames: [[R; 4]; 2],
+    /// m
+    pub rest_length: R,
+    /// EA (N), EI and GJ (N m²).
+    pub axial: R,
+    pub bending: R,
+    pub twisting: R,
+    /// s
+    pub damping_time: R,
+    pub turning_time: R,
+}
+
+impl<R: Real> Bent<R> {
+    // No closures and no `map`: the compiler would not put vector instructions into them.
+    #[inline(always)]
+    pub fn strain(&self) -> Strain<R> {
+        let one = R::all(1.0);
+        let length = dot(self.line, self.line).root();
+        let along = scaled(self.line, one / length);
+        let axes1 = axes_of(times(self.orientations[0], self.rest_frames[0]));
+        let axes2 = axes_of(times(self.orientations[1], self.rest_frames[1]));
+        let third = unit(cross(along, plus(axes1[1], axes2[1])));
+        let frame = [along, cross(third, along), third];
+        let (first, last) = (turn_between(&frame, &axes1), turn_between(&frame, &axes2));
+        let stretch = length - self.rest_length;
+        let per_length = one / self.rest_length;
+        let (k_axial, k_bend, k_twist) = (self.axial * per_length, self.bending * per_length, self.twisting * per_length);
+        // Rates; rigid turning of the frame, seen from the nodes, is that of the line between them.
+        let turning = scaled(cross(along, self.parting), one / length);
+        let (rate1, rate2) = (minus(self.spins[0], turning), minus(self.spins[1], turning));
+        let rate = dot(self.parting, along);
+        let k_lossy = k_bend * self.turning_time;
+        let (elastic1, elastic2) = bending_moments(k_bend, along, first, last);
+        let (lossy1, lossy2) = bending_moments(k_lossy, along, rate1, rate2);
+        let twist = dot(minus(last, first), along);
+        let twist_rate = dot(minus(rate2, rate1), along);
+        let torsion = scaled(along, k_twist * (twist + self.turning_time * twist_rate));
         let tension = k_axial * (stretch + self.damping_time * rate);
-        let local = [-(elastic[0] + lossy[0]) + Vec3::x() * torsion, -(elastic[1] + lossy[1]) - Vec3::x() * torsion];
-        let moments = local.map(|local| frame * local);
-        let force = along.cross(&(moments[0] + moments[1])) / length - along * tension;
-        let stored = 0.5
-            * (k_axial * stretch * stretch + elastic[0].dot(&first) + elastic[1].dot(&last) + k_twist * twist * twist);
-        let spin_twist = spin[1].x - spin[0].x;
-        let power_lost = self.damping_time * (k_axial * rate * rate + k_twist * spin_twist * spin_twist)
-            + lossy[0].dot(&spin[0])
-            + lossy[1].dot(&spin[1]);
-        Strain {
-            tension,
-            force,
-            moments,
-            stored,
-            power_lost,
-            bending: elastic[0].norm().max(elastic[1].norm()),
-            twisting: torsion.abs(),
+        let moments = [minus(torsion, plus(elastic1, lossy1)), negative(plus(torsion, plus(elastic2, lossy2)))];
+        let shear = scaled(cross(along, plus(moments[0], moments[1])), one / length);
+        let stored = k_axial * stretch * stretch + k_twist * twist * twist + dot(elastic1, first) + dot(elastic2, last);
+        let power_lost = self.damping_time * k_axial * rate * rate
+            + self.turning_time * k_twist * twist_rate * twist_rate
+            + dot(lossy1, rate1)
+            + dot(lossy2, rate2);
+        Strain { tension, force: add_scaled(shear, -tension, along), moments, stored: stored * 0.5, power_lost }
+    }
+}
+
+/// k (4 θ₁ + 2 θ₂) and k (2 θ₁ + 4 θ₂), of the parts of both turns across the line.
+#[inline(always)]
+fn bending_moments<R: Real>(k: R, along: Triple<R>, first: Triple<R>, last: Triple<R>) -> (Triple<R>, Triple<R>) {
+    let first = scaled(add_scaled(first, -dot(first, along), along), k * 2.0);
+    let last = scaled(add_scaled(last, -dot(last, along), along), k * 2.0);
+    let both = plus(first, last);
+    (plus(both, first), plus(both, last))
+}
+
+/// One turn after another.
+#[inline(always)]
+fn times<R: Real>([ax, ay, az, aw]: [R; 4], [bx, by, bz, bw]: [R; 4]) -> [R; 4] {
+    let vector = plus(add_scaled(scaled([bx, by, bz], aw), bw, [ax, ay, az]), cross([ax, ay, az], [bx, by, bz]));
+    [vector[0], vector[1], vector[2], aw * bw - dot([ax, ay, az], [bx, by, bz])]
+}
+
+/// The three axes turned.
+#[inline(always)]
+fn axes_of<R: Real>([x, y, z, w]: [R; 4]) -> [Triple<R>; 3] {
+    let one = R::all(1.0);
+    let (x2, y2, z2) = (x * 2.0, y * 2.0, z * 2.0);
+    let (xx, yy, zz) = (x * x2, y * y2, z * z2);
+    let (xy, yz, xz) = (x * y2, y * z2, x * z2);
+    let (wx, wy, wz) = (w * x2, w * y2, w * z2);
+    [[one - yy - zz, xy + wz, xz - wy], [xy - wz, one - xx - zz, yz + wx], [xz + wy, yz - wx, one - xx - yy]]
+}
+
+#[inline(always)]
+fn unit<R: Real>(vector: Triple<R>) -> Triple<R> {
+    scaled(vector, R::all(1.0) / dot(vector, vector).root())
+}
+
+/// The rotation (rad) that takes the axes e of `from` to the axes t of `to`.
+///
+/// With S = ½ Σ e × t = n sin θ and Σ e·t = 1 + 2 cos θ the vector v = n sin(θ/2) is S/√(1 + Σ e·t), and θ n = 2 v arcsin|v|/|v| by
+/// the series of the arcsine up to |v|⁸: exact to 1e-4 up to a right angle.
+#[inline(always)]
+fn turn_between<R: Real>(from: &[Triple<R>; 3], to: &[Triple<R>; 3]) -> Triple<R> {
+    let sine = plus(plus(cross(from[0], to[0]), cross(from[1], to[1])), cross(from[2], to[2]));
+    let cosines = dot(from[0], to[0]) + dot(from[1], to[1]) + dot(from[2], to[2]);
+    // Turned by half a revolution the axis is lost; whatever comes near it is beyond any rope.
+    let half = scaled(sine, R::all(0.5) / (cosines + 1.0).or_larger(R::all(1e-12)).root());
+    let square = dot(half, half);
+    let series = square * (square * (square * (square * (35.0 / 1152.0) + 5.0 / 112.0) + 3.0 / 40.0) + 1.0 / 6.0) + 1.0;
+    scaled(half, series * 2.0)
+}
+
+/// Strains many cylinders, eight side by side, and hands what each does to its nodes to `take`, in their order.
+pub fn strain_all(barrier: &Barrier, take: impl FnMut(usize, &Strain)) {
+    with_widest(StrainAll { barrier, take });
+}
+
+/// Rows of numbers that a cylinder is strained from.
+const ROWS: usize = 9;
+
+#[inline(always)]
+fn columns<E: Eight>(rows: &[Quad; LANES]) -> [E; 4] {
+    E::columns(each_lane!(|lane| E::Row::load(&rows[lane])))
+}
+
+struct StrainAll<'a, F> {
+    barrier: &'a Barrier,
+    take: F,
+}
+
+impl<F: FnMut(usize, &Strain)> Work for StrainAll<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<E: Eight>(mut self) {
+        let Barrier { nodes, frames, cylinders, .. } = self.barrier;
+        for (part, eight) in cylinders.chunks(LANES).enumerate() {
+            let last = eight.len() - 1;
+            let mut sheet = [[Quad::default(); LANES]; ROWS];
+            for lane in 0..LANES {
+                let cylinder = &eight[lane.min(last)];
+                let [a, b] = cylinder.nodes.map(|node| node as usize);
+                let Section { axial, bending, twisting, .. } = cylinder.section;
+                let line = nodes[b].position - nodes[a].position;
+                let parting = nodes[b].velocity - nodes[a].velocity;
+                sheet[0][lane] = Quad::new(&line, cylinder.rest_length);
+                sheet[1][lane] = Quad::new(&parting, cylinder.damping_time);
+                sheet[2][lane] = Quad::new(&frames[a].spin, axial);
+                sheet[3][lane] = Quad::new(&frames[b].spin, bending);
+                sheet[4][lane] = Quad(frames[a].orientation.coords.into());
+                sheet[5][lane] = Quad(frames[b].orientation.coords.into());
+                sheet[6][lane] = Quad(cylinder.rest_frames[0].coords.into());
+                sheet[7][lane] = Quad(cylinder.rest_frames[1].coords.into());
+                sheet[8][lane] = Quad([twisting, cylinder.turning_time, 0.0, 0.0]);
+            }
+            let (line, rest_length) = parted(columns::<E>(&sheet[0]));
+            let (parting, damping_time) = parted(columns::<E>(&sheet[1]));
+            let (spin1, axial) = parted(columns::<E>(&sheet[2]));
+            let (spin2, bending) = parted(columns::<E>(&sheet[3]));
+            let [twisting, turning_time, ..] = columns::<E>(&sheet[8]);
+            let bent = Bent {
+                line,
+                parting,
+                orientations: [columns::<E>(&sheet[4]), columns::<E>(&sheet[5])],
+                spins: [spin1, spin2],
+                rest_frames: [columns::<E>(&sheet[6]), columns::<E>(&sheet[7])],
+                rest_length,
+                axial,
+                bending,
+                twisting,
+                damping_time,
+                turning_time,
+            };
+            let strain = bent.strain();
+            let force = E::rows(joined(strain.force, strain.tension));
+            let first = E::rows(joined(strain.moments[0], strain.stored));
+            let second = E::rows(joined(strain.moments[1], strain.power_lost));
+            let mut rows = [[Quad::default(); 3]; LANES];
+            each_lane!(|lane| {
+                force[lane].store(&mut rows[lane][0]);
+                first[lane].store(&mut rows[lane][1]);
+                second[lane].store(&mut rows[lane][2]);
+            });
+            for (lane, [force, first, second]) in rows[..eight.len()].iter().enumerate() {
+                let strain = Strain {
+                    tension: force.fourth(),
+                    force: parted(force.0).0,
+                    moments: [parted(first.0).0, parted(second.0).0],
+                    stored: first.fourth(),
+                    power_lost: second.fourth(),
+                };
+                (self.take)(part * LANES + lane, &strain);
+            }
         }
     }
 }

@@ -10,7 +10,7 @@ use std::ops::Range;
 use crate::dem::Vec3;
 use crate::dem::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, contact_stiffness, respond};
 use crate::dem::elements::cylinder::Cylinder;
-use crate::dem::geometry::segment_segment::nearest_of_segments;
+use crate::dem::geometry::segment_segment::{BetweenSegments, nearest_of_segments};
 use crate::dem::tables::barrier::{Frame, Node};
 
 /// A side of a ring and the rope it runs on.
@@ -62,18 +62,8 @@ pub struct RingContext<'a> {
 impl RingSide {
     /// The contact at the present places; its overlap is negative where they do not touch.
     pub fn touch(&self, context: &RingContext) -> RingTouch {
-        let near = self.near.saturating_sub(1).max(self.rope.start)..(self.near + 2).min(self.rope.end);
         let side = &context.cylinders[self.side as usize];
-        let ends = |cylinder: &Cylinder| cylinder.nodes.map(|node| &context.nodes[node as usize]);
-        let places = |nodes: [&Node; 2]| [nodes[0].position, nodes[1].position];
-        let mine = places(ends(side));
-        let found = near.map(|number| {
-            let rope = places(ends(&context.cylinders[number as usize]));
-            let nearest = nearest_of_segments([&mine[0], &mine[1]], [&rope[0], &rope[1]]);
-            ((nearest.points[1] - nearest.points[0]).norm_squared(), number, nearest)
-        });
-        let first = |a: (f64, u32, _), b: (f64, u32, _)| if b.0 < a.0 { b } else { a };
-        let (_, number, nearest) = found.reduce(first).expect("a rope has cylinders");
+        let (number, nearest) = self.nearest(context);
         let rope = &context.cylinders[number as usize];
         let towards = nearest.points[1] - nearest.points[0];
         let distance = towards.norm();
@@ -83,7 +73,7 @@ impl RingSide {
         let arms = [normal * (radii[0] - 0.5 * overlap), normal * -(radii[1] - 0.5 * overlap)];
         let bodies = [side, rope];
         let [mine, theirs] = [0, 1].map(|body| {
-            let ([a, b], share) = (ends(bodies[body]), nearest.shares[body]);
+            let ([a, b], share) = (bodies[body].nodes.map(|node| &context.nodes[node as usize]), nearest.shares[body]);
             let frames = bodies[body].nodes.map(|node| &context.frames[node as usize]);
             let spin = frames[0].spin * (1.0 - share) + frames[1].spin * share;
             let velocity = a.velocity * (1.0 - share) + b.velocity * share + spin.cross(&arms[body]);
@@ -101,6 +91,26 @@ impl RingSide {
             friction: self.friction,
         };
         RingTouch { point, near: number, shares: nearest.shares, arms, inverse_mass }
+    }
+
+    /// The rope's cylinder that is nearest to the side, and where. Only when the nearest point is an end of the one that was nearest
+    /// last can a neighbour be nearer.
+    fn nearest(&self, context: &RingContext) -> (u32, BetweenSegments) {
+        let places = |cylinder: u32| {
+            context.cylinders[cylinder as usize].nodes.map(|node| &context.nodes[node as usize].position)
+        };
+        let side = places(self.side);
+        let here = nearest_of_segments(side, places(self.near));
+        let next = match here.shares[1] {
+            share if share <= 0.0 => self.near.checked_sub(1),
+            share if share >= 1.0 => Some(self.near + 1),
+            _ => None,
+        };
+        let gap = |found: &BetweenSegments| (found.points[1] - found.points[0]).norm_squared();
+        match next.filter(|next| self.rope.contains(next)).map(|next| (next, nearest_of_segments(side, places(next)))) {
+            Some((next, there)) if gap(&there) < gap(&here) => (next, there),
+            _ => (self.near, here),
+        }
     }
 
     /// The contact and its force.

@@ -32,8 +32,6 @@ pub struct Frame {
     pub orientation: UnitQuaternion<f64>,
     /// Angular velocity (rad/s), at half steps.
     pub spin: Vec3,
-    /// Mean angular velocity over the last step of the grains (rad/s).
-    pub pace: Vec3,
     /// Moment of inertia, the same about all axes (kg m²).
     pub inertia: f64,
     /// A clamped node never turns.
@@ -117,12 +115,6 @@ impl Barrier {
         let line = &self.lines[line as usize];
         let ends = line.nodes.map(|node| self.nodes[node as usize].radius);
         line.radius.max(ends[0]).max(ends[1])
-    }
-
-    /// Angular velocity of the point that divides a line as (1−share):share (rad/s); zero where nodes do not turn.
-    pub fn spin_at(&self, line: &Line, share: f64) -> Vec3 {
-        let [a, b] = line.nodes.map(|node| self.frames.get(node as usize).map_or(Vec3::zeros(), |frame| frame.pace));
-        a * (1.0 - share) + b * share
     }
 
     /// Lists the lines that grains can touch, and at every node those that end there. Call once all elements stand.

@@ -41,8 +41,9 @@ pub struct Link {
     /// Stiffness against turning of the second end relative to the first, across the direction and about it (N m).
     bending: f64,
     twisting: f64,
-    /// Damping over stiffness of everything, besides the dashpot (s).
+    /// Damping over stiffness along the direction, besides the dashpot, and of all else (s).
     damping_time: f64,
+    turning_time: f64,
 }
 
 impl Link {
@@ -76,7 +77,9 @@ impl Link {
         let about = self.direction * self.direction.dot(turning);
         let force = along * (self.along - self.across) + parting * self.across;
         let torque = about * (self.twisting - self.bending) + turning * self.bending;
-        [[force, torque], [along * self.damping + force * self.damping_time, torque * self.damping_time]]
+        let sideways = parting - along;
+        let lossy = along * (self.damping + self.along * self.damping_time) + sideways * (self.across * self.turning_time);
+        [[force, torque], [lossy, torque * self.turning_time]]
     }
 
     /// Puts a force and a torque on all ends.
@@ -249,6 +252,7 @@ impl Linked<'_> {
                 bending: section.bending / length,
                 twisting: section.twisting / length,
                 damping_time: cylinder.damping_time,
+                turning_time: cylinder.turning_time,
                 ..Link::between([end(0, -1.0), end(1, 1.0)])
             }
         };

@@ -6,8 +6,6 @@
 //! leapfrog itself. Grains feel the mean velocity of the nodes over their step, so that the way a contact slips is the way the
 //! bodies have really gone.
 
-use nalgebra::UnitQuaternion;
-
 use crate::dem::contact::law::LawConstants;
 use crate::dem::contact::ropes::Push;
 use crate::dem::ledger::MotionEnergy;
@@ -39,7 +37,6 @@ pub fn step_barrier<'a>(
 ) -> BarrierStep {
     let own = Stretch { step: time.step / f64::from(parts), ..*time };
     let before: Vec<Vec3> = barrier.nodes.iter().map(|node| node.position).collect();
-    let turned: Vec<UnitQuaternion<f64>> = barrier.frames.iter().map(|frame| frame.orientation).collect();
     let mut first = net;
     pushes.clone().for_each(|push| first.push(push, f64::from(parts)));
     let mut motion = motion_of(barrier, &time.gravity);
@@ -55,7 +52,7 @@ pub fn step_barrier<'a>(
         first.go_on(&later);
     }
     first.share_out(parts);
-    let fastest = if parts == 1 { note_velocities(barrier) } else { note_paces(barrier, &before, &turned, time.step) };
+    let fastest = if parts == 1 { note_velocities(barrier) } else { note_paces(barrier, &before, time.step) };
     BarrierStep { net: first, motion, fastest }
 }
 
@@ -82,21 +79,17 @@ fn motion_of(barrier: &Barrier, gravity: &Vec3) -> MotionEnergy {
 }
 
 /// Notes the mean velocities over the step; returns the largest speed (m/s).
-fn note_paces(barrier: &mut Barrier, before: &[Vec3], turned: &[UnitQuaternion<f64>], step: f64) -> f64 {
+fn note_paces(barrier: &mut Barrier, before: &[Vec3], step: f64) -> f64 {
     let mut fastest = 0.0;
     for (node, before) in barrier.nodes.iter_mut().zip(before) {
         node.pace = (node.position - before) / step;
         fastest = larger_or_nan(fastest, node.pace.norm_squared());
-    }
-    for (frame, before) in barrier.frames.iter_mut().zip(turned) {
-        frame.pace = (frame.orientation * before.inverse()).scaled_axis() / step;
     }
     fastest.sqrt()
 }
 
 /// The same where the barrier has taken a single step.
 fn note_velocities(barrier: &mut Barrier) -> f64 {
-    barrier.frames.iter_mut().for_each(|frame| frame.pace = frame.spin);
     let fastest = barrier.nodes.iter_mut().fold(0.0, |fastest, node| {
         node.pace = node.velocity;
         larger_or_nan(fastest, node.pace.norm_squared())

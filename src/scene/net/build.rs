@@ -117,7 +117,6 @@ impl Builder<'_> {
             self.barrier.frames.push(Frame {
                 orientation: UnitQuaternion::identity(),
                 spin: Vec3::zeros(),
-                pace: Vec3::zeros(),
                 inertia: 0.0,
                 held: true,
             });

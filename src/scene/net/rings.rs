@@ -18,6 +18,9 @@ pub const POISSON: f64 = 0.3;
 /// Play between ring and rope, over the sum of their radii: 1 mm with the ropes of the thesis.
 const PLAY: f64 = 1.0 / 24.0;
 
+/// Damping of a cylinder's own turning mode over critical: wires rub on each other when a rope bends.
+const BENDING_DAMPING_RATIO: f64 = 0.2;
+
 /// Length of a ring's sides (m), and of what ties it to the net.
 fn ring_side(ropes: &MainRopes) -> f64 {
     (ropes.rope.diameter + ropes.ring_diameter) * (1.0 + PLAY)
@@ -98,12 +101,14 @@ impl Builder<'_> {
         let (length, radius) = (cylinder.rest_length, section.radius);
         let half_mass = 0.5 * ROPE_DENSITY * PI * radius * radius * length;
         cylinder.damping_time = 2.0 * ROPE_DAMPING_RATIO * (half_mass * length / section.axial).sqrt();
+        let half_inertia = half_mass * (length * length / 12.0 + radius * radius / 4.0);
+        cylinder.turning_time = 2.0 * BENDING_DAMPING_RATIO * (half_inertia * length / (6.0 * section.bending)).sqrt();
         for end in ends {
             let node = &mut barrier.nodes[end];
             node.mass += half_mass;
             node.radius = node.radius.max(radius);
             let frame = &mut barrier.frames[end];
-            frame.inertia += half_mass * (length * length / 12.0 + radius * radius / 4.0);
+            frame.inertia += half_inertia;
             frame.held = false;
         }
         barrier.cylinders.push(cylinder);

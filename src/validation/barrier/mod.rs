@@ -1,7 +1,9 @@
-//! Ropes, cylinders and dissipators alone, against closed forms.
+//! Ropes, cylinders, nets and dissipators alone, against closed forms and tests; whole barriers against the thesis.
 
 pub mod beams;
 pub mod brakes;
 pub mod contacts;
+pub mod full_scale;
+pub mod punching;
 pub mod ropes;
 pub mod stand;

@@ -104,7 +104,6 @@ pub fn cantilever(length: f64, parts: usize) -> Barrier {
         barrier.frames.push(Frame {
             orientation: nalgebra::UnitQuaternion::identity(),
             spin: Vec3::zeros(),
-            pace: Vec3::zeros(),
             inertia: mass * (part * part / 12.0 + RADIUS * RADIUS / 4.0),
             held: number == 0,
         });
