@@ -16,10 +16,14 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use barrier_check::dem::Vec3;
+use barrier_check::dem::contact::law::LawConstants;
 use barrier_check::dem::crew::gather;
 use barrier_check::dem::neighbours::broad_phase::{Box3, BoxTree};
+use barrier_check::dem::net::pull_all;
 use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::GrainShape;
+use barrier_check::validation::barrier::stand::{cantilever, line, rope};
 use criterion::{Criterion, Throughput, criterion_group};
 use states::{Phase, RADIUS, SKIN, State};
 
@@ -112,10 +116,29 @@ fn main() {
         "state", "threads", "z", "ns/sph-st", "M sph-st/s", "ns/contact", "ms/step", "bytes/sph", "of two"
     );
     STATES.iter().for_each(tell);
+    println!("\nbarrier, one thread: ns per element and step, of tension-only segments and of cylinders that bend");
+    [100, 1000, 10_000].into_iter().for_each(tell_elements);
     println!(
         "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
     );
     STATES.iter().filter(|state| state.shape == GrainShape::Sphere).for_each(tell_broad_phase);
+}
+
+/// What the elements of a barrier cost, and how that grows with their number.
+fn tell_elements(count: usize) {
+    const ELEMENT_STEPS: usize = 4_000_000;
+    let end = Vec3::new(0.07 * count as f64, 0.0, 0.0);
+    let barriers = [rope(&line(Vec3::zeros(), end, count), [true, true], 0.99), cantilever(end.x, count)];
+    let law = LawConstants::new(0.3, 2.0 / 7.0, 1e-5);
+    let [segment, cylinder] = barriers.map(|barrier| {
+        let rounds = ELEMENT_STEPS / count;
+        let start = Instant::now();
+        for _ in 0..rounds {
+            std::hint::black_box(pull_all(std::hint::black_box(&barrier), &law));
+        }
+        start.elapsed().as_nanos() as f64 / (rounds * count) as f64
+    });
+    println!("{count:>6} elements {segment:>8.1} {cylinder:>8.1}");
 }
 
 /// What the search for neighbours costs, by rapier's tree and by a cell list, and its share of a run.

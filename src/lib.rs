@@ -12,8 +12,9 @@
 //! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
 //! | a contact law | a file beside [`dem::contact::law`]; its stiffness in [`dem::contact::grain_touch`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and, for the stable step, [`dem::time::links`] and [`fidelity`]; its damping in [`dem::contact::restitution`] |
+//! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
-//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`], its load in [`dem::recorders`] |
+//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
 //! | a load model | a file in [`loads`], its use in [`demand::from_loads`] |
 //! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |

@@ -124,6 +124,8 @@ pub struct FlexibleNet {
     /// Side of the square mesh, which stands on its corner (m).
     pub mesh_opening: f64,
     pub net_rope: Rope,
+    /// How much longer the net's ropes are than the straight sides of the mesh, as a share.
+    pub net_slack: f64,
     pub main_ropes: MainRopes,
     pub lateral_rope: Rope,
     pub lateral_to: LateralTo,

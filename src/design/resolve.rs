@@ -116,6 +116,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
         tilt: value("tilt")?,
         mesh_opening: value("mesh_opening")?,
         net_rope: rope(e, "net_rope")?,
+        net_slack: value("net_slack")?,
         main_ropes: MainRopes {
             heights: rope_heights(e)?,
             rope: rope(e, "main_ropes")?,

@@ -36,6 +36,8 @@ pub const RULES: &[Rule] = &[
     dam_break_clears_the_barrier,
     lateral_ropes_have_their_dissipators,
     knots_are_bearable,
+    cylinders_are_bearable,
+    cylinders_have_no_slack,
 ];
 
 const NET: &str = "barrier.flexible_net";
@@ -282,6 +284,33 @@ fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
             found,
             "one ring to each mesh along the rope (the diagonal to 10 %)",
         )
+    })
+}
+
+/// Most cylinders of main ropes, beyond which a run takes hours.
+const MOST_CYLINDERS: f64 = 10_000.0;
+
+fn has_cylinders(e: &Entries) -> bool {
+    e.text("simulation.barrier_model") == Some("cylinders")
+}
+
+fn cylinders_are_bearable(e: &Entries) -> Option<Problem> {
+    let ropes = e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
+    let (piece, width) = (e.number(&at("main_ropes.element_length"))?, e.number("channel.width")?);
+    let count = ropes * width / piece;
+    (has_cylinders(e) && count > MOST_CYLINDERS).then(|| {
+        let found = format!("{} for {ropes} ropes of {}: {count:.0} cylinders", length(piece), length(width));
+        Problem::new(at("main_ropes.element_length"), found, format!("at most {MOST_CYLINDERS:.0} cylinders of main ropes"))
+            .hint("longer cylinders: a few to each ring are enough")
+    })
+}
+
+fn cylinders_have_no_slack(e: &Entries) -> Option<Problem> {
+    let slack = e.number(&at("net_slack"))?;
+    (has_cylinders(e) && slack > 0.0).then(|| {
+        let found = format!("`{}` with barrier_model cylinders", e.typed(&at("net_slack")));
+        Problem::new(at("net_slack"), found, "0 % with cylinders, which are straight at rest")
+            .hint("use barrier_model sliding_ropes for a slack net")
     })
 }
 

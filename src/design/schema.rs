@@ -132,6 +132,12 @@ const FLEXIBLE_NET: &[Key] = &[
     ),
     Key::required("mesh_opening", quantity(D::Length, 0.005, 3.0), "side of the square mesh"),
     Key::required("net_rope", Kind::Section(ROPE), "rope of the net"),
+    Key::default(
+        "net_slack",
+        quantity(D::Share, 0.0, 0.2),
+        "0 %",
+        "how much longer the net's ropes are than the straight sides of the mesh; not for barrier_model cylinders",
+    ),
     Key::required("main_ropes", Kind::Section(MAIN_ROPES), "horizontal ropes that carry the net"),
     Key::required("lateral_ropes", Kind::Section(LATERAL_ROPES), "ropes along the sides of the net"),
     Key::optional("dissipators", Kind::Section(DISSIPATORS), "one at each end of every main rope that is free to move"),

@@ -130,7 +130,8 @@ impl<R: Real> Bent<R> {
         let (first, last) = (turn_between(&frame, &axes1), turn_between(&frame, &axes2));
         let stretch = length - self.rest_length;
         let per_length = one / self.rest_length;
-        let (k_axial, k_bend, k_twist) = (self.axial * per_length, self.bending * per_length, self.twisting * per_length);
+        let (k_axial, k_bend, k_twist) =
+            (self.axial * per_length, self.bending * per_length, self.twisting * per_length);
         // Rates; rigid turning of the frame, seen from the nodes, is that of the line between them.
         let turning = scaled(cross(along, self.parting), one / length);
         let (rate1, rate2) = (minus(self.spins[0], turning), minus(self.spins[1], turning));

@@ -78,7 +78,8 @@ impl Link {
         let force = along * (self.along - self.across) + parting * self.across;
         let torque = about * (self.twisting - self.bending) + turning * self.bending;
         let sideways = parting - along;
-        let lossy = along * (self.damping + self.along * self.damping_time) + sideways * (self.across * self.turning_time);
+        let lossy =
+            along * (self.damping + self.along * self.damping_time) + sideways * (self.across * self.turning_time);
         [[force, torque], [lossy, torque * self.turning_time]]
     }
 

@@ -242,12 +242,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds a straight rope between two nodes, unstretched as it lies, half its mass to each.
+    /// Adds a straight rope between two nodes, unstretched as it lies or slack, half its mass to each.
     pub(super) fn add_segment(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
         let radius = 0.5 * rope.diameter;
         let area = PI * radius * radius;
         let [a, b] = nodes.map(|node| self.barrier.nodes[node as usize].position);
-        let rest_length = (b - a).norm();
+        let slack = if kind == SegmentKind::Net { self.design.net_slack } else { 0.0 };
+        let rest_length = (b - a).norm() * (1.0 + slack);
         let stiffness = rope.modulus * area / rest_length;
         let half_mass = 0.5 * ROPE_DENSITY * area * rest_length;
         for node in nodes {

@@ -103,7 +103,10 @@ fn push(axial: f64, slack: f64, at: &[f64]) -> Result<Vec<f64>, Unstable> {
             simulation.step()?;
             // The net is light; what is left of its swinging is slowed.
             let barrier = simulation.model.barrier.as_mut();
-            barrier.into_iter().flat_map(|barrier| &mut barrier.nodes).for_each(|node| node.velocity *= 1.0 - SLOWING * STEP);
+            barrier
+                .into_iter()
+                .flat_map(|barrier| &mut barrier.nodes)
+                .for_each(|node| node.velocity *= 1.0 - SLOWING * STEP);
             if start - simulation.grains.place[0].0[2] > displacement - 1e-3 {
                 (sum, steps) = (sum - simulation.sums.net.from_grains.z, steps + 1);
             }
