@@ -327,3 +327,29 @@ fn a_ring_on_its_rope_conserves_momentum_and_energy() {
     let rope = barrier.nodes[..11].iter().map(|node| (node.position - ring).norm()).fold(f64::INFINITY, f64::min);
     assert!(rope < 0.07, "the ring is still on its rope");
 }
+
+/// Thin net ropes at a thick main rope that alone is touched take nothing from it.
+#[test]
+fn ropes_that_are_not_touched_take_no_part() {
+    let (radius, thick) = (0.2, 0.016);
+    let push_at = |x: f64| {
+        let mut barrier = Barrier::default();
+        barrier.contact_modulus = 4e9;
+        barrier.nodes = vec![node(Vec3::zeros(), 1.0, true)];
+        for (index, [x, y]) in [[1.0, 0.0], [-1.0, 0.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate() {
+            barrier.nodes.push(node(Vec3::new(x, y, 0.0), 1.0, true));
+            let radius = if y == 0.0 { thick } else { 0.008 };
+            barrier.segments.push(Segment { radius, ..segment([0, index as u32 + 1], 2.0, 0.0) });
+        }
+        barrier.connect();
+        let grain = ball(0, Vec3::new(x, 0.0, radius + thick - 0.003), radius, 2600.0);
+        let model = Model { barrier: Some(barrier), ..free_model(vec![grain], GrainShape::Sphere) };
+        let mut simulation = Simulation::new(model, 1e-6, 0.05, 1e3);
+        simulation.step().expect("stable");
+        -simulation.sums.net.from_grains.z
+    };
+    let beside = push_at(0.1);
+    for x in [0.0, 1e-4, 0.01, 0.03] {
+        assert_relative_eq!(push_at(x), beside, max_relative = 1e-9);
+    }
+}

@@ -50,7 +50,7 @@ pub struct Extremes {
     pub overlap_ratio: f64,
     /// Largest step over critical step.
     pub step_ratio: StepRatio,
-    /// Grains whose centre has gone through a rope.
+    /// How often a sphere's centre has gone through a line of the barrier.
     pub crossings: u32,
 }
 
@@ -268,13 +268,16 @@ impl Simulation {
             links.extend(within);
             step_ratio(&links, &self.grains, barrier, self.time_step)
         } else {
-            let own = step_ratio(&within, &self.grains, barrier, self.barrier_law().time_step);
+            let mut own = step_ratio(&within, &self.grains, barrier, self.barrier_law().time_step);
             let grains = step_ratio(&links, &self.grains, barrier, self.time_step);
-            if own.value > 1.0 {
+            if own.value > 1.0 && own.value.is_finite() {
                 self.note_ratio(own);
+                let before = self.barrier_law().time_step;
                 self.choose_parts();
+                own.value *= self.barrier_law().time_step / before;
             }
-            if own.value > grains.value { StepRatio { value: own.value.min(1.0), ..own } } else { grains }
+            // Asked so that what is not finite is kept.
+            if grains.value > own.value || !grains.value.is_finite() { grains } else { own }
         };
         self.note_ratio(ratio);
         if ratio.value > 1.0 {
@@ -311,7 +314,10 @@ impl Simulation {
         let barrier = self.model.barrier.as_ref();
         let ratio = step_ratio(&within, &self.grains, barrier, self.time_step).value;
         let wanted = (ratio / BARRIER_STEP_SHARE).ceil();
-        self.barrier_parts = if wanted.is_finite() { (wanted as u32).clamp(1, MOST_PARTS) } else { 1 };
+        // What is not finite ends the run at the next audit.
+        if wanted.is_finite() {
+            self.barrier_parts = (wanted as u32).clamp(1, MOST_PARTS);
+        }
     }
 
     /// Moves everything through the step.

@@ -295,13 +295,18 @@ fn has_cylinders(e: &Entries) -> bool {
 }
 
 fn cylinders_are_bearable(e: &Entries) -> Option<Problem> {
-    let ropes = e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
+    let ropes =
+        e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
     let (piece, width) = (e.number(&at("main_ropes.element_length"))?, e.number("channel.width")?);
     let count = ropes * width / piece;
     (has_cylinders(e) && count > MOST_CYLINDERS).then(|| {
         let found = format!("{} for {ropes} ropes of {}: {count:.0} cylinders", length(piece), length(width));
-        Problem::new(at("main_ropes.element_length"), found, format!("at most {MOST_CYLINDERS:.0} cylinders of main ropes"))
-            .hint("longer cylinders: a few to each ring are enough")
+        Problem::new(
+            at("main_ropes.element_length"),
+            found,
+            format!("at most {MOST_CYLINDERS:.0} cylinders of main ropes"),
+        )
+        .hint("longer cylinders: a few to each ring are enough")
     })
 }
 

@@ -54,6 +54,16 @@ impl<R: Real> Spring<R> {
         let frequency = (stiffness * inverse_mass).root();
         Self { stiffness, compliance: R::all(1.0) / stiffness, frequency, impedance: frequency / inverse_mass }
     }
+
+    /// The given part of a contact that others share: spring and dashpot alike.
+    pub fn part(self, share: R) -> Self {
+        Self {
+            stiffness: self.stiffness * share,
+            compliance: self.compliance / share,
+            frequency: self.frequency,
+            impedance: self.impedance * share,
+        }
+    }
 }
 
 /// What a contact remembers from step to step; all zero without contact.

@@ -8,7 +8,7 @@ use crate::dem::neighbours::memory_rows::{MemoryRows, Remembered};
 use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::dem::tables::grain_table::Quad;
 
-/// Pairs (member, other party); the other party is a member, a surface or a rope segment.
+/// Pairs (member, other party); the other party is a member, a surface or a line of the barrier.
 #[derive(Clone, Debug, Default)]
 pub struct PairList {
     /// Pairs in contact.

@@ -1,10 +1,11 @@
 //! Contacts of grains with the lines of a flexible barrier, and with the nodes where they end.
 //!
 //! A sphere meets a line as a capsule. Lines that meet in a node overlap each other there, and a grain near the node must not be
-//! pushed by each of them in full. So they count as one body, whose energy is ½k (Σ u_i² − Σ (m_e − 1) u_e²): u_i is the
-//! overlap with line i, u_e that with node e, and m_e the number of lines that run on from the node towards the grain. Each of
-//! these gives up (m_e − 1)/m_e of u_e. A node from which all lines lead away is touched once. So the force neither jumps
-//! nor doubles where a grain passes a node.
+//! pushed by each of them in full. So they count as one body: of the overlaps u_j with the node that the lines have which run on
+//! from it towards the grain, each as thick as it is, only the largest counts, and every such line gives up the share
+//! 1 − max u_j/Σ u_j of its own. For two alike lines this is the gradient of the energy ½k (u₁² + u₂² − u_node²) to first order in
+//! the distance from the node. A node from which all lines lead away is touched once. So the force neither doubles nor
+//! jumps by more than that order where a grain passes a node.
 //!
 //! The force acts on the axis of the line: a rope does not roll under a grain, its weave holds it. (Where nodes turn, the friction at the
 //! surface, some 8 mm off the axis, would spin the knots of a net round and round.)
@@ -57,8 +58,6 @@ pub struct RopeContext<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct RopeTouch {
     pub point: ContactPoint,
-    /// 1/m_r (1/kg).
-    pub inverse_mass: f64,
     pub foot: Vec3,
     pub share: f64,
     /// Whether the centre has gone through the axis in the step just made.
@@ -139,7 +138,7 @@ fn heir(place: usize, list: &PairList, touches: &[Option<RopeTouch>], barrier: &
     })
 }
 
-/// Energy that a friction spring holds (J).
+/// Energy that a friction spring holds (J), taken as if the line had kept its whole overlap.
 fn stored(memory: &Memory, [member, line]: [u32; 2], context: &RopeContext) -> f64 {
     let grain = context.grain_modulus * context.grains.sphere(member as usize).1;
     let rope = context.barrier.contact_modulus * context.barrier.lines[line as usize].radius;
@@ -200,12 +199,12 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
         overlap,
         velocity: velocity.into(),
         twist: 0.5 * member.spin.dot(&normal),
-        spring: Spring::new(kept * contact_stiffness(grain, rope), inverse_mass),
+        spring: Spring::new(contact_stiffness(grain, rope), inverse_mass).part(kept),
         friction: barrier.friction.min(context.grain_friction),
     };
     let before = towards - (rope_velocity - member.velocity) * context.law.time_step;
     let crossed = before.dot(&towards) < 0.0;
-    Some(RopeTouch { point, inverse_mass, foot, share: along.share, crossed })
+    Some(RopeTouch { point, foot, share: along.share, crossed })
 }
 
 /// Overlap that a line gives up at its nodes because other lines have it as well (m).
@@ -214,12 +213,16 @@ fn given_up(member: &Member, line_index: u32, barrier: &Barrier) -> f64 {
     let at_node = |node: u32| {
         let here = &barrier.nodes[node as usize];
         let from_node = member.centre - here.position;
-        let overlap = member.radius + line.radius - from_node.norm();
-        if overlap <= 0.0 {
+        let bare = member.radius - from_node.norm();
+        let mine = bare + line.radius;
+        if mine <= 0.0 {
             return 0.0;
         }
-        let shared = here.lines.iter().filter(|&&other| leads_to(other, node, &from_node, barrier)).count();
-        overlap * shared.saturating_sub(1) as f64 / shared.max(1) as f64
+        let leading = here.lines.iter().filter(|&&other| leads_to(other, node, &from_node, barrier));
+        let overlaps = leading.map(|&other| (bare + barrier.lines[other as usize].radius).max(0.0));
+        let (most, sum) =
+            overlaps.fold((0.0, 0.0), |(most, sum): (f64, f64), overlap| (most.max(overlap), sum + overlap));
+        if sum > 0.0 { mine * (1.0 - most / sum) } else { 0.0 }
     };
     line.nodes.into_iter().map(at_node).sum()
 }

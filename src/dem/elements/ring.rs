@@ -38,8 +38,6 @@ pub struct RingTouch {
     pub shares: [f64; 2],
     /// From the axes of side and rope to the point of contact (m).
     pub arms: [Vec3; 2],
-    /// 1/m_r (1/kg).
-    pub inverse_mass: f64,
 }
 
 /// What the contact does in one step.
@@ -90,7 +88,7 @@ impl RingSide {
             spring: Spring::new(stiffness, inverse_mass),
             friction: self.friction,
         };
-        RingTouch { point, near: number, shares: nearest.shares, arms, inverse_mass }
+        RingTouch { point, near: number, shares: nearest.shares, arms }
     }
 
     /// The rope's cylinder that is nearest to the side, and where. Only when the nearest point is an end of the one that was nearest
@@ -116,13 +114,7 @@ impl RingSide {
     /// The contact and its force.
     pub fn force(&self, context: &RingContext, law: &LawConstants) -> RingForce {
         let touch = self.touch(context);
-        let mut response = respond(&touch.point, &self.memory, law);
-        if touch.point.overlap <= 0.0 {
-            // What the friction spring still holds is lost when the contact parts.
-            let compliance = touch.point.spring.compliance * law.half_tangential_compliance;
-            response.lost_friction = Vec3::from(self.memory.tangential).norm_squared() * compliance;
-            response.memory = Memory::default();
-        }
+        let response = respond(&touch.point, &self.memory, law);
         RingForce { touch, response }
     }
 }

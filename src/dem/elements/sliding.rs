@@ -43,7 +43,7 @@ impl Chain {
         let lost = self.segments.iter().zip(&before).map(|(&index, before)| {
             let segment = &segments[index as usize];
             let after = Side::of(segment, nodes);
-            let [a, b] = segment.nodes.map(|node| nodes[node as usize].velocity);
+            let [a, b] = segment.nodes.map(|node| nodes[node as usize].pace);
             let stretched = (b - a).dot(&after.direction) * step;
             before.energy - after.energy - 0.5 * (before.tension - after.tension) * stretched
         });

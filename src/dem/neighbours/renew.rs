@@ -249,7 +249,7 @@ impl Neighbours {
             find_surface_pairs(block, grains, bodies.surfaces, fixed_skin);
         });
         let barrier = bodies.barrier.filter(|barrier| !barrier.lines.is_empty());
-        // The boxes of the grains do not reach as far as these lists, so those of the segments do.
+        // The boxes of the grains do not reach as far as these lists, so those of the lines do.
         let ropes = barrier.map(|barrier| (barrier, BoxTree::new(&line_boxes(barrier, fixed_skin))));
         let starts: Vec<usize> = self.blocks.iter().map(|block| block.grains.start).collect();
         let trees = &self.trees;

@@ -20,7 +20,7 @@ pub struct Node {
     pub mass: f64,
     /// A fixed node never moves: an anchor, or a rope bolted to the bed.
     pub fixed: bool,
-    /// Radius with which grains touch the node (m): the thickest rope that meets there.
+    /// Radius with which grains touch the node (m): the thickest line that ends there; made by [`Barrier::connect`].
     pub radius: f64,
     /// Lines that end here; grains that touch the very node are found through it.
     pub lines: Vec<u32>,
@@ -123,10 +123,15 @@ impl Barrier {
         let cylinders = self.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes, cylinder.section.radius));
         let touchable = segments.chain(cylinders).filter(|(kind, ..)| *kind != SegmentKind::Ring);
         self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius }).collect();
-        self.nodes.iter_mut().for_each(|node| node.lines.clear());
+        for node in &mut self.nodes {
+            node.lines.clear();
+            node.radius = 0.0;
+        }
         for (index, line) in self.lines.iter().enumerate() {
             for node in line.nodes {
-                self.nodes[node as usize].lines.push(index as u32);
+                let node = &mut self.nodes[node as usize];
+                node.lines.push(index as u32);
+                node.radius = node.radius.max(line.radius);
             }
         }
     }

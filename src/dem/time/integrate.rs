@@ -242,18 +242,12 @@ fn turned<R: Real>(axis: Triple<R>, momentum: Triple<R>, step: f64, inverse_tran
     (scaled(turned, dot(turned, turned) * -0.5 + 1.5), square * (4.0 / (step * step)))
 }
 
-/// Moves the nodes of a barrier through one step; returns the square of the largest speed (m²/s²).
-pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64) -> f64 {
-    let mut fastest = 0.0;
-    for (node, force) in nodes.iter_mut().zip(forces) {
-        if node.fixed {
-            continue;
-        }
+/// Moves the nodes of a barrier through one step.
+pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64) {
+    for (node, force) in nodes.iter_mut().zip(forces).filter(|(node, _)| !node.fixed) {
         node.velocity += (force / node.mass + gravity) * step;
         node.position += node.velocity * step;
-        fastest = larger_or_nan(fastest, node.velocity.norm_squared());
     }
-    fastest
 }
 
 /// Turns the nodes of a barrier through one step.

@@ -152,8 +152,7 @@ impl Linked<'_> {
                 })
             });
             let link = Link::between(ends.flatten());
-            let spring = &touch.point.spring;
-            self.contact(link, Vec3::from(touch.point.normal), spring.stiffness, touch.inverse_mass)
+            self.contact(link, Vec3::from(touch.point.normal), &touch.point.spring)
         };
         barrier.rings.iter().map(link).collect()
     }
@@ -170,7 +169,8 @@ impl Linked<'_> {
             let stiffness = contact_stiffness(self.modulus * a.radius, self.modulus * b.radius);
             let foot = a.centre + normal * (0.5 * (distance + a.radius - b.radius));
             let link = Link::between([self.grain_end(first, &foot, -1.0), self.grain_end(second, &foot, 1.0)]);
-            links.push(self.contact(link, normal, stiffness, a.inverse_mass + b.inverse_mass));
+            let spring = Spring::new(stiffness, a.inverse_mass + b.inverse_mass);
+            links.push(self.contact(link, normal, &spring));
         }
     }
 
@@ -182,8 +182,8 @@ impl Linked<'_> {
             let distance = towards.norm();
             if distance < member.radius && distance > 0.0 {
                 let link = Link::between([self.grain_end(index, &foot, 1.0)]);
-                let stiffness = self.modulus * member.radius;
-                links.push(self.contact(link, towards / distance, stiffness, member.inverse_mass));
+                let spring = Spring::new(self.modulus * member.radius, member.inverse_mass);
+                links.push(self.contact(link, towards / distance, &spring));
             }
         }
     }
@@ -199,19 +199,19 @@ impl Linked<'_> {
             clock: Clock::default(),
         };
         let on_ropes = OnRopes { grains: self.grains, barrier };
-        for &[index, segment] in &block.ropes.list.touching {
-            if on_ropes.gap([index, segment]) >= 0.0 {
+        for &[index, line] in &block.ropes.list.touching {
+            if on_ropes.gap([index, line]) >= 0.0 {
                 continue;
             }
-            let Some(contact) = touch_rope(&self.grains.member(index as usize), segment, &context) else {
+            let Some(contact) = touch_rope(&self.grains.member(index as usize), line, &context) else {
                 continue;
             };
-            let nodes = barrier.lines[segment as usize].nodes;
+            let nodes = barrier.lines[line as usize].nodes;
             let on_nodes = [(nodes[0], 1.0 - contact.share), (nodes[1], contact.share)];
             let on_nodes = on_nodes.into_iter().filter_map(|(node, share)| self.node_end(barrier, node, share));
             let link = Link::between([self.grain_end(index, &contact.foot, -1.0)].into_iter().chain(on_nodes));
             let normal = Vec3::from(contact.point.normal);
-            links.push(self.contact(link, normal, contact.point.spring.stiffness, contact.inverse_mass));
+            links.push(self.contact(link, normal, &contact.point.spring));
         }
     }
 
@@ -261,10 +261,9 @@ impl Linked<'_> {
     }
 
     /// A contact with its normal spring and dashpot, and its friction spring.
-    fn contact(&self, link: Link, normal: Vec3, stiffness: f64, inverse_mass: f64) -> Link {
-        let damping = self.law.damping(&Spring::new(stiffness, inverse_mass));
-        let across = self.law.tangential_ratio * stiffness;
-        Link { direction: normal, along: stiffness, across, damping, ..link }
+    fn contact(&self, link: Link, normal: Vec3, spring: &Spring) -> Link {
+        let (along, damping) = (spring.stiffness, self.law.damping(spring));
+        Link { direction: normal, along, across: self.law.tangential_ratio * along, damping, ..link }
     }
 
     fn grain_end(&self, member: u32, foot: &Vec3, share: f64) -> End {

@@ -5,6 +5,10 @@
 //! of its m steps of Δt/m (the impulse method, r-RESPA, of Tuckerman, Berne & Martyna 1992). For m = 1 this is the
 //! leapfrog itself. Grains feel the mean velocity of the nodes over their step, so that the way a contact slips is the way the
 //! bodies have really gone.
+//!
+//! Such a method can resonate where a mode of the barrier swings with a whole number of half periods in a step of the grains, even
+//! when both steps are short enough for themselves. What damps such modes here is the damping of the elements; what
+//! would notice is the energy account.
 
 use crate::dem::contact::law::LawConstants;
 use crate::dem::contact::ropes::Push;
@@ -17,7 +21,7 @@ use crate::dem::{Vec3, larger_or_nan};
 /// What a step of the grains made of the barrier.
 #[derive(Clone, Debug, Default)]
 pub struct BarrierStep {
-    /// Forces, mean over the step; energy stored at its start.
+    /// Forces and tensions, mean over the step; energy stored, at its start.
     pub net: NetForces,
     /// Motion at the start of the step.
     pub motion: MotionEnergy,
@@ -30,7 +34,7 @@ pub struct BarrierStep {
 pub fn step_barrier<'a>(
     barrier: &mut Barrier,
     net: NetForces,
-    pushes: impl Iterator<Item = &'a Push> + Clone,
+    pushes: impl Iterator<Item = &'a Push>,
     law: &LawConstants,
     time: &Stretch,
     parts: u32,
@@ -38,7 +42,7 @@ pub fn step_barrier<'a>(
     let own = Stretch { step: time.step / f64::from(parts), ..*time };
     let before: Vec<Vec3> = barrier.nodes.iter().map(|node| node.position).collect();
     let mut first = net;
-    pushes.clone().for_each(|push| first.push(push, f64::from(parts)));
+    pushes.for_each(|push| first.push(push, f64::from(parts)));
     let mut motion = motion_of(barrier, &time.gravity);
     // The impulse of the grains acts at once, that of gravity and of the elements over the first part.
     first.take_over(barrier);

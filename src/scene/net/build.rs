@@ -71,7 +71,7 @@ pub(super) struct Builder<'a> {
     pub(super) grid: Grid,
     pub(super) barrier: Barrier,
     pub(super) knots: BTreeMap<(usize, usize), u32>,
-    /// Nodes of main ropes that are not knots, from side to side, by row.
+    /// Nodes of main ropes that run through rings, from side to side, by row.
     pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
 }
 
@@ -254,7 +254,6 @@ impl Builder<'_> {
         for node in nodes {
             let node = &mut self.barrier.nodes[node as usize];
             node.mass += half_mass;
-            node.radius = node.radius.max(radius);
         }
         let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
         self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius });

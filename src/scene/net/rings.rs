@@ -106,7 +106,6 @@ impl Builder<'_> {
         for end in ends {
             let node = &mut barrier.nodes[end];
             node.mass += half_mass;
-            node.radius = node.radius.max(radius);
             let frame = &mut barrier.frames[end];
             frame.inertia += half_inertia;
             frame.held = false;
