@@ -68,6 +68,8 @@ pub struct Facts {
     pub time_step: f64,
     /// How often an audit has cut the time step.
     pub step_cuts: u32,
+    /// Steps of the barrier in one of the grains'.
+    pub barrier_parts: u32,
     /// Largest step over critical step that an audit found.
     pub step_ratio: StepRatio,
     /// How often the neighbour lists were made anew.
@@ -176,6 +178,7 @@ impl Facts {
         self.steps = simulation.steps;
         self.time_step = simulation.time_step;
         self.step_cuts = simulation.step_cuts;
+        self.barrier_parts = simulation.barrier_parts;
         self.step_ratio = simulation.extremes.step_ratio;
         self.renewals = simulation.neighbours.renewals;
         self.wall_clock = started.elapsed().as_secs_f64();

@@ -121,6 +121,11 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
             format!("{:.2e} s", facts.time_step),
             format!("{}; cut {} times", run.fidelity.reason, facts.step_cuts),
         ),
+        row(
+            "Grains through ropes",
+            numerics.crossings.to_string(),
+            format!("none is allowed; the barrier takes {} steps in one of the grains'", facts.barrier_parts),
+        ),
         row("Simulated time", with_unit(facts.simulated, "s"), ending),
         row(
             "Model",

@@ -135,6 +135,10 @@ pub struct NumericsPart {
     /// Largest found by the audits, an upper bound.
     pub time_step_over_critical: f64,
     pub time_step_cuts: u32,
+    /// Steps of the barrier in one of the grains'.
+    pub barrier_steps_per_step: u32,
+    /// How often a grain has slipped through a rope; any makes the run undecided.
+    pub rope_crossings: u32,
     pub energy_error_relative: f64,
     pub overlap_max_relative: f64,
     pub neighbour_rebuilds: u64,
@@ -243,6 +247,8 @@ fn numerics_part(run: &Run) -> NumericsPart {
         time_step_s: facts.time_step,
         time_step_over_critical: facts.step_ratio.value,
         time_step_cuts: facts.step_cuts,
+        barrier_steps_per_step: facts.barrier_parts,
+        rope_crossings: run.numerics.crossings,
         energy_error_relative: run.numerics.energy_error,
         overlap_max_relative: run.numerics.overlap,
         neighbour_rebuilds: facts.renewals,

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
+use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::pipeline::{Run, Verdict};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::sources::VOLKWEIN_2014;
@@ -77,13 +78,28 @@ const ASSUMPTIONS: &[&str] = &[
     "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
     "The flow is dry: no water pressure, no cohesion, no breakage of grains.",
     "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
-    "Ropes pull and never push; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
     "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
     "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.",
     "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
     "Strokes of the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
     "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed; the barrier fills at most to a level surface of the design volume.",
 ];
+
+/// What the model of the barrier assumes of its ropes.
+fn of_ropes(design: &Design) -> Option<&'static str> {
+    match (&design.barrier, design.simulation.barrier_model) {
+        (BarrierDesign::RigidWall(_), _) => None,
+        (_, BarrierModel::PinnedRopes) => Some(
+            "Ropes pull and never push and do not bend; rings are fixed to the main ropes; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+        ),
+        (_, BarrierModel::SlidingRopes) => Some(
+            "Ropes pull and never push and do not bend; main ropes run through the rings of the net with friction; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+        ),
+        (_, BarrierModel::Cylinders) => Some(
+            "Ropes are elastic cylinders that bend and twist as solid rods of their modulus; rings are squares of four cylinders that slide on the main ropes with friction; axial damping of 5 % and bending damping of 20 % of critical is added.",
+        ),
+    }
+}
 
 const NOT_CHECKED: &[&str] = &[
     "scour, abutments and foundations",
@@ -121,7 +137,7 @@ impl View {
             findings: super::findings::rows(run),
             charts: charts(run),
             inputs: input_rows(run),
-            assumptions: ASSUMPTIONS.to_vec(),
+            assumptions: ASSUMPTIONS.iter().copied().chain(of_ropes(&run.file.design)).collect(),
             not_checked: NOT_CHECKED.to_vec(),
             numerics: super::findings::numerics_rows(run),
             version: env!("CARGO_PKG_VERSION"),
