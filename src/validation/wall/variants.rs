@@ -47,8 +47,7 @@ pub const FLUCTUATION: Case = Case {
              v √(k m) ∝ d50²; Albaba 2015 section 3.6.2 shows the trend",
     tier: Tier::ClosedForm,
     weakness: "few starts; coarser than H_w/d50 = 20 the flow is not two grains thick, hits reach the wall unshared and the \
-               exponent of the standard deviation grows, so it is judged above; the largest deviation is one such hit and scatters, so \
-               it is judged over the whole range; no sensor is as quick as a time step",
+               exponent grows, so it is judged above; no sensor is as quick as a time step",
     cost: Cost::Long,
     run: fluctuation,
 };
@@ -137,16 +136,10 @@ fn fluctuation() -> Result<Vec<Finding>, Broken> {
             findings.push(Finding::told(format!("H_w/d50 = {:.1}: {name} (N/m)", 26.2 / coarser), *amplitude));
         }
         let exponent = |points: &[(f64, f64)]| -slope(points);
-        let what = |from: u32| format!("exponent of the {name}, H_w/d50 from {from} to 35");
-        let (near, whole) = (exponent(&points[..3]), exponent(&points));
-        // A largest value scatters by some tens of percent with so few starts and needs the whole range.
-        if kind == 0 {
-            findings.push(Finding::close(what(20), near, -1.0, 0.5));
-            findings.push(Finding::told(what(12), whole));
-        } else {
-            findings.push(Finding::told(what(20), near));
-            findings.push(Finding::close(what(12), whole, -2.0, 0.5));
-        }
+        let expected = [-1.0, -2.0][kind];
+        let what = format!("exponent of the {name}, H_w/d50 from 20 to 35");
+        findings.push(Finding::close(what, exponent(&points[..3]), expected, 0.5));
+        findings.push(Finding::told(format!("exponent of the {name}, H_w/d50 from 12 to 35"), exponent(&points)));
     }
     Ok(findings)
 }
