@@ -28,8 +28,11 @@ pub struct Observed {
     pub rope_mean_residual: Vec<f64>,
     /// Largest load of each rope's higher loaded anchor (N).
     pub anchor_force_peak: Vec<f64>,
-    /// Larger stroke used by each rope's two dissipators (m), and their largest tension (N).
+    /// Larger stroke used by each rope's two dissipators (m).
     pub brake_stroke: Vec<f64>,
+    /// Mean stroke used by each rope's two dissipators (m).
+    pub brake_stroke_mean: Vec<f64>,
+    /// Largest tension of each rope's dissipators (N).
     pub brake_force_peak: Vec<f64>,
     /// Largest tension of the lateral ropes (N).
     pub lateral_tension_peak: f64,
@@ -86,6 +89,7 @@ impl Observed {
             rope_mean_residual: histories.rope_mean.iter().map(|row| tail_mean(row, reading.tail)).collect(),
             anchor_force_peak: raw_peaks(&histories.anchors),
             brake_stroke: raw_peaks(&histories.strokes),
+            brake_stroke_mean: raw_peaks(&histories.strokes_mean),
             brake_force_peak: raw_peaks(&histories.brakes),
             lateral_tension_peak: peak(&histories.lateral_largest).1,
             bed_force_peak: peak(&histories.bed_force).1,

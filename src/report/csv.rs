@@ -21,6 +21,7 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
         ("rope_largest", "n", &histories.rope_largest),
         ("anchor", "n", &histories.anchors),
         ("brake_stroke", "m", &histories.strokes),
+        ("brake_stroke_mean", "m", &histories.strokes_mean),
         ("brake", "n", &histories.brakes),
     ];
     for (name, unit, rows) in groups {

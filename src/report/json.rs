@@ -93,6 +93,7 @@ pub struct SimulationPart {
     pub rope_tension_mean_residual_n: Vec<f64>,
     pub anchor_force_peak_n: Vec<f64>,
     pub brake_stroke_m: Vec<f64>,
+    pub brake_stroke_mean_m: Vec<f64>,
     pub lateral_tension_peak_n: f64,
     /// On what holds the lowest main rope to the bed.
     pub bed_force_peak_n: f64,
@@ -226,6 +227,7 @@ fn simulation_part(run: &Run) -> SimulationPart {
         rope_tension_mean_residual_n: seen.rope_mean_residual.clone(),
         anchor_force_peak_n: seen.anchor_force_peak.clone(),
         brake_stroke_m: seen.brake_stroke.clone(),
+        brake_stroke_mean_m: seen.brake_stroke_mean.clone(),
         lateral_tension_peak_n: seen.lateral_tension_peak,
         bed_force_peak_n: seen.bed_force_peak,
         net_tension_peak_n: seen.net_tension_peak,

@@ -26,6 +26,8 @@ pub struct Histories {
     pub anchors: Vec<Vec<f64>>,
     /// Stroke used by each rope's dissipators, the larger of the two (m).
     pub strokes: Vec<Vec<f64>>,
+    /// Stroke used by each rope's dissipators, the mean of the two (m).
+    pub strokes_mean: Vec<Vec<f64>>,
     /// Larger tension of each main rope's two dissipators (N); zeros where there are none.
     pub brakes: Vec<Vec<f64>>,
     /// Largest tension in the lateral ropes (N).

@@ -171,11 +171,14 @@ impl Recorder {
 
     fn sample_shape(&mut self, barrier: &Barrier) {
         let mut strokes = vec![0.0_f64; self.setup.ropes];
+        let mut sums = strokes.clone();
         for dissipator in &barrier.dissipators {
-            let stroke = &mut strokes[dissipator.rope as usize];
-            *stroke = stroke.max(dissipator.used);
+            let rope = dissipator.rope as usize;
+            strokes[rope] = strokes[rope].max(dissipator.used);
+            sums[rope] += dissipator.used;
         }
         push_rows(&mut self.histories.strokes, &strokes, 1.0);
+        push_rows(&mut self.histories.strokes_mean, &sums, 0.5);
         let top = self.setup.net_rows.last().into_iter().flatten();
         let lowest = top.map(|&node| barrier.nodes[node as usize].position.z).fold(f64::INFINITY, f64::min);
         self.histories.top_rope_height.push(lowest);

@@ -116,39 +116,70 @@ fn restitution() -> Result<Vec<Finding>, Broken> {
 }
 
 fn fluctuation() -> Result<Vec<Finding>, Broken> {
-    // The finest is the dearest: two starts of it, four of the others.
-    let sizes = [(0.75, 2), (1.3, 4), (1.7, 4), (2.2, 4)];
-    let starts =
-        |(coarser, count): (f64, u64)| (1..=count).map(move |seed| Variant { coarser, ..Variant::calibration(seed) });
-    let runs = all(&sizes.into_iter().flat_map(starts).collect::<Vec<_>>())?;
+    // Extremes scatter by a third from start to start: of the three sizes judged there are as many starts as tell an
+    // exponent to about a quarter.
+    let sizes = [(0.75, 1..=8), (1.0, 6..=8), (1.3, 1..=8), (1.7, 1..=4), (2.2, 1..=4)];
+    let starts = |(coarser, seeds): (f64, std::ops::RangeInclusive<u64>)| {
+        seeds.map(move |seed| Variant { coarser, ..Variant::calibration(seed) })
+    };
+    let variants: Vec<Variant> = sizes.clone().into_iter().flat_map(starts).collect();
+    let runs = all(&variants)?;
+    let calibration = calibration::runs()?;
     let mut findings = Vec::new();
     for (kind, name) in ["standard deviation", "largest deviation"].into_iter().enumerate() {
-        let amplitude = |runs: &[Run]| spread(runs, |run| run.fluctuation()[kind]).0;
-        let mut points = vec![(1.0_f64, amplitude(calibration::runs()?))];
-        let mut rest = runs.as_slice();
-        for (coarser, count) in sizes {
-            let (these, others) = rest.split_at(count as usize);
-            points.push((coarser, amplitude(these)));
-            rest = others;
+        let points: Vec<Amplitude> = sizes
+            .iter()
+            .map(|(coarser, _)| {
+                let of_size = variants.iter().zip(&runs).filter(|(variant, _)| variant.coarser == *coarser);
+                let known = calibration.iter().filter(|_| *coarser == 1.0);
+                let values: Vec<f64> =
+                    of_size.map(|(_, run)| run).chain(known).map(|run| run.fluctuation()[kind]).collect();
+                Amplitude::of(*coarser, &values)
+            })
+            .collect();
+        for point in &points {
+            let what = format!(
+                "H_w/d50 = {:.1}: {name} (N/m), ± {:.0} from start to start",
+                26.2 / point.coarser,
+                point.spread
+            );
+            findings.push(Finding::told(what, point.mean));
         }
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (coarser, amplitude) in &points {
-            findings.push(Finding::told(format!("H_w/d50 = {:.1}: {name} (N/m)", 26.2 / coarser), *amplitude));
-        }
-        let exponent = |points: &[(f64, f64)]| -slope(points);
         let expected = [-1.0, -2.0][kind];
+        let (exponent, error) = slope(&points[..3]);
         let what = format!("exponent of the {name}, H_w/d50 from 20 to 35");
-        findings.push(Finding::close(what, exponent(&points[..3]), expected, 0.5));
-        findings.push(Finding::told(format!("exponent of the {name}, H_w/d50 from 12 to 35"), exponent(&points)));
+        findings.push(Finding::close(what.clone(), -exponent, expected, 0.5));
+        findings.push(Finding::told(format!("{what}: standard error"), error));
+        let (exponent, _) = slope(&points);
+        findings.push(Finding::told(format!("exponent of the {name}, H_w/d50 from 12 to 35"), -exponent));
     }
     Ok(findings)
 }
 
-/// Slope of the straight line through the points' logarithms.
-fn slope(points: &[(f64, f64)]) -> f64 {
-    let count = points.len() as f64;
-    let logs = points.iter().map(|(x, y)| (x.ln(), y.ln()));
-    let (sx, sy) = logs.clone().fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x / count, sy + y / count));
-    let (xy, xx) = logs.fold((0.0, 0.0), |(xy, xx), (x, y)| (xy + (x - sx) * (y - sy), xx + (x - sx).powi(2)));
-    xy / xx
+/// An amplitude over the starts with grains of one size.
+struct Amplitude {
+    coarser: f64,
+    mean: f64,
+    /// Standard deviation from start to start.
+    spread: f64,
+    starts: f64,
+}
+
+impl Amplitude {
+    fn of(coarser: f64, values: &[f64]) -> Self {
+        let starts = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / starts;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        Self { coarser, mean, spread: (squares / (starts - 1.0)).sqrt(), starts }
+    }
+}
+
+/// Slope of the straight line through the points' logarithms, and its standard error from the scatter of the starts.
+fn slope(points: &[Amplitude]) -> (f64, f64) {
+    let middle = points.iter().map(|point| point.coarser.ln()).sum::<f64>() / points.len() as f64;
+    let width: f64 = points.iter().map(|point| (point.coarser.ln() - middle).powi(2)).sum();
+    let weight = |point: &Amplitude| (point.coarser.ln() - middle) / width;
+    let slope = points.iter().map(|point| weight(point) * point.mean.ln()).sum();
+    let variance = |point: &Amplitude| (weight(point) * point.spread / point.mean).powi(2) / point.starts;
+    (slope, points.iter().map(variance).sum::<f64>().sqrt())
 }
