@@ -51,6 +51,8 @@ pub mod pipeline;
 pub mod problem;
 pub mod report;
 pub mod scene;
+pub mod sensitivity;
 pub mod sources;
+pub mod starts;
 pub mod units;
 pub mod validation;

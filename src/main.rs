@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process;
 
-use barrier_check::commands::check::check;
+use barrier_check::commands::check::{Wishes, check, loads};
 use barrier_check::commands::schema::{design_schema, result_schema};
 use barrier_check::commands::validate::{Selection, validate};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -29,10 +29,21 @@ struct CheckArguments {
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Number of starts, each with a packing of its own: their scatter enters the verdict
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    seeds: u32,
 }
 
 #[derive(Subcommand)]
 enum Command {
+    /// Checks a design by the equations alone, without the simulation
+    Loads {
+        /// Design file in YAML
+        design: PathBuf,
+        /// Folder for the report [default: out/<name of the design file>_loads]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
     /// Runs validation cases: scenes with known answers
@@ -68,13 +79,14 @@ fn main() {
             println!("{schema:#}");
             0
         }
+        Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, out, threads } = arguments.check;
+            let CheckArguments { design, out, threads, seeds } = arguments.check;
             let design = design.unwrap_or_default();
-            check(&design, out.as_deref(), threads.map(usize::from)) as i32
+            check(&design, out.as_deref(), Wishes { threads: threads.map(usize::from), starts: seeds }) as i32
         }
     };
     process::exit(code);

@@ -11,11 +11,13 @@ use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Demands;
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::{Guideline, guideline};
+use crate::design::Design;
 use crate::design::read::DesignFile;
 use crate::fidelity::{Fidelity, choose};
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Event, Watch, run as run_event};
 use crate::scene::flow::packing::PackingError;
+use crate::starts::{Spread, side_by_side};
 
 /// What the whole run says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,19 +38,46 @@ impl Verdict {
     }
 }
 
-/// Everything a report may tell of one run.
+/// Everything a report may tell of one design.
 #[derive(Clone, Debug)]
 pub struct Run {
     pub file: DesignFile,
-    pub fidelity: Fidelity,
     pub guideline: Guideline,
-    pub observed: Observed,
+    /// Nothing where the equations alone were asked for.
+    pub simulated: Option<Simulated>,
     pub outcomes: Vec<Outcome>,
     pub doubts: Vec<String>,
     pub verdict: Verdict,
+}
+
+/// What the simulation shows: the first start in full, of every start what was observed.
+#[derive(Clone, Debug)]
+pub struct Simulated {
+    pub fidelity: Fidelity,
     pub histories: Histories,
     pub facts: Facts,
+    /// Worst over the starts.
     pub numerics: Numerics,
+    pub starts: Vec<Start>,
+}
+
+/// One start: its packing, and what came of it.
+#[derive(Clone, Debug)]
+pub struct Start {
+    pub seed: u64,
+    pub observed: Observed,
+}
+
+impl Simulated {
+    /// What the first start showed.
+    pub fn first(&self) -> &Observed {
+        &self.starts[0].observed
+    }
+
+    /// A quantity over the starts.
+    pub fn spread(&self, quantity: impl Fn(&Observed) -> f64) -> Spread {
+        Spread::of(&self.starts.iter().map(|start| quantity(&start.observed)).collect::<Vec<_>>())
+    }
 }
 
 /// Counts and times of a run.
@@ -94,49 +123,86 @@ pub enum RunError {
     Preparation(#[from] PackingError),
 }
 
-/// Runs one design from words to verdict. Call inside the thread pool that shall do the work.
-pub fn run(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
-    crew::gather(|| run_with_crew(file, watch))
+/// By equations alone: loads, ropes, checks.
+pub fn by_equations(file: DesignFile) -> Run {
+    let guideline = guideline(&file.design);
+    finish(file, guideline, None, Vec::new())
 }
 
-fn run_with_crew(file: DesignFile, watch: &Watch) -> Result<Run, RunError> {
-    let started = Instant::now();
+/// Runs one design from words to verdict, with as many packings as `starts` asks for, from the design's seed on. Call inside
+/// the thread pool that shall do the work: one start uses all its threads, several run side by side.
+pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
     let design = &file.design;
     let fidelity = choose(design);
     let guideline = guideline(design);
-    let scene = build(design, &fidelity, design.simulation.seed)?;
-    let mut facts = Facts {
-        grains: scene.simulation.grains.len(),
-        spheres: scene.simulation.grains.members(),
-        smoothing: scene.smoothing,
-        sampling: scene.recorder.interval,
-        packed_share: scene.packed_share,
-        threads: rayon::current_num_threads(),
-        ..Facts::default()
+    let seed = |index: usize| design.simulation.seed.wrapping_add(index as u64);
+    let threads = rayon::current_num_threads();
+    let started = Instant::now();
+    let runs = if starts < 2 {
+        vec![simulate(design, &fidelity, &guideline, seed(0), watch)]
+    } else {
+        side_by_side(threads, starts as usize, |index| simulate(design, &fidelity, &guideline, seed(index), watch))
     };
-    let reading = Reading { window: SAMPLES_PER_WINDOW as usize, tail: scene.samples_of_rest() };
-    let event = run_event(scene, design.simulation.longest, watch);
-    if event.ending == Ending::Interrupted {
-        return Err(RunError::Interrupted);
+    let mut runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let doubts: Vec<String> = runs.iter().flat_map(|run| doubts_of(run, runs.len())).collect();
+    let mut simulated = runs.remove(0);
+    simulated.facts.threads = threads;
+    simulated.facts.wall_clock = started.elapsed().as_secs_f64();
+    for other in runs {
+        simulated.numerics = simulated.numerics.worst(&other.numerics);
+        simulated.starts.extend(other.starts);
     }
-    facts.take(&event, started);
-    let numerics = numerics(&event);
-    let observed = Observed::read(&event.histories, design, &guideline, reading);
-    let demands = Demands::meet(&guideline, &observed, design.factors.load);
-    let outcomes = check_all(design, &demands);
-    let doubts = doubts(&numerics);
+    Ok(finish(file, guideline, Some(simulated), doubts))
+}
+
+fn doubts_of(run: &Simulated, starts: usize) -> Vec<String> {
+    let named = |doubt| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt };
+    doubts(&run.numerics).into_iter().map(named).collect()
+}
+
+fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, doubts: Vec<String>) -> Run {
+    let observed: Vec<&Observed> =
+        simulated.iter().flat_map(|simulated| &simulated.starts).map(|start| &start.observed).collect();
+    let demands = Demands::meet(&guideline, &observed, file.design.factors.load);
+    let outcomes = check_all(&file.design, &demands);
+    let mut doubts = doubts;
+    if outcomes.iter().all(|outcome| outcome.verdict == CheckVerdict::Info) {
+        let what = "no check could be judged; a rigid wall wants its resistance or its stability in the design";
+        doubts.push(what.to_string());
+    }
     let verdict = verdict(&outcomes, &doubts);
-    Ok(Run {
-        fidelity,
-        guideline,
-        observed,
-        outcomes,
-        doubts,
-        verdict,
-        histories: event.histories,
-        facts,
-        numerics,
-        file,
+    Run { file, guideline, simulated, outcomes, doubts, verdict }
+}
+
+fn simulate(
+    design: &Design,
+    fidelity: &Fidelity,
+    guideline: &Guideline,
+    seed: u64,
+    watch: &Watch,
+) -> Result<Simulated, RunError> {
+    crew::gather(|| {
+        let started = Instant::now();
+        let scene = build(design, fidelity, seed)?;
+        let mut facts = Facts {
+            grains: scene.simulation.grains.len(),
+            spheres: scene.simulation.grains.members(),
+            smoothing: scene.smoothing,
+            sampling: scene.recorder.interval,
+            packed_share: scene.packed_share,
+            threads: rayon::current_num_threads(),
+            ..Facts::default()
+        };
+        let reading = Reading { window: SAMPLES_PER_WINDOW as usize, tail: scene.samples_of_rest() };
+        let event = run_event(scene, design.simulation.longest, watch);
+        if event.ending == Ending::Interrupted {
+            return Err(RunError::Interrupted);
+        }
+        facts.take(&event, started);
+        let numerics = numerics(&event);
+        let observed = Observed::read(&event.histories, design, guideline, reading);
+        let starts = vec![Start { seed, observed }];
+        Ok(Simulated { fidelity: fidelity.clone(), histories: event.histories, facts, numerics, starts })
     })
 }
 

@@ -9,3 +9,4 @@ pub const ANCHOR_FACTOR: &str =
     "anchor resistance over its partial factor (after EN 1997-1; set it in the design file)";
 pub const BRAKE_DATA: &str = "stroke of the dissipator, data of the design file";
 pub const PLATEAU_DATA: &str = "plateau force of the dissipator, data of the design file";
+pub const WALL_BALANCE: &str = "balance of forces and moments on the wall, with the factors of the design file";

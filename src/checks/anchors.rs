@@ -1,6 +1,6 @@
 //! Load of the anchors against their design resistance.
 
-use crate::checks::outcome::{CheckName, Outcome};
+use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::sources::ANCHOR_FACTOR;
@@ -9,7 +9,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else {
         return Vec::new();
     };
-    let capacity = net.anchor_resistance / design.factors.anchor;
+    let capacity = Resistance { characteristic: net.anchor_resistance, factor: design.factors.anchor };
     let loads = demands.anchor_force.iter().enumerate().skip(net.ropes_held_by_bed());
     loads
         .map(|(index, demand)| {

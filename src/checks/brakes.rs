@@ -1,6 +1,6 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Outcome};
+use crate::checks::outcome::{CheckName, CheckVerdict, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
 use crate::sources::{BRAKE_DATA, PLATEAU_DATA};
@@ -23,7 +23,12 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let rope = index + 1;
             let title = format!("Stroke of the dissipators of main rope {rope}");
             let name = CheckName::new(format!("brake_{rope}_stroke"), title, "m", BRAKE_DATA);
-            Outcome::at_most(name, *demand, dissipator.stroke, design.limits.brake_utilisation)
+            Outcome::at_most(
+                name,
+                *demand,
+                Resistance { characteristic: dissipator.stroke, factor: 1.0 },
+                design.limits.brake_utilisation,
+            )
         })
         .collect()
 }
@@ -34,7 +39,12 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let Some((_, dissipator)) = dissipators(design) else { return Vec::new() };
     let name =
         CheckName::new("brake_plateau", "Largest tension of a dissipator against its plateau", "N", PLATEAU_DATA);
-    let mut outcome = Outcome::at_most(name, demands.brake_force, dissipator.plateau, 1.0);
+    let mut outcome = Outcome::at_most(
+        name,
+        demands.brake_force,
+        Resistance { characteristic: dissipator.plateau, factor: 1.0 },
+        1.0,
+    );
     if outcome.utilisation.is_some_and(|utilisation| utilisation <= PLATEAU_TOLERANCE) {
         outcome.utilisation = None;
         outcome.verdict = CheckVerdict::Pass;

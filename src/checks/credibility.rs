@@ -24,6 +24,22 @@ pub struct Numerics {
     pub unfinished: bool,
 }
 
+impl Numerics {
+    /// The worse of two runs in every respect.
+    pub fn worst(&self, other: &Self) -> Self {
+        let larger = |a: f64, b: f64| if a.is_nan() || a.abs() >= b.abs() { a } else { b };
+        Self {
+            energy_error: larger(self.energy_error, other.energy_error),
+            overlap: larger(self.overlap, other.overlap),
+            step_ratio: larger(self.step_ratio, other.step_ratio),
+            crossings: self.crossings + other.crossings,
+            broke_down: self.broke_down.clone().or_else(|| other.broke_down.clone()),
+            missed: self.missed || other.missed,
+            unfinished: self.unfinished || other.unfinished,
+        }
+    }
+}
+
 /// Reasons why the run cannot be relied on; none if it can.
 pub fn doubts(numerics: &Numerics) -> Vec<String> {
     let mut doubts = Vec::new();

@@ -3,11 +3,13 @@
 pub mod anchors;
 pub mod brakes;
 pub mod credibility;
+pub mod detailing;
 pub mod height;
 pub mod outcome;
 pub mod retained;
 pub mod ropes;
 pub mod total_force;
+pub mod wall;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
@@ -18,6 +20,7 @@ type Check = fn(&Design, &Demands) -> Vec<Outcome>;
 /// All checks, in the order of the report.
 const CHECKS: &[Check] = &[
     total_force::check,
+    wall::check,
     ropes::check_main,
     ropes::check_net,
     ropes::check_lateral,

@@ -35,12 +35,21 @@ pub struct Outcome {
     pub demand: Demand,
     /// Design resistance times the share of it that may be used.
     pub capacity: Option<f64>,
+    /// Where the capacity is a resistance: its characteristic value, the partial factor, the share that may be used.
+    pub resistance: Option<(Resistance, f64)>,
     /// Governing demand over capacity; for a least share, what is missing over what may be missing. At most 1 to pass.
     pub utilisation: Option<f64>,
     /// SI unit of demand and capacity; `-` for shares.
     pub unit: &'static str,
     pub verdict: CheckVerdict,
     pub source: &'static str,
+}
+
+/// A characteristic resistance and the partial factor on it, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resistance {
+    pub characteristic: f64,
+    pub factor: f64,
 }
 
 /// What a check is called and where it comes from.
@@ -59,11 +68,11 @@ impl CheckName {
 }
 
 impl Outcome {
-    /// The governing demand must stay below the share `limit` of `resistance`; the capacity shown is their product.
-    pub fn at_most(name: CheckName, demand: Demand, resistance: f64, limit: f64) -> Self {
-        let capacity = resistance * limit;
+    /// The governing demand must stay below the share `limit` of the design resistance; the capacity shown is their product.
+    pub fn at_most(name: CheckName, demand: Demand, resistance: Resistance, limit: f64) -> Self {
+        let capacity = resistance.characteristic / resistance.factor * limit;
         let utilisation = demand.largest().map(|largest| largest / capacity);
-        Self::judged(name, demand, Some(capacity), utilisation)
+        Self { resistance: Some((resistance, limit)), ..Self::judged(name, demand, Some(capacity), utilisation) }
     }
 
     /// The simulated share must reach `least`; used is what is missing to 1, of what may be missing.
@@ -91,7 +100,7 @@ impl Outcome {
             Some(_) => CheckVerdict::Fail,
         };
         let CheckName { id, title, unit, source } = name;
-        Self { id, title, demand, capacity, utilisation, unit, verdict, source }
+        Self { id, title, demand, capacity, resistance: None, utilisation, unit, verdict, source }
     }
 }
 
@@ -101,7 +110,13 @@ mod tests {
 
     fn verdict(value: f64) -> CheckVerdict {
         let demand = Demand { guideline: Some(1.0), simulation: Some(value) };
-        Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, 100.0, 1.0).verdict
+        Outcome::at_most(
+            CheckName::new("x", "x", "N", "x"),
+            demand,
+            Resistance { characteristic: 100.0, factor: 1.0 },
+            1.0,
+        )
+        .verdict
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Tension of main, net and lateral ropes against their design resistance.
 
-use crate::checks::outcome::{CheckName, Outcome};
+use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Rope};
 use crate::sources::ROPE_FACTOR;
@@ -30,6 +30,6 @@ pub fn check_lateral(design: &Design, demands: &Demands) -> Vec<Outcome> {
 }
 
 fn check(design: &Design, rope: &Rope, id: String, title: String, demand: Demand) -> Outcome {
-    let resistance = rope.breaking_load / design.factors.rope;
+    let resistance = Resistance { characteristic: rope.breaking_load, factor: design.factors.rope };
     Outcome::at_most(CheckName::new(id, title, "N", ROPE_FACTOR), demand, resistance, design.limits.rope_utilisation)
 }

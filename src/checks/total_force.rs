@@ -1,6 +1,6 @@
 //! Total force on the barrier against the resistance of a rigid wall, if that is known.
 
-use crate::checks::outcome::{CheckName, Outcome};
+use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
@@ -13,7 +13,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         BarrierDesign::FlexibleNet(_) => None,
     };
     vec![match resistance {
-        Some(resistance) => Outcome::at_most(name, demand, resistance, 1.0),
+        Some(resistance) => Outcome::at_most(name, demand, Resistance { characteristic: resistance, factor: 1.0 }, 1.0),
         None => Outcome::informative(CheckName { source: NO_LIMIT, ..name }, demand),
     }]
 }

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::commands::ExitCode;
 use crate::design::read::{DesignFile, read_design};
-use crate::pipeline::{Run, RunError, Verdict, run};
+use crate::pipeline::{Run, RunError, Verdict, by_equations, run};
 use crate::problem::{Problem, Problems};
 use crate::report::json::ResultFile;
 use crate::report::render::render;
@@ -20,23 +20,48 @@ use crate::scene::event::{ProgressReport, Watch};
 /// Bytes read of a file at the most; the document refuses anything near.
 const MOST_READ: u64 = 2 << 20;
 
+/// How to run a design.
+#[derive(Clone, Copy, Debug)]
+pub struct Wishes {
+    /// All cores unless given.
+    pub threads: Option<usize>,
+    /// Number of packings.
+    pub starts: u32,
+}
+
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given.
-pub fn check(path: &Path, out: Option<&Path>, threads: Option<usize>) -> ExitCode {
+pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes) -> ExitCode {
+    report_on(path, out, "", |file| simulate(file, wishes))
+}
+
+/// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
+pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
+    report_on(path, out, "_loads", |file| Ok(by_equations(file)))
+}
+
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+fn report_on(
+    path: &Path,
+    out: Option<&Path>,
+    suffix: &str,
+    work: impl FnOnce(DesignFile) -> Result<Run, Failure>,
+) -> ExitCode {
+    let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(format!("{name}{suffix}")), PathBuf::from);
     let file = match load(path) {
         Ok(file) => file,
         Err(problems) => {
             eprint!("{problems}");
-            let name = path.file_stem().unwrap_or_default();
-            tell_of_earlier_run(&out.map_or_else(|| Path::new("out").join(name), PathBuf::from));
+            tell_of_earlier_run(&folder_of(&path.file_stem().unwrap_or_default().to_string_lossy()));
             return ExitCode::Undecided;
         }
     };
-    let folder = out.map_or_else(|| Path::new("out").join(&file.name), PathBuf::from);
+    let folder = folder_of(&file.name);
     if folder.exists() && !folder.is_dir() {
         eprintln!("error: {} is a file; --out needs a folder", folder.display());
         return ExitCode::Undecided;
     }
-    let result = match simulate(file, threads) {
+    let result = match work(file) {
         Ok(run) => run,
         Err(error) => {
             eprintln!("error: {error}");
@@ -77,7 +102,7 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 }
 
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
-fn simulate(file: DesignFile, threads: Option<usize>) -> Result<Run, Box<dyn std::error::Error + Send + Sync>> {
+fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let heard = stop.clone();
     // A second handler cannot be set; then Ctrl-C simply ends the program, which writes nothing either.
@@ -89,8 +114,8 @@ fn simulate(file: DesignFile, threads: Option<usize>) -> Result<Run, Box<dyn std
             bar.set_message(format!("t = {:.2} s, force {:.4} kN", report.time, report.force / 1e3));
         }
     };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
-    let result = pool.install(|| run(file, &Watch { progress: &show, stop: &stop }));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(wishes.threads.unwrap_or(0)).build()?;
+    let result = pool.install(|| run(file, wishes.starts, &Watch { progress: &show, stop: &stop }));
     if let Ok(bar) = bar.lock() {
         bar.finish_and_clear();
     }
@@ -110,12 +135,14 @@ fn progress_bar() -> ProgressBar {
 
 fn write(run: &Run, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let rendered = render(&View::of(run))?;
-    let files = [
+    let mut files = vec![
         ReportFile { name: "report.html", text: rendered.html },
         ReportFile { name: "report.md", text: rendered.markdown },
-        ReportFile { name: "histories.csv", text: crate::report::csv::text(&run.histories) },
         ReportFile { name: "result.json", text: serde_json::to_string_pretty(&ResultFile::of(run))? + "\n" },
     ];
+    if let Some(simulated) = &run.simulated {
+        files.push(ReportFile { name: "histories.csv", text: crate::report::csv::text(&simulated.histories) });
+    }
     write_all(folder, &files)?;
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! What the simulation showed, as numbers.
 
 use crate::dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
+use crate::demand::coefficients::{Coefficients, coefficients};
 use crate::demand::from_loads::Guideline;
 use crate::design::Design;
 
@@ -50,6 +51,8 @@ pub struct Observed {
     pub incoming_at_peak: Gauge,
     /// Depth of the deposit at the barrier at the end, at bulk density (m).
     pub deposit_depth: f64,
+    /// K and λ over time by the split into grains at rest and moving ones.
+    pub coefficients: Coefficients,
     /// K that the residual force means, where there is a deposit.
     pub k_effective: Option<f64>,
     /// λ that the peak force means, where a flow was gauged.
@@ -102,6 +105,8 @@ impl Observed {
             ..Self::default()
         };
         observed.measure_coefficients(histories, design, guideline, reading);
+        let grain = design.flow.sizes.quantile(0.5);
+        observed.coefficients = coefficients(histories, &guideline.input, width, reading.window, grain);
         observed
     }
 

@@ -1,42 +1,83 @@
-//! Guideline loads on the design's barrier: stages of filling, total force, share of each main rope.
+//! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
 use std::f64::consts::FRAC_PI_4;
 
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet};
+use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope};
+use crate::loads::fill::{Retention, level_deposit_height, retention};
+use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
-use crate::loads::volkwein::{GuidelineInput, LoadCase, level_deposit_height};
 use crate::units::GRAVITY;
 
 /// Guideline loads and what follows for the ropes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guideline {
     pub input: GuidelineInput,
+    /// Width of the channel (m).
+    pub width: f64,
     pub cases: Vec<LoadCase>,
-    /// Largest total force over the stages (N).
+    /// Largest total force over the envelope, point loads included (N), and the case it comes from.
     pub largest_force: f64,
-    /// Worst state of each main rope over the stages, from the bottom, with the partial factor on loads; rope 1 is at
-    /// rest when the bed holds it.
-    pub ropes: Vec<RopeState>,
+    pub governing: Option<LoadCase>,
+    /// Largest moment about the bed over the envelope, per width (N m/m).
+    pub largest_moment: f64,
+    /// Each main rope under its governing case, from the bottom; rope 1 is at rest when the bed holds it.
+    pub ropes: Vec<RopeLoad>,
+    /// What the barrier holds; nothing on a level bed.
+    pub retention: Option<Retention>,
+}
+
+/// A main rope under the load of its tributary height, with the partial factor on loads.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RopeLoad {
+    /// Heights above the bed of the strip that the rope carries (m); the topmost has no upper end.
+    pub strip: [f64; 2],
+    /// Load across the span (N/m).
+    pub load: f64,
+    /// The case that governs; nothing for a rope at rest.
+    pub case: Option<LoadCase>,
+    pub state: RopeState,
+    /// What each anchor takes along the rope's span and across it (N).
+    pub anchor: [f64; 2],
 }
 
 /// Depth of the wave at the gate over the height behind it (Ritter 1892).
 const RITTER: f64 = 4.0 / 9.0;
 
 pub fn guideline(design: &Design) -> Guideline {
-    let input = input(design);
-    let cases = input.cases();
-    let largest = cases.iter().map(|case| case.force_per_width).fold(0.0, f64::max);
-    let ropes = match &design.barrier {
-        BarrierDesign::RigidWall(_) => Vec::new(),
-        BarrierDesign::FlexibleNet(net) => rope_states(net, design, &input),
-    };
-    Guideline { input, cases, largest_force: largest * design.channel.width, ropes }
+    guideline_for(design, input(design))
 }
 
-fn input(design: &Design) -> GuidelineInput {
+/// The same for another flow or other coefficients than the design's.
+pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
+    let extras = extras(design);
+    let width = design.channel.width;
+    let stages = envelope(&input, &extras);
+    let total = |case: &LoadCase| case.force_per_width() * width + case.point.map_or(0.0, |point| point.force);
+    let governing = stages.iter().max_by(|a, b| total(a).total_cmp(&total(b))).cloned();
+    let moment =
+        |case: &LoadCase| case.moment_per_width() + case.point.map_or(0.0, |point| point.force * point.height / width);
+    let ropes = match &design.barrier {
+        BarrierDesign::RigidWall(_) => Vec::new(),
+        BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &stages),
+    };
+    Guideline {
+        input,
+        width,
+        cases: all(&input, &extras),
+        largest_force: governing.as_ref().map_or(0.0, total),
+        governing,
+        largest_moment: stages.iter().map(moment).fold(0.0, f64::max),
+        ropes,
+        retention: held(design),
+    }
+}
+
+pub fn input(design: &Design) -> GuidelineInput {
     let (depth, velocity) = incoming(design);
     let slope = design.channel.slope;
     let level = level_deposit_height(design.flow.volume() / design.channel.width, slope, lean(design));
+    let barrier_height = height_over_bed(design);
     GuidelineInput {
         density: design.flow.bulk_density,
         gravity_normal: GRAVITY * slope.cos(),
@@ -44,8 +85,30 @@ fn input(design: &Design) -> GuidelineInput {
         dynamic_pressure: design.factors.dynamic_pressure,
         depth,
         velocity,
-        fill_height: height_over_bed(design).min(level.max(depth)),
+        fill_height: barrier_height.min(level.max(depth)),
+        barrier_height,
     }
+}
+
+fn extras(design: &Design) -> Extras {
+    let loads = &design.loads;
+    Extras {
+        overflow_depth: loads.overflow_depth,
+        overflow_friction: loads.overflow_friction,
+        drained: loads.drained.map(|(earth_pressure, density)| [earth_pressure, density]),
+        point: loads.point_load.map(|(force, height)| PointLoad { force, height }),
+        snow: loads.snow_pressure,
+        self_weight: loads.self_weight,
+    }
+}
+
+/// The plumb height that the filled barrier keeps, and the volume behind it.
+fn held(design: &Design) -> Option<Retention> {
+    let slope = design.channel.slope;
+    let plumb = height_over_bed(design) / slope.cos();
+    let filled = design.loads.filled_height * plumb;
+    let surface = design.loads.deposit_slope * slope;
+    (slope > surface).then(|| retention(design.channel.width, slope, filled, surface, design.flow.volume()))
 }
 
 /// Height of the barrier's top above the bed, normal to it (m).
@@ -89,9 +152,9 @@ fn lean(design: &Design) -> f64 {
     }
 }
 
-/// Each rope under the largest load on its tributary height, with the partial factor on loads. The lowest rope also
-/// takes what an open gap below it would let through.
-fn rope_states(net: &FlexibleNet, design: &Design, input: &GuidelineInput) -> Vec<RopeState> {
+/// Each rope under the case that loads its tributary height most. The lowest rope also takes what an open gap below it
+/// would let through; the topmost carries the weight of the net.
+fn rope_loads(net: &FlexibleNet, design: &Design, stages: &[LoadCase]) -> Vec<RopeLoad> {
     let rope = net.main_ropes.rope;
     let span = RopeInput {
         span: design.channel.width,
@@ -99,17 +162,60 @@ fn rope_states(net: &FlexibleNet, design: &Design, input: &GuidelineInput) -> Ve
         dissipator: net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke]),
     };
     let top = height_over_bed(design);
-    let heights = &net.main_ropes.heights;
     let above_bed = |along: f64| top - (net.height - along) * lean(design).cos();
-    let middle = |a: usize, b: usize| above_bed(0.5 * (heights[a] + heights[b]));
+    let heights: Vec<f64> = net.main_ropes.heights.iter().map(|along| above_bed(*along)).collect();
+    let last = heights.len() - 1;
+    let weight = design.loads.self_weight.map_or(0.0, |weight| weight * net.height);
     (0..heights.len())
         .map(|index| {
+            let low = if index == 0 { 0.0 } else { 0.5 * (heights[index - 1] + heights[index]) };
+            let high = if index == last { f64::INFINITY } else { 0.5 * (heights[index] + heights[index + 1]) };
+            let strip = [low, high];
             if index == 0 && net.bottom == Bottom::Fixed {
-                return RopeState::default();
+                return RopeLoad { strip, ..RopeLoad::default() };
             }
-            let low = if index == 0 { 0.0 } else { middle(index - 1, index) };
-            let high = if index + 1 == heights.len() { f64::INFINITY } else { middle(index, index + 1) };
-            span.under(design.factors.load * input.governing_strip_force(low, high))
+            let on_rope = |case: &LoadCase| {
+                let spread = case.strip_force(low, high) + point_on_rope(case, &heights, index, span.span);
+                let hung = if index == last { weight } else { 0.0 };
+                // The weight hangs plumb, the pressure acts along the bed: they are (90° − α) apart.
+                (spread * spread + hung * hung + 2.0 * spread * hung * design.channel.slope.sin()).sqrt()
+            };
+            let governing = stages.iter().max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
+            let load = design.factors.load * governing.map_or(0.0, on_rope);
+            let state = span.under(load);
+            let across = 0.5 * load * span.span;
+            let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
+            RopeLoad { strip, load, case: governing.cloned(), state, anchor: [along, across] }
         })
         .collect()
+}
+
+/// A point load as the uniform load with the same moment at midspan, 2 P/L (N/m), shared by lever between the ropes above
+/// and below it.
+fn point_on_rope(case: &LoadCase, heights: &[f64], index: usize, span: f64) -> f64 {
+    let Some(point) = case.point else { return 0.0 };
+    let height = point.height.clamp(heights[0], heights[heights.len() - 1]);
+    let share = |here: f64, other: f64| (1.0 - (height - here).abs() / (other - here).abs()).max(0.0);
+    let neighbour = if height < heights[index] { index.checked_sub(1) } else { Some(index + 1) };
+    let other = neighbour.and_then(|neighbour| heights.get(neighbour));
+    let share = other.map_or(if height == heights[index] { 1.0 } else { 0.0 }, |&other| share(heights[index], other));
+    2.0 * point.force * share / span
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_point_load_is_shared_by_the_ropes_beside_it() {
+        let point = PointLoad { force: 100.0, height: 1.25 };
+        let input = crate::loads::cases::tests::input();
+        let case = crate::loads::cases::point_load::case(&input, point);
+        let heights = [0.0, 1.0, 2.0];
+        let shares: Vec<f64> = (0..3).map(|rope| point_on_rope(&case, &heights, rope, 10.0)).collect();
+        assert_relative_eq!(shares[0], 0.0);
+        assert_relative_eq!(shares[1], 15.0);
+        assert_relative_eq!(shares[2], 5.0);
+    }
 }

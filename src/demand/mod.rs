@@ -1,10 +1,12 @@
 //! What the barrier must bear: the only place where the two load routes, guideline and simulation, meet.
 
+pub mod coefficients;
 pub mod from_histories;
 pub mod from_loads;
 
 use self::from_histories::Observed;
 use self::from_loads::Guideline;
+use crate::starts::Spread;
 
 /// One quantity by both routes; a route that says nothing about it is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +34,9 @@ impl Demand {
 pub struct Demands {
     /// N
     pub total_force: Demand,
+    /// Force along the channel and moment about the toe of a rigid wall, per width (N/m, N m/m).
+    pub wall_force: Demand,
+    pub wall_moment: Demand,
     /// N
     pub rope_tension: Vec<Demand>,
     /// N
@@ -51,22 +56,50 @@ pub struct Demands {
 }
 
 impl Demands {
-    pub fn meet(guideline: &Guideline, observed: &Observed, load_factor: f64) -> Self {
-        let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.tension).collect();
-        let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.stroke).collect();
-        let simulated = |value: f64| Demand { guideline: None, simulation: Some(value) };
+    /// `observed` holds what each start of the simulation showed; with several, a demand is the value that the next start
+    /// exceeds (or, for what must be kept, falls below) with a probability of 5 %. None: equations alone.
+    pub fn meet(guideline: &Guideline, observed: &[&Observed], load_factor: f64) -> Self {
+        let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.state.tension).collect();
+        let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.state.stroke).collect();
         let highest = |values: &[f64]| values.iter().copied().reduce(larger);
-        let total_force = Demand { guideline: Some(guideline.largest_force), simulation: Some(observed.force_peak) };
+        let spread = |quantity: &dyn Fn(&Observed) -> f64| {
+            (!observed.is_empty()).then(|| Spread::of(&observed.iter().map(|seen| quantity(seen)).collect::<Vec<_>>()))
+        };
+        let most = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.upper());
+        let least = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.lower());
+        let simulated = |simulation: Option<f64>| Demand { guideline: None, simulation };
+        // The factor goes on the simulation alone: the guideline's ropes have it already.
+        let by_rope = |by_guideline: &[f64], quantity: &dyn Fn(&Observed) -> &Vec<f64>, factor: f64| -> Vec<Demand> {
+            let of = |rope: usize| Demand {
+                guideline: by_guideline.get(rope).copied(),
+                simulation: most(&|seen| quantity(seen)[rope]).map(|value| factor * value),
+            };
+            let ropes = observed.first().map_or(by_guideline.len(), |seen| quantity(seen).len());
+            (0..ropes).map(of).collect()
+        };
+        let total_force =
+            Demand { guideline: Some(guideline.largest_force), simulation: most(&|seen| seen.force_peak) };
+        let wall_force = Demand {
+            guideline: Some(guideline.largest_force / guideline.width),
+            simulation: most(&|seen| seen.force_peak / guideline.width),
+        };
+        let wall_moment =
+            Demand { guideline: Some(guideline.largest_moment), simulation: most(&|seen| seen.moment_peak) };
         Self {
+            wall_force: wall_force.times(load_factor),
+            wall_moment: wall_moment.times(load_factor),
             total_force: total_force.times(load_factor),
-            rope_tension: side_by_side(&tensions, &observed.rope_tension_peak, load_factor),
-            anchor_force: side_by_side(&tensions, &observed.anchor_force_peak, load_factor),
-            brake_force: Demand { guideline: highest(&tensions), simulation: highest(&observed.brake_force_peak) },
-            brake_stroke: side_by_side(&strokes, &observed.brake_stroke, 1.0),
-            net_tension: simulated(observed.net_tension_peak).times(load_factor),
-            lateral_tension: simulated(observed.lateral_tension_peak).times(load_factor),
-            retained: simulated(observed.retained),
-            residual_height: simulated(observed.residual_height),
+            rope_tension: by_rope(&tensions, &|seen| &seen.rope_tension_peak, load_factor),
+            anchor_force: by_rope(&tensions, &|seen| &seen.anchor_force_peak, load_factor),
+            brake_force: Demand {
+                guideline: highest(&tensions),
+                simulation: most(&|seen| highest(&seen.brake_force_peak).unwrap_or(0.0)),
+            },
+            brake_stroke: by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0),
+            net_tension: simulated(most(&|seen| seen.net_tension_peak)).times(load_factor),
+            lateral_tension: simulated(most(&|seen| seen.lateral_tension_peak)).times(load_factor),
+            retained: simulated(least(&|seen| seen.retained)),
+            residual_height: simulated(least(&|seen| seen.residual_height)),
         }
     }
 }
@@ -74,11 +107,4 @@ impl Demands {
 /// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
-
-/// Guideline and simulation rope by rope; the factor goes on the simulation alone.
-fn side_by_side(guideline: &[f64], simulation: &[f64], factor: f64) -> Vec<Demand> {
-    let of =
-        |rope: usize| Demand { guideline: guideline.get(rope).copied(), simulation: Some(factor * simulation[rope]) };
-    (0..simulation.len()).map(of).collect()
 }

@@ -20,6 +20,7 @@ pub struct Design {
     pub barrier: BarrierDesign,
     pub limits: Limits,
     pub factors: Factors,
+    pub loads: OtherLoads,
     pub simulation: SimulationWishes,
 }
 
@@ -112,6 +113,25 @@ pub struct RigidWall {
     pub segment_tops: Vec<f64>,
     /// Resistance of the whole wall to the total force (N), if known.
     pub resistance: Option<f64>,
+    pub stability: Option<Stability>,
+}
+
+/// A wall that stands by its weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stability {
+    /// m
+    pub thickness: f64,
+    /// kg/m³
+    pub density: f64,
+    /// Of the base, which reaches downstream of the wall (m).
+    pub base_width: f64,
+    /// Of the base against the horizontal (rad).
+    pub base_slope: f64,
+    /// tan φ between base and ground.
+    pub base_friction: f64,
+    /// Partial factors on the resistance to sliding and on the moment that holds the wall.
+    pub sliding_factor: f64,
+    pub overturning_factor: f64,
 }
 
 /// A net of wire ropes on horizontal main ropes.
@@ -222,6 +242,27 @@ pub struct Factors {
     pub rope: f64,
     /// On anchor resistance.
     pub anchor: f64,
+}
+
+/// Loads beside those of the design flow; absent where the designer gives none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OtherLoads {
+    /// Depth of a flow over the full barrier (m).
+    pub overflow_depth: Option<f64>,
+    /// tan φ of its drag on the top rope.
+    pub overflow_friction: Option<f64>,
+    /// K and density (kg/m³) of the drained deposit.
+    pub drained: Option<(f64, f64)>,
+    /// Force (N) and height above the bed (m) of a boulder or log.
+    pub point_load: Option<(f64, f64)>,
+    /// Pa
+    pub snow_pressure: Option<f64>,
+    /// Weight of the net per area (N/m²).
+    pub self_weight: Option<f64>,
+    /// Height of the filled barrier over its first.
+    pub filled_height: f64,
+    /// Slope of the deposit over that of the bed.
+    pub deposit_slope: f64,
 }
 
 /// How to simulate.

@@ -4,7 +4,7 @@ use crate::design::entries::Entries;
 use crate::design::rules::{flow_volume, rope_heights, size_curve};
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, Bottom, Channel, DamBreak, Design, DissipatorDesign, Factors, FidelityWish,
-    FlexibleNet, Flow, LateralTo, Limits, MainRopes, Project, RigidWall, Rope, SimulationWishes,
+    FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, Project, RigidWall, Rope, SimulationWishes, Stability,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -16,6 +16,7 @@ pub fn resolve(e: &Entries) -> Option<Design> {
         barrier: barrier(e)?,
         limits: limits(e)?,
         factors: factors(e)?,
+        loads: loads(e)?,
         simulation: simulation(e)?,
     })
 }
@@ -94,10 +95,27 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
         *top += part;
         Some(*top)
     });
+    let stability = e.has_section("barrier.rigid_wall.stability").then(|| {
+        let value = |key: &str| e.number(&format!("barrier.rigid_wall.stability.{key}"));
+        let thickness = value("thickness")?;
+        Some(Stability {
+            thickness,
+            density: value("density")?,
+            base_width: value("base_width").unwrap_or(thickness),
+            base_slope: value("base_slope")?,
+            base_friction: value("base_friction")?.tan(),
+            sliding_factor: value("sliding_factor")?,
+            overturning_factor: value("overturning_factor")?,
+        })
+    });
     Some(RigidWall {
         height,
         segment_tops: segment_tops.collect(),
         resistance: e.number("barrier.rigid_wall.resistance"),
+        stability: match stability {
+            Some(stability) => Some(stability?),
+            None => None,
+        },
     })
 }
 
@@ -161,6 +179,21 @@ fn factors(e: &Entries) -> Option<Factors> {
         load: value("load")?,
         rope: value("rope")?,
         anchor: value("anchor")?,
+    })
+}
+
+fn loads(e: &Entries) -> Option<OtherLoads> {
+    let value = |key: &str| e.number(&format!("loads.{key}"));
+    let pair = |first: &str, second: &str| value(first).zip(value(second));
+    Some(OtherLoads {
+        overflow_depth: value("overflow_depth"),
+        overflow_friction: value("overflow_friction").map(f64::tan),
+        drained: pair("drained.earth_pressure_k", "drained.density"),
+        point_load: pair("point_load.force", "point_load.height"),
+        snow_pressure: value("snow_pressure"),
+        self_weight: value("self_weight"),
+        filled_height: value("filled_height")?,
+        deposit_slope: value("deposit_slope")?,
     })
 }
 

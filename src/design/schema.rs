@@ -17,6 +17,7 @@ pub const DESIGN: &[Key] = &[
     Key::required("barrier", Kind::OneOf(BARRIER), "the barrier"),
     Key::default("limits", Kind::Section(LIMITS), "", "what the design must keep"),
     Key::default("factors", Kind::Section(FACTORS), "", "guideline coefficients and partial factors"),
+    Key::default("loads", Kind::Section(LOADS), "", "loads beside those of the design flow, and how a deposit stands"),
     Key::default("simulation", Kind::Section(SIMULATION), "", "how to simulate"),
 ];
 
@@ -120,6 +121,33 @@ const RIGID_WALL: &[Key] = &[
         "heights of the parts whose force is reported, from the bottom; by default six equal parts",
     ),
     Key::optional("resistance", quantity(D::Force, 1.0, 1e12), "resistance of the whole wall to the total force"),
+    Key::optional(
+        "stability",
+        Kind::Section(STABILITY),
+        "a wall that stands by its weight: checked against sliding and overturning",
+    ),
+];
+
+const STABILITY: &[Key] = &[
+    Key::required("thickness", quantity(D::Length, 0.05, 50.0), "thickness of the wall"),
+    Key::required("density", quantity(D::Density, 500.0, 8000.0), "density of the wall"),
+    Key::optional(
+        "base_width",
+        quantity(D::Length, 0.05, 50.0),
+        "width of its base, which reaches downstream; by default the thickness",
+    ),
+    Key::default("base_slope", FRICTION, "0 deg", "slope of the base against the horizontal"),
+    Key::required("base_friction", FRICTION, "friction angle between base and ground"),
+    Key::required(
+        "sliding_factor",
+        Kind::Number { low: 1.0, high: 5.0 },
+        "partial factor on the resistance to sliding",
+    ),
+    Key::required(
+        "overturning_factor",
+        Kind::Number { low: 1.0, high: 5.0 },
+        "partial factor on the moment that holds the wall",
+    ),
 ];
 
 const FLEXIBLE_NET: &[Key] = &[
@@ -243,6 +271,45 @@ const FACTORS: &[Key] = &[
     Key::default("load", Kind::Number { low: 1.0, high: 5.0 }, "1", "partial factor on loads"),
     Key::default("rope", Kind::Number { low: 1.0, high: 5.0 }, "1.5", "partial factor on rope resistance"),
     Key::default("anchor", Kind::Number { low: 1.0, high: 5.0 }, "1.1", "partial factor on anchor resistance"),
+];
+
+const LOADS: &[Key] = &[
+    Key::optional(
+        "overflow_depth",
+        quantity(D::Length, 0.001, 50.0),
+        "depth of a flow over the full barrier; by default that of the surge, where the design flow fills the barrier",
+    ),
+    Key::optional(
+        "overflow_friction",
+        FRICTION,
+        "friction angle of the overtopping flow on the top rope; only if given does its drag enter a check",
+    ),
+    Key::optional("drained", Kind::Section(DRAINED), "the deposit once it has drained"),
+    Key::optional("point_load", Kind::Section(POINT_LOAD), "a boulder or log, added to the first surge"),
+    Key::optional("snow_pressure", quantity(D::Pressure, 1.0, 1e6), "uniform pressure of snow on the barrier"),
+    Key::optional("self_weight", quantity(D::Pressure, 0.1, 1e5), "weight of the net per area, hung on the top rope"),
+    Key::default(
+        "filled_height",
+        quantity(D::Share, 0.1, 1.0),
+        "75 %",
+        "height of the filled barrier over its first, for the volume it holds (from memory of practice)",
+    ),
+    Key::default(
+        "deposit_slope",
+        quantity(D::Share, 0.0, 0.99),
+        "67 %",
+        "slope of the deposit's surface over that of the bed, for the volume it holds (from memory of practice)",
+    ),
+];
+
+const DRAINED: &[Key] = &[
+    Key::required("earth_pressure_k", Kind::Number { low: 0.1, high: 20.0 }, "K of the drained deposit"),
+    Key::required("density", quantity(D::Density, 300.0, 3500.0), "density of the drained deposit"),
+];
+
+const POINT_LOAD: &[Key] = &[
+    Key::required("force", quantity(D::Force, 1.0, 1e9), "force along the channel"),
+    Key::required("height", quantity(D::Length, 0.0, 50.0), "height above the bed"),
 ];
 
 const SIMULATION: &[Key] = &[

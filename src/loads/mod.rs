@@ -1,4 +1,10 @@
-//! Loads by guideline equations, one file per model. Knows nothing of the simulation.
+//! Loads by equations: cases of the guideline, other models, ropes, retention. Knows nothing of the simulation.
 
+pub mod cases;
+pub mod estimates;
+pub mod fill;
+pub mod input;
+pub mod ladder;
+pub mod pressure;
 pub mod rope;
-pub mod volkwein;
+pub mod wall;

@@ -36,6 +36,13 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("velocity_mean_x_m_s".into(), histories.velocity.iter().map(|velocity| velocity[0]).collect());
     add("velocity_mean_z_m_s".into(), histories.velocity.iter().map(|velocity| velocity[1]).collect());
     add("push_at_rest_n".into(), histories.push_at_rest.clone());
+    for (state, name) in ["at_rest", "moving"].into_iter().enumerate() {
+        add(
+            format!("touch_of_grains_{name}_n"),
+            histories.pushes_by_state.iter().map(|pushes| pushes[state]).collect(),
+        );
+    }
+    add("deposit_at_rest_depth_m".into(), histories.dead_depth.clone());
     add("dead_share".into(), histories.dead.clone());
     add("moving_share".into(), histories.moving.clone());
     for (index, way) in ["through", "under", "beside", "over"].into_iter().enumerate() {

@@ -1,25 +1,30 @@
 //! Rows of the report that tell what the simulation showed and how far it can be relied on.
 
 use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, STEP_LIMIT};
-use crate::pipeline::Run;
+use crate::demand::coefficients::Coefficients;
+use crate::demand::from_histories::Observed;
+use crate::design::Design;
+use crate::pipeline::{Run, Simulated};
 use crate::report::view::{Row, with_unit};
+use crate::starts::{Spread, k_n};
 use crate::units::GRAVITY;
 
 fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) -> Row {
     Row { name: name.into(), value: value.into(), remark: remark.into() }
 }
 
-/// What the simulation showed.
-pub fn rows(run: &Run) -> Vec<Row> {
-    [flow_rows(run), force_rows(run), coefficient_rows(run), loss_rows(run), wall_rows(run)].concat()
+/// What the first start showed.
+pub fn rows(run: &Run, simulated: &Simulated) -> Vec<Row> {
+    let (design, seen) = (&run.file.design, simulated.first());
+    [flow_rows(design, seen), force_rows(design, seen), coefficient_rows(run, seen), loss_rows(seen), wall_rows(seen)]
+        .concat()
 }
 
-fn per_width(force: f64, run: &Run) -> String {
-    format!("{} of width", with_unit(force / run.file.design.channel.width, "N/m"))
+fn per_width(force: f64, design: &Design) -> String {
+    format!("{} of width", with_unit(force / design.channel.width, "N/m"))
 }
 
-fn flow_rows(run: &Run) -> Vec<Row> {
-    let (design, seen) = (&run.file.design, &run.observed);
+fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     let weight = design.flow.mass * GRAVITY;
     let downhill = with_unit(weight * design.channel.slope.sin(), "N");
     let incoming =
@@ -41,47 +46,83 @@ fn flow_rows(run: &Run) -> Vec<Row> {
     ]
 }
 
-fn force_rows(run: &Run) -> Vec<Row> {
-    let seen = &run.observed;
+fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     let mut rows = vec![
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
-            format!("at {:.2} s; {}", seen.force_peak_time, per_width(seen.force_peak, run)),
+            format!("at {:.2} s; {}", seen.force_peak_time, per_width(seen.force_peak, design)),
         ),
-        row("Total force at rest", with_unit(seen.force_residual, "N"), per_width(seen.force_residual, run)),
+        row("Total force at rest", with_unit(seen.force_residual, "N"), per_width(seen.force_residual, design)),
     ];
     if seen.bed_force_peak > 0.0 {
-        let remark = format!("{}; not held against a resistance", per_width(seen.bed_force_peak, run));
+        let remark = format!("{}; not held against a resistance", per_width(seen.bed_force_peak, design));
         rows.push(row("Load on the bolts of the lowest rope, largest", with_unit(seen.bed_force_peak, "N"), remark));
     }
     rows
 }
 
-fn coefficient_rows(run: &Run) -> Vec<Row> {
+fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
     let input = &run.guideline.input;
-    let k = run.observed.k_effective.map(|k| {
+    let told = &seen.coefficients;
+    let of = |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.2}"));
+    let k = seen.k_effective.map(|k| {
         let remark = format!("from the force at rest along the channel; the design takes {}", input.earth_pressure);
-        row("K that the simulation shows", format!("{k:.2}"), remark)
+        row("K at rest", format!("{k:.2}"), remark)
     });
-    let lambda = run.observed.lambda_effective.map(|lambda| {
+    let lambda = seen.lambda_effective.map(|lambda| {
         let remark = format!(
-            "from the largest force along the channel less the static part with the design's K; the design takes {}",
+            "from the largest force along the channel less the static part with the design's K, over ρ v² h of the incoming flow; the design takes {}",
             input.dynamic_pressure
         );
-        row("λ that the simulation shows", format!("{lambda:.2}"), remark)
+        row("λ from the largest force", format!("{lambda:.2}"), remark)
     });
-    k.into_iter().chain(lambda).collect()
+    let at_peak = row(
+        "K by the split, when F₁ is largest",
+        of(Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead)),
+        "F₁ over ρ g' H_d (H_d/2 + h) of the depths seen then",
+    );
+    let moving = row(
+        "λ by the split, when F₂ is largest",
+        format!(
+            "{} / {}",
+            of(Coefficients::at_peak_of(&told.dynamic_upstream, &told.force_moving)),
+            of(Coefficients::at_peak_of(&told.dynamic_mean, &told.force_moving))
+        ),
+        "(F₂ − ½ ρ g' h²)/(ρ v² h), with the velocity just upstream / with the mean velocity of all grains",
+    );
+    k.into_iter().chain(lambda).chain([at_peak, moving, side_row(told)]).collect()
 }
 
-fn loss_rows(run: &Run) -> Vec<Row> {
-    let [through, under, beside, over] = run.observed.lost.map(|share| with_unit(share, "-"));
+/// On which side the guideline errs.
+fn side_row(told: &Coefficients) -> Row {
+    let highest = |series: &[f64]| series.iter().copied().fold(0.0, f64::max);
+    let side = |simulated: f64, guideline: f64| {
+        let ratio = guideline / simulated;
+        if !ratio.is_finite() {
+            "cannot be told".to_string()
+        } else if ratio < 1.0 {
+            format!("too little by {:.0} %", 100.0 * (1.0 - ratio))
+        } else {
+            format!("too much by {:.0} %", 100.0 * (ratio - 1.0))
+        }
+    };
+    let dead = side(highest(&told.force_dead), highest(&told.guideline_dead));
+    let moving = side(highest(&told.force_moving), highest(&told.guideline_moving));
+    row(
+        "The guideline against this simulation",
+        format!("F₁ {dead}; F₂ {moving}"),
+        "largest values, from the same depths and the mean velocity, with the design's K and λ",
+    )
+}
+
+fn loss_rows(seen: &Observed) -> Vec<Row> {
+    let [through, under, beside, over] = seen.lost.map(|share| with_unit(share, "-"));
     let ways = format!("through {through}, under {under}, beside {beside}, over {over}");
-    vec![row("Mass lost", with_unit(1.0 - run.observed.retained, "-"), ways)]
+    vec![row("Mass lost", with_unit(1.0 - seen.retained, "-"), ways)]
 }
 
-fn wall_rows(run: &Run) -> Vec<Row> {
-    let seen = &run.observed;
+fn wall_rows(seen: &Observed) -> Vec<Row> {
     if seen.segment_peak.is_empty() {
         return Vec::new();
     }
@@ -94,7 +135,7 @@ fn wall_rows(run: &Run) -> Vec<Row> {
 }
 
 /// How the numbers were obtained, and the limits of credibility.
-pub fn numerics_rows(run: &Run) -> Vec<Row> {
+pub fn numerics_rows(run: &Simulated) -> Vec<Row> {
     let (facts, numerics) = (&run.facts, &run.numerics);
     let ending = if facts.steady { "force and masses no longer changed" } else { "stopped before it was steady" };
     vec![
@@ -137,7 +178,7 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
             format!("{:.0} %", 100.0 * facts.packed_share),
             "of the bulk density asked for at the start; less where the grains are large against the block",
         ),
-        row("Seed", run.file.design.simulation.seed.to_string(), "of the packing; one run, so no scatter is known"),
+        seed_row(run),
         row(
             "Smoothing",
             format!("{:.0} ms", 1e3 * facts.smoothing),
@@ -149,4 +190,60 @@ pub fn numerics_rows(run: &Run) -> Vec<Row> {
             format!("{} steps on {} threads, {} neighbour lists", facts.steps, facts.threads, facts.renewals),
         ),
     ]
+}
+
+fn seed_row(run: &Simulated) -> Row {
+    let seeds: Vec<String> = run.starts.iter().map(|start| start.seed.to_string()).collect();
+    let remark = match run.starts.len() {
+        1 => "of the packing; one run, so no scatter is known: ask for more with --seeds".to_string(),
+        starts => {
+            format!("of the packings; demands are mean + {:.2} standard deviations (EN 1990, annex D)", k_n(starts))
+        }
+    };
+    row(if seeds.len() > 1 { "Seeds" } else { "Seed" }, seeds.join(", "), remark)
+}
+
+/// An observable that is compared over starts.
+pub struct Observable {
+    pub id: String,
+    pub title: String,
+    pub unit: &'static str,
+}
+
+/// Main observables with their mean and scatter.
+pub fn over_starts(run: &Simulated) -> Vec<(Observable, Spread)> {
+    let mut list = Vec::new();
+    let mut add = |id: String, title: String, unit, quantity: &dyn Fn(&Observed) -> f64| {
+        list.push((Observable { id, title, unit }, run.spread(quantity)));
+    };
+    add("force_total_peak".into(), "Largest total force".into(), "N", &|seen| seen.force_peak);
+    add("force_total_residual".into(), "Total force at rest".into(), "N", &|seen| seen.force_residual);
+    add("velocity_mean_peak".into(), "Highest mean velocity".into(), "m/s", &|seen| seen.velocity_peak);
+    add("retained".into(), "Mass held".into(), "-", &|seen| seen.retained);
+    let first = run.first();
+    if !first.segment_peak.is_empty() {
+        add("moment_peak".into(), "Moment about the toe, largest".into(), "N m/m", &|seen| seen.moment_peak);
+    }
+    for rope in 0..first.anchor_force_peak.len() {
+        if first.anchor_force_peak[rope] > 0.0 {
+            let name = format!("Load of the anchors of main rope {}", rope + 1);
+            add(format!("anchor_{}", rope + 1), name, "N", &|seen| seen.anchor_force_peak[rope]);
+        }
+        if first.brake_stroke.get(rope).is_some_and(|stroke| *stroke > 0.0) {
+            let name = format!("Stroke of the dissipators of main rope {}", rope + 1);
+            add(format!("brake_stroke_{}", rope + 1), name, "m", &|seen| seen.brake_stroke[rope]);
+        }
+    }
+    if first.net_tension_peak > 0.0 {
+        add("net_tension".into(), "Tension of the net's ropes".into(), "N", &|seen| seen.net_tension_peak);
+    }
+    let mut coefficient = |id: &str, title: &str, read: fn(&Observed) -> Option<f64>| {
+        let values: Vec<f64> = run.starts.iter().filter_map(|start| read(&start.observed)).collect();
+        if values.len() == run.starts.len() {
+            list.push((Observable { id: id.into(), title: title.into(), unit: "" }, Spread::of(&values)));
+        }
+    };
+    coefficient("k_effective", "K at rest", |seen| seen.k_effective);
+    coefficient("lambda_effective", "λ from the largest force", |seen| seen.lambda_effective);
+    list
 }

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::from_loads::Guideline;
-use crate::pipeline::Run;
+use crate::pipeline::{Run, Simulated};
+use crate::report::findings::over_starts;
 
 /// Version of this contract.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -20,8 +21,11 @@ pub struct ResultFile {
     pub doubts: Vec<String>,
     pub checks: Vec<CheckPart>,
     pub guideline: GuidelinePart,
-    pub simulation: SimulationPart,
-    pub numerics: NumericsPart,
+    /// What the first start showed; absent where the equations alone were asked for.
+    pub simulation: Option<SimulationPart>,
+    pub numerics: Option<NumericsPart>,
+    /// Observables over all starts.
+    pub starts: Vec<SpreadPart>,
     /// Version of the program.
     pub program_version: String,
 }
@@ -112,6 +116,17 @@ pub struct SimulationPart {
     pub lambda_effective: Option<f64>,
 }
 
+/// An observable over the starts, in the SI unit named by `unit`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SpreadPart {
+    pub id: String,
+    pub unit: String,
+    pub starts: usize,
+    pub mean: f64,
+    /// Standard deviation; 0 for a single start.
+    pub deviation: f64,
+}
+
 /// Shares of the mass.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct LostPart {
@@ -157,8 +172,9 @@ impl ResultFile {
             doubts: run.doubts.clone(),
             checks: run.outcomes.iter().map(check_part).collect(),
             guideline: guideline_part(&run.guideline),
-            simulation: simulation_part(run),
-            numerics: numerics_part(run),
+            simulation: run.simulated.as_ref().map(simulation_part),
+            numerics: run.simulated.as_ref().map(numerics_part),
+            starts: run.simulated.as_ref().map_or_else(Vec::new, spread_parts),
             program_version: env!("CARGO_PKG_VERSION").to_string(),
         }
     }
@@ -181,9 +197,9 @@ fn check_part(outcome: &Outcome) -> CheckPart {
 fn guideline_part(guideline: &Guideline) -> GuidelinePart {
     let cases = guideline.cases.iter().map(|case| CasePart {
         id: case.id.to_string(),
-        pressure_static_pa: case.pressure_static,
-        pressure_dynamic_pa: case.pressure_dynamic,
-        force_n_per_m: case.force_per_width,
+        pressure_static_pa: case.pressure_static(),
+        pressure_dynamic_pa: case.diagram.block,
+        force_n_per_m: case.force_per_width(),
     });
     GuidelinePart {
         k: guideline.input.earth_pressure,
@@ -195,8 +211,8 @@ fn guideline_part(guideline: &Guideline) -> GuidelinePart {
     }
 }
 
-fn simulation_part(run: &Run) -> SimulationPart {
-    let (seen, facts) = (&run.observed, &run.facts);
+fn simulation_part(run: &Simulated) -> SimulationPart {
+    let (seen, facts) = (run.first(), &run.facts);
     let [through, under, beside, over] = seen.lost;
     let wall = (!seen.segment_peak.is_empty()).then(|| WallPart {
         segment_force_peak_n_per_m: seen.segment_peak.clone(),
@@ -205,7 +221,7 @@ fn simulation_part(run: &Run) -> SimulationPart {
     });
     SimulationPart {
         fidelity: run.fidelity.name.to_string(),
-        seed: run.file.design.simulation.seed,
+        seed: run.starts[0].seed,
         grains: facts.grains,
         spheres: facts.spheres,
         barrier_nodes: facts.barrier_nodes,
@@ -242,7 +258,20 @@ fn simulation_part(run: &Run) -> SimulationPart {
     }
 }
 
-fn numerics_part(run: &Run) -> NumericsPart {
+fn spread_parts(run: &Simulated) -> Vec<SpreadPart> {
+    over_starts(run)
+        .into_iter()
+        .map(|(observable, spread)| SpreadPart {
+            id: observable.id,
+            unit: observable.unit.to_string(),
+            starts: spread.starts,
+            mean: spread.mean,
+            deviation: spread.deviation,
+        })
+        .collect()
+}
+
+fn numerics_part(run: &Simulated) -> NumericsPart {
     let facts = &run.facts;
     NumericsPart {
         steps: facts.steps,

@@ -3,6 +3,7 @@
 pub mod csv;
 pub mod findings;
 pub mod json;
+pub mod loads;
 pub mod plots;
 pub mod render;
 pub mod validation;

@@ -5,7 +5,8 @@ use serde::Serialize;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
 use crate::design::{BarrierDesign, BarrierModel, Design};
-use crate::pipeline::{Run, Verdict};
+use crate::pipeline::{Run, Simulated, Verdict};
+use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::sources::VOLKWEIN_2014;
 
@@ -17,8 +18,16 @@ pub struct View {
     pub verdict_line: String,
     pub doubts: Vec<String>,
     pub checks: Vec<CheckRow>,
+    pub simulated: bool,
     pub guideline: Vec<Row>,
     pub cases: Vec<CaseRow>,
+    pub ropes: Vec<RopeRow>,
+    pub ladder: Vec<LadderRow>,
+    pub holding: Vec<Row>,
+    pub rules: Vec<RuleRow>,
+    pub tornado: Vec<SwingRow>,
+    pub margin: String,
+    pub starts: Vec<Row>,
     pub findings: Vec<Row>,
     pub charts: Vec<Chart>,
     pub inputs: Vec<InputRow>,
@@ -43,20 +52,11 @@ pub struct CheckRow {
     pub guideline: String,
     pub simulation: String,
     pub capacity: String,
+    /// The capacity with its numbers.
+    pub working: String,
     pub utilisation: String,
     pub verdict: &'static str,
     pub source: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-pub struct CaseRow {
-    pub title: &'static str,
-    pub deposit: String,
-    pub moving: String,
-    pub pressure_static: String,
-    pub pressure_dynamic: String,
-    pub force_per_width: String,
-    pub total: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -133,13 +133,21 @@ impl View {
             doubts: run.doubts.clone(),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
             guideline: guideline_rows(run),
-            cases: case_rows(run),
-            findings: super::findings::rows(run),
-            charts: charts(run),
+            simulated: run.simulated.is_some(),
+            cases: loads::cases(run),
+            ropes: loads::ropes(run),
+            ladder: loads::ladder(run),
+            holding: loads::holding(run),
+            rules: loads::rules(run),
+            tornado: loads::tornado(run),
+            margin: loads::margin(run),
+            starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
+            findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
+            charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| charts(run, seen)),
             inputs: input_rows(run),
             assumptions: ASSUMPTIONS.iter().copied().chain(of_ropes(&run.file.design)).collect(),
             not_checked: NOT_CHECKED.to_vec(),
-            numerics: super::findings::numerics_rows(run),
+            numerics: run.simulated.as_ref().map_or_else(Vec::new, super::findings::numerics_rows),
             version: env!("CARGO_PKG_VERSION"),
             sha256: run.file.sha256.clone(),
         }
@@ -171,13 +179,16 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
         Verdict::Undecided => {
             let alone = held.iter().filter(by_guideline).count();
             let hint = if alone > 0 { format!(" By the guideline alone {alone} checks fail.") } else { String::new() };
-            format!("The simulation cannot be relied on; see the reasons below.{hint}")
+            let what =
+                if run.simulated.is_some() { "The simulation cannot be relied on" } else { "Nothing is decided" };
+            format!("{what}; see the reasons below.{hint}")
         }
         Verdict::Fail => format!("{failed} of {} checks fail.{governing}", held.len()),
         Verdict::Pass => {
+            let alone = if run.simulated.is_some() { "" } else { " by the equations alone; nothing was simulated" };
             let close = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Warn).count();
             let close = if close > 0 { format!(", {close} with less than 10 % to spare") } else { String::new() };
-            format!("{0} of {0} checks hold{close}.{governing}", held.len())
+            format!("{0} of {0} checks hold{close}{alone}.{governing}", held.len())
         }
     }
 }
@@ -189,13 +200,30 @@ fn check_row(outcome: &Outcome) -> CheckRow {
         guideline: show(outcome.demand.guideline),
         simulation: show(outcome.demand.simulation),
         capacity: show(outcome.capacity),
+        working: working(outcome),
         utilisation: percent(outcome.utilisation),
         verdict: outcome.verdict.word(),
         source: outcome.source,
     }
 }
 
-fn percent(share: Option<f64>) -> String {
+/// Characteristic resistance over its factor, times the share that may be used.
+fn working(outcome: &Outcome) -> String {
+    let Some((resistance, share)) = outcome.resistance else { return String::new() };
+    if resistance.factor == 1.0 && share == 1.0 {
+        return String::new();
+    }
+    let mut text = with_unit(resistance.characteristic, outcome.unit);
+    if resistance.factor != 1.0 {
+        text += &format!(" / {}", figures(resistance.factor));
+    }
+    if share != 1.0 {
+        text += &format!(" × {:.0} %", 100.0 * share);
+    }
+    text
+}
+
+pub fn percent(share: Option<f64>) -> String {
     match share {
         None => "–".to_string(),
         Some(share) if share > 10.0 => "> 1000 %".to_string(),
@@ -216,13 +244,14 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "N m/m" => format!("{} kN m/m", figures(value / 1e3)),
         "kg" if value.abs() < 2000.0 => format!("{} kg", figures(value)),
         "kg" => format!("{} t", figures(value / 1e3)),
+        "" => figures(value),
         "-" => format!("{:.1} %", 100.0 * value),
         unit => format!("{} {unit}", figures(value)),
     }
 }
 
 /// Three significant figures, whole numbers from 100 on.
-fn figures(value: f64) -> String {
+pub fn figures(value: f64) -> String {
     match value.abs() {
         size if size >= 100.0 => format!("{value:.0}"),
         size if size >= 10.0 => format!("{value:.1}"),
@@ -245,18 +274,20 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
     ]
 }
 
-fn case_rows(run: &Run) -> Vec<CaseRow> {
-    let width = run.file.design.channel.width;
-    let row = |case: &crate::loads::volkwein::LoadCase| CaseRow {
-        title: case.title,
-        deposit: with_unit(case.deposit, "m"),
-        moving: with_unit(case.moving, "m"),
-        pressure_static: with_unit(case.pressure_static, "Pa"),
-        pressure_dynamic: with_unit(case.pressure_dynamic, "Pa"),
-        force_per_width: with_unit(case.force_per_width, "N/m"),
-        total: with_unit(case.force_per_width * width, "N"),
+fn start_rows(run: &Simulated) -> Vec<Row> {
+    if run.starts.len() < 2 {
+        return Vec::new();
+    }
+    let row = |(observable, spread): (super::findings::Observable, crate::starts::Spread)| Row {
+        name: observable.title,
+        value: format!(
+            "{} ± {}",
+            with_unit(spread.mean, observable.unit),
+            with_unit(spread.deviation, observable.unit)
+        ),
+        remark: format!("mean ± standard deviation of {} starts", spread.starts),
     };
-    run.guideline.cases.iter().map(row).collect()
+    super::findings::over_starts(run).into_iter().map(row).collect()
 }
 
 fn input_rows(run: &Run) -> Vec<InputRow> {
@@ -273,25 +304,81 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
     entries.order.iter().map(row).collect()
 }
 
-fn charts(run: &Run) -> Vec<Chart> {
-    let mut charts = vec![force_chart(run), mass_chart(run)];
-    if run.histories.strokes.iter().flatten().any(|stroke| *stroke > 0.0) {
-        charts.push(stroke_chart(run));
+fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
+    let mut charts = vec![force_chart(run, seen), mass_chart(run, seen)];
+    if seen.histories.strokes.iter().flatten().any(|stroke| *stroke > 0.0) {
+        charts.push(stroke_chart(run, seen));
     }
-    if !run.histories.rope_mean.is_empty() {
-        charts.push(rope_chart(run));
+    if !seen.histories.rope_mean.is_empty() {
+        charts.push(rope_chart(seen));
     }
-    charts.push(velocity_chart(run));
+    charts.push(velocity_chart(seen));
+    charts.push(split_chart(seen));
+    charts.push(coefficient_chart(run, seen));
     charts
 }
 
-fn force_chart(run: &Run) -> Chart {
-    let histories = &run.histories;
+fn split_chart(seen: &Simulated) -> Chart {
+    let told = &seen.first().coefficients;
+    let largest = [&told.force_dead, &told.force_moving, &told.guideline_dead, &told.guideline_moving];
+    let largest = largest.iter().flat_map(|series| series.iter()).copied().fold(0.0, f64::max);
+    let (unit, factor) = if largest < 2000.0 { ("N/m", 1.0) } else { ("kN/m", 1e-3) };
+    let series = |label: &str, values, colour| Series { label: label.into(), values, colour };
+    let chart = LineChart {
+        title: "force per width",
+        unit,
+        factor,
+        time: &seen.histories.time,
+        series: vec![
+            series("F₁ at rest", &told.force_dead, 0),
+            series("F₂ moving", &told.force_moving, 1),
+            series("F₁ guideline", &told.guideline_dead, 2),
+            series("F₂ guideline", &told.guideline_moving, 3),
+        ],
+        levels: Vec::new(),
+    };
+    let note = "By grains at rest and by moving grains that touch the barrier; the guideline with the design's K and λ, the depths seen, and the mean velocity of all grains.";
+    Chart { title: "Deposit and moving flow", svg: chart.svg(), note: note.into() }
+}
+
+/// K and λ beyond this are cut off in the chart.
+const HIGHEST_COEFFICIENT: f64 = 10.0;
+
+fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
+    let told = &seen.first().coefficients;
+    let shown = |series: &[f64]| -> Vec<f64> {
+        let known = |value: &f64| if value.is_finite() { value.clamp(0.0, HIGHEST_COEFFICIENT) } else { 0.0 };
+        series.iter().map(known).collect()
+    };
+    let (k, upstream) = (shown(&told.earth_pressure), shown(&told.dynamic_upstream));
+    let factors = &run.file.design.factors;
+    let chart = LineChart {
+        title: "coefficient",
+        unit: "–",
+        factor: 1.0,
+        time: &seen.histories.time,
+        series: vec![
+            Series { label: "K".into(), values: &k, colour: 0 },
+            Series { label: "λ".into(), values: &upstream, colour: 1 },
+        ],
+        levels: vec![
+            Level { label: "K design".into(), value: factors.earth_pressure },
+            Level { label: "λ design".into(), value: factors.dynamic_pressure },
+        ],
+    };
+    let note = format!(
+        "λ with the velocity just upstream; zero where the depth is less than a grain or the flow has all but stopped; cut at {HIGHEST_COEFFICIENT:.0}."
+    );
+    Chart { title: "K and λ over time", svg: chart.svg(), note }
+}
+
+fn force_chart(run: &Run, seen: &Simulated) -> Chart {
+    let histories = &seen.histories;
     let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
     let force = crate::dem::recorders::histories::smoothed(&force, crate::scene::build::SAMPLES_PER_WINDOW as usize);
     let width = run.file.design.channel.width;
     let levels = run.guideline.cases.iter();
-    let (unit, factor) = if run.observed.force_peak < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
+    let (unit, factor) = if seen.first().force_peak < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
     let chart = LineChart {
         title: "total force",
         unit,
@@ -299,15 +386,15 @@ fn force_chart(run: &Run) -> Chart {
         time: &histories.time,
         series: vec![Series { label: "simulation".into(), values: &force, colour: 0 }],
         levels: levels
-            .map(|case| Level { label: case.id.replace('_', " "), value: case.force_per_width * width })
+            .map(|case| Level { label: case.id.replace('_', " "), value: case.force_per_width() * width })
             .collect(),
     };
-    let note = format!("Mean over {:.0} ms. Dashed: guideline.", 1e3 * run.facts.smoothing);
+    let note = format!("Mean over {:.0} ms. Dashed: guideline.", 1e3 * seen.facts.smoothing);
     Chart { title: "Force on the barrier", svg: chart.svg(), note }
 }
 
-fn mass_chart(run: &Run) -> Chart {
-    let histories = &run.histories;
+fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
+    let histories = &seen.histories;
     let retained: Vec<f64> = histories.lost.iter().map(|lost| 1.0 - lost.iter().sum::<f64>()).collect();
     let chart = LineChart {
         title: "share of the mass",
@@ -327,7 +414,7 @@ fn mass_chart(run: &Run) -> Chart {
     }
 }
 
-fn stroke_chart(run: &Run) -> Chart {
+fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
     let limit = match &run.file.design.barrier {
         crate::design::BarrierDesign::FlexibleNet(net) => net.dissipators.map(|dissipator| dissipator.stroke),
         crate::design::BarrierDesign::RigidWall(_) => None,
@@ -336,32 +423,32 @@ fn stroke_chart(run: &Run) -> Chart {
         title: "stroke used",
         unit: "m",
         factor: 1.0,
-        time: &run.histories.time,
-        series: rope_series(&run.histories.strokes),
+        time: &seen.histories.time,
+        series: rope_series(&seen.histories.strokes),
         levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
     };
     Chart { title: "Dissipators", svg: chart.svg(), note: "The longer of the two strokes of each main rope.".into() }
 }
 
-fn rope_chart(run: &Run) -> Chart {
+fn rope_chart(seen: &Simulated) -> Chart {
     let chart = LineChart {
         title: "mean tension",
         unit: "kN",
         factor: 1e-3,
-        time: &run.histories.time,
-        series: rope_series(&run.histories.rope_mean),
+        time: &seen.histories.time,
+        series: rope_series(&seen.histories.rope_mean),
         levels: Vec::new(),
     };
     Chart { title: "Main ropes", svg: chart.svg(), note: "Mean along each rope, numbered from the bottom.".into() }
 }
 
-fn velocity_chart(run: &Run) -> Chart {
-    let velocity: Vec<f64> = run.histories.velocity.iter().map(|velocity| velocity[0]).collect();
+fn velocity_chart(seen: &Simulated) -> Chart {
+    let velocity: Vec<f64> = seen.histories.velocity.iter().map(|velocity| velocity[0]).collect();
     let chart = LineChart {
         title: "mean velocity",
         unit: "m/s",
         factor: 1.0,
-        time: &run.histories.time,
+        time: &seen.histories.time,
         series: vec![Series { label: "along the channel".into(), values: &velocity, colour: 0 }],
         levels: Vec::new(),
     };

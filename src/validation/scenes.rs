@@ -110,25 +110,7 @@ pub fn cloud(count: usize, seed: u64) -> Vec<Grain> {
         .collect()
 }
 
-/// Runs jobs side by side on all cores, each in a pool of one thread of its own; results in the order of the jobs.
+/// Runs jobs side by side on all cores, each on one thread; results in the order of the jobs.
 pub fn side_by_side<T: Send>(count: usize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(count.max(1));
-    let next = std::sync::atomic::AtomicUsize::new(0);
-    let work = || {
-        let mut done = Vec::new();
-        let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else { return done };
-        loop {
-            let index = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            if index >= count {
-                return done;
-            }
-            done.push((index, pool.install(|| job(index))));
-        }
-    };
-    let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
-    });
-    results.sort_by_key(|(index, _)| *index);
-    results.into_iter().map(|(_, result)| result).collect()
+    crate::starts::side_by_side(std::thread::available_parallelism().map_or(1, usize::from), count, job)
 }

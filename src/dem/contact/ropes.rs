@@ -38,6 +38,8 @@ pub struct RopeContacts {
 /// Force of one grain on one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
+    /// Row of the grain.
+    pub row: u32,
     pub nodes: [u32; 2],
     /// Share of the force that the second node takes.
     pub share: f64,
@@ -85,7 +87,7 @@ impl RopeContacts {
             let row = index as usize / per_grain - range.start;
             loads[row].add(&force, &(contact.foot - member.centre + member.arm));
             let nodes = barrier.lines[line as usize].nodes;
-            pushes.push(Push { nodes, share: contact.share, force: -force });
+            pushes.push(Push { row: index / per_grain as u32, nodes, share: contact.share, force: -force });
             sums.count(&response, contact.point.overlap / member.radius);
             *crossings += u32::from(contact.crossed);
         }

@@ -14,11 +14,10 @@ use crate::dem::simulation::Simulation;
 use crate::dem::tables::grains::Grain;
 use crate::dem::tables::surfaces::SurfaceRole;
 
-/// F_g of the grains that `is_dead` names (N); `grains` are those of the simulation in the order of its rows.
-pub fn push_at_rest(simulation: &Simulation, grains: &[Grain], is_dead: impl Fn(&Grain) -> bool) -> f64 {
+/// F_g of the grains that are `dead` (N); `grains` are those of the simulation in the order of its rows.
+pub fn push_at_rest(simulation: &Simulation, grains: &[Grain], dead: &[bool]) -> f64 {
     let gravity = simulation.model.gravity;
-    let dead: Vec<bool> = grains.iter().map(is_dead).collect();
-    let mass: f64 = grains.iter().zip(&dead).filter(|(_, dead)| **dead).map(|(grain, _)| grain.body.mass).sum();
+    let mass: f64 = grains.iter().zip(dead).filter(|(_, dead)| **dead).map(|(grain, _)| grain.body.mass).sum();
     let (mut base, mut wall) = (Vec3::zeros(), Vec3::zeros());
     for contact in simulation.surface_contacts() {
         if !dead[contact.row] {
@@ -39,4 +38,17 @@ pub fn push_at_rest(simulation: &Simulation, grains: &[Grain], is_dead: impl Fn(
         return 0.0;
     }
     weight * (slope - base_angle).sin() * wall_angle.cos() / (base_angle + wall_angle).cos()
+}
+
+/// Forces along the channel with which grains at rest and moving grains touch the barrier at this instant (N).
+pub fn pushes_by_state(simulation: &Simulation, dead: &[bool]) -> [f64; 2] {
+    let walls = simulation.surface_contacts().filter(|contact| contact.role == SurfaceRole::Wall);
+    let on_wall = walls.map(|contact| (contact.row, -contact.force.x));
+    let ropes = simulation.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
+    let on_net = ropes.map(|push| (push.row as usize, push.force.x));
+    let mut sums = [0.0; 2];
+    for (row, force) in on_wall.chain(on_net) {
+        sums[usize::from(!dead[row])] += force;
+    }
+    sums
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::dem::Vec3;
 use crate::dem::net::NetForces;
-use crate::dem::recorders::dead_zone::push_at_rest;
+use crate::dem::recorders::dead_zone::{push_at_rest, pushes_by_state};
 use crate::dem::recorders::histories::{Gauge, Histories};
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
 use crate::dem::simulation::{Simulation, Unstable};
@@ -160,13 +160,17 @@ impl Recorder {
             self.next_passage = simulation.time + self.setup.passage_interval;
         }
         self.sample_grains(&grains);
+        let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
+        let dead: Vec<bool> =
+            grains.iter().map(|grain| self.impact && grain.velocity.norm_squared() <= limit).collect();
         if self.setup.wall.is_some() {
-            let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
-            let dead = |grain: &Grain| self.impact && grain.velocity.norm_squared() <= limit;
-            self.histories.push_at_rest.push(push_at_rest(simulation, &grains, dead));
+            self.histories.push_at_rest.push(push_at_rest(simulation, &grains, &dead));
         }
+        self.histories.pushes_by_state.push(pushes_by_state(simulation, &dead));
+        let at_rest = grains.iter().zip(&dead).filter(|(_, dead)| **dead).map(|(grain, _)| grain);
+        self.histories.dead_depth.push(self.setup.deposit.depth(at_rest));
         self.histories.incoming.push(self.setup.incoming.read(&grains));
-        self.histories.barrier_depth.push(self.setup.deposit.depth(&grains));
+        self.histories.barrier_depth.push(self.setup.deposit.depth(grains.iter()));
     }
 
     fn sample_shape(&mut self, barrier: &Barrier) {
@@ -231,7 +235,7 @@ const DEPOSIT_WINDOWS: usize = 12;
 impl GaugeWindow {
     /// Largest depth that the mass has at bulk density, over windows along the stretch: a leaning or bulging barrier takes
     /// part of each window's room, so the window with most mass is the one that tells.
-    fn depth(&self, grains: &[Grain]) -> f64 {
+    fn depth<'a>(&self, grains: impl Iterator<Item = &'a Grain>) -> f64 {
         let cell = (self.far - self.near) / (DEPOSIT_WINDOWS + 1) as f64;
         let mut cells = [0.0; DEPOSIT_WINDOWS + 1];
         for grain in grains {

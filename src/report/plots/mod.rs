@@ -1,3 +1,4 @@
 //! Charts as plain SVG, so that the report opens offline and prints sharply.
 
 pub mod line_chart;
+pub mod pressure;

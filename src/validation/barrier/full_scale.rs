@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::design::BarrierModel;
 use crate::design::read::read_design;
-use crate::pipeline::{Run, run};
+use crate::pipeline::{Simulated, run};
 use crate::scene::event::Watch;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 
@@ -36,39 +36,39 @@ struct Published {
     value: f64,
     /// Share of the value; nothing where it is told only.
     share: Option<f64>,
-    read: fn(&Run) -> f64,
+    read: fn(&Simulated) -> f64,
 }
 
-const fn published(what: &'static str, value: f64, share: Option<f64>, read: fn(&Run) -> f64) -> Published {
+const fn published(what: &'static str, value: f64, share: Option<f64>, read: fn(&Simulated) -> f64) -> Published {
     Published { what, value, share, read }
 }
 
 const FB_ED: [Published; 12] = [
-    published("highest mean velocity (m/s)", 8.85, Some(0.05), |run| run.observed.velocity_peak),
-    published("largest force (kN)", 2990.0, Some(0.15), |run| run.observed.force_peak * 1e-3),
-    published("force at rest (kN)", 2040.0, Some(0.15), |run| run.observed.force_residual * 1e-3),
-    published("largest mean tension of rope 3 (kN)", 240.0, Some(0.15), |run| run.observed.rope_mean_peak[2] * 1e-3),
-    published("largest mean tension of rope 4 (kN)", 235.0, Some(0.15), |run| run.observed.rope_mean_peak[3] * 1e-3),
-    published("largest mean tension of rope 5 (kN)", 170.0, None, |run| run.observed.rope_mean_peak[4] * 1e-3),
-    published("stroke of rope 3 (m)", 1.25, None, |run| run.observed.brake_stroke[2]),
-    published("stroke of rope 4 (m)", 1.95, None, |run| run.observed.brake_stroke[3]),
-    published("stroke of rope 5 (m)", 2.0, None, |run| run.observed.brake_stroke[4]),
+    published("highest mean velocity (m/s)", 8.85, Some(0.05), |run| run.first().velocity_peak),
+    published("largest force (kN)", 2990.0, Some(0.15), |run| run.first().force_peak * 1e-3),
+    published("force at rest (kN)", 2040.0, Some(0.15), |run| run.first().force_residual * 1e-3),
+    published("largest mean tension of rope 3 (kN)", 240.0, Some(0.15), |run| run.first().rope_mean_peak[2] * 1e-3),
+    published("largest mean tension of rope 4 (kN)", 235.0, Some(0.15), |run| run.first().rope_mean_peak[3] * 1e-3),
+    published("largest mean tension of rope 5 (kN)", 170.0, None, |run| run.first().rope_mean_peak[4] * 1e-3),
+    published("mean stroke of rope 3 (m)", 1.25, None, |run| run.first().brake_stroke_mean[2]),
+    published("mean stroke of rope 4 (m)", 1.95, None, |run| run.first().brake_stroke_mean[3]),
+    published("mean stroke of rope 5 (m)", 2.0, None, |run| run.first().brake_stroke_mean[4]),
     published("largest anchor load (kN)", 250.0, Some(0.01), |run| {
-        run.observed.anchor_force_peak.iter().copied().fold(0.0, f64::max) * 1e-3
+        run.first().anchor_force_peak.iter().copied().fold(0.0, f64::max) * 1e-3
     }),
-    published("mass held (%)", 95.0, Some(0.05), |run| 100.0 * run.observed.retained),
-    published("largest tension of the net (kN)", 69.0, None, |run| run.observed.net_tension_peak * 1e-3),
+    published("mass held (%)", 95.0, Some(0.05), |run| 100.0 * run.first().retained),
+    published("largest tension of the net (kN)", 69.0, None, |run| run.first().net_tension_peak * 1e-3),
 ];
 
 const FB_NO: [Published; 8] = [
-    published("highest mean velocity (m/s)", 8.85, Some(0.05), |run| run.observed.velocity_peak),
-    published("largest force (kN)", 3450.0, Some(0.15), |run| run.observed.force_peak * 1e-3),
-    published("force at rest (kN)", 2600.0, Some(0.15), |run| run.observed.force_residual * 1e-3),
-    published("largest mean tension of rope 3 (kN)", 305.0, Some(0.15), |run| run.observed.rope_mean_peak[2] * 1e-3),
-    published("largest mean tension of rope 4 (kN)", 305.0, Some(0.15), |run| run.observed.rope_mean_peak[3] * 1e-3),
-    published("largest mean tension of rope 5 (kN)", 235.0, Some(0.15), |run| run.observed.rope_mean_peak[4] * 1e-3),
-    published("mass held (%)", 100.0, Some(0.05), |run| 100.0 * run.observed.retained),
-    published("largest tension of the net (kN)", 174.0, None, |run| run.observed.net_tension_peak * 1e-3),
+    published("highest mean velocity (m/s)", 8.85, Some(0.05), |run| run.first().velocity_peak),
+    published("largest force (kN)", 3450.0, Some(0.15), |run| run.first().force_peak * 1e-3),
+    published("force at rest (kN)", 2600.0, Some(0.15), |run| run.first().force_residual * 1e-3),
+    published("largest mean tension of rope 3 (kN)", 305.0, Some(0.15), |run| run.first().rope_mean_peak[2] * 1e-3),
+    published("largest mean tension of rope 4 (kN)", 305.0, Some(0.15), |run| run.first().rope_mean_peak[3] * 1e-3),
+    published("largest mean tension of rope 5 (kN)", 235.0, Some(0.15), |run| run.first().rope_mean_peak[4] * 1e-3),
+    published("mass held (%)", 100.0, Some(0.05), |run| 100.0 * run.first().retained),
+    published("largest tension of the net (kN)", 174.0, None, |run| run.first().net_tension_peak * 1e-3),
 ];
 
 /// Energy imbalance allowed, over the energy put in.
@@ -99,12 +99,13 @@ fn compare(text: &str, published: &[Published]) -> Result<Vec<Finding>, Broken> 
     Ok(findings)
 }
 
-fn run_with(text: &str, model: BarrierModel) -> Result<Run, Broken> {
+fn run_with(text: &str, model: BarrierModel) -> Result<Simulated, Broken> {
     let scene = |what: String| Broken::Scene(what);
     let mut file = read_design("design", text.as_bytes()).map_err(|_| scene("the design is not one".to_string()))?;
     file.design.simulation.barrier_model = model;
     let stop = AtomicBool::new(false);
     let watch = Watch { progress: &|_| (), stop: &stop };
     let threads = rayon::ThreadPoolBuilder::new().build().map_err(|error| scene(error.to_string()))?;
-    threads.install(|| run(file, &watch)).map_err(|error| scene(error.to_string()))
+    let run = threads.install(|| run(file, 1, &watch)).map_err(|error| scene(error.to_string()))?;
+    run.simulated.ok_or_else(|| scene("nothing was simulated".to_string()))
 }

@@ -4,7 +4,8 @@ use crate::dem::Vec3;
 use crate::dem::model::Model;
 use crate::dem::tables::grains::GrainShape;
 use crate::dem::tables::surfaces::SurfaceRole;
-use crate::loads::volkwein::{GuidelineInput, split};
+use crate::loads::cases::{Extras, all, split};
+use crate::loads::input::GuidelineInput;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{
     GRAVITY, MODULUS, ball, cloud, contact_time, floor, free_model, material, momenta, plane, simulate,
@@ -120,10 +121,11 @@ fn identity() -> Result<Vec<Finding>, Broken> {
             depth,
             velocity,
             fill_height: 4.0,
+            barrier_height: 4.2,
         };
-        for case in input.cases() {
+        for case in all(&input, &Extras::default()) {
             let (first, second) = split(&input, &case);
-            worst = worst.max((first + second - case.force_per_width).abs() / case.force_per_width);
+            worst = worst.max((first + second - case.force_per_width()).abs() / case.force_per_width());
         }
     }
     Ok(vec![Finding::close("largest difference over the force", worst, 0.0, 1e-12)])

@@ -1,0 +1,43 @@
+//! A wall that stands by its weight: sliding along its base, overturning about the downstream edge. Per metre of width.
+
+use crate::checks::outcome::{CheckName, Outcome, Resistance};
+use crate::demand::{Demand, Demands};
+use crate::design::{BarrierDesign, Design};
+use crate::loads::wall::WallInput;
+use crate::sources::WALL_BALANCE;
+
+pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
+    let Some(stability) = wall.stability else { return Vec::new() };
+    let input = WallInput {
+        height: wall.height,
+        thickness: stability.thickness,
+        base_width: stability.base_width,
+        density: stability.density,
+        base_friction: stability.base_friction,
+        base_slope: stability.base_slope,
+        bed_slope: design.channel.slope,
+    };
+    let with_own = |demand: Demand, own: f64| Demand {
+        guideline: demand.guideline.map(|value| value + own),
+        simulation: demand.simulation.map(|value| value + own),
+    };
+    let [holds_back, pull] = input.sliding();
+    let [holds_up, tilt] = input.overturning();
+    let sliding = CheckName::new("wall_sliding", "Sliding of the wall, per width", "N/m", WALL_BALANCE);
+    let overturning = CheckName::new("wall_overturning", "Overturning of the wall, per width", "N m/m", WALL_BALANCE);
+    vec![
+        Outcome::at_most(
+            sliding,
+            with_own(demands.wall_force.times(input.load_share()), pull),
+            Resistance { characteristic: holds_back, factor: stability.sliding_factor },
+            1.0,
+        ),
+        Outcome::at_most(
+            overturning,
+            with_own(demands.wall_moment, tilt),
+            Resistance { characteristic: holds_up, factor: stability.overturning_factor },
+            1.0,
+        ),
+    ]
+}

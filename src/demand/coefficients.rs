@@ -1,0 +1,115 @@
+//! K and λ that the simulation shows, over time: the force of the grains at rest and of the moving ones against what the
+//! guideline makes of the same depths and velocities (Albaba 2015, section 5.2, with the depth that its Eq. 5.4 lacks).
+//!
+//! F₁ = K ρ g' H_d (H_d/2 + h) and F₂ = ½ K ρ g' h² + λ ρ v² h, so that
+//! K_eff = 2 F₁/(ρ g' H_d (H_d + 2 h)) and λ_eff = (F₂ − ½ ρ g' h²)/(ρ v² h).
+
+use crate::dem::recorders::histories::{Histories, peak, smoothed};
+use crate::loads::input::GuidelineInput;
+
+/// Time series, one value for each sample; forces per width (N/m). A coefficient is NaN where its depth is less than a grain
+/// or its velocity too small to tell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Coefficients {
+    /// By the simulation: of the grains at rest, and of the moving ones.
+    pub force_dead: Vec<f64>,
+    pub force_moving: Vec<f64>,
+    /// By the guideline with the design's K and λ, from the same depths and the mean velocity of all grains.
+    pub guideline_dead: Vec<f64>,
+    pub guideline_moving: Vec<f64>,
+    pub earth_pressure: Vec<f64>,
+    /// With the velocity just upstream of the barrier, and with the mean velocity of all grains.
+    pub dynamic_upstream: Vec<f64>,
+    pub dynamic_mean: Vec<f64>,
+}
+
+/// Share of the highest velocity below which λ is not told.
+const SLOW: f64 = 0.2;
+
+/// The samples in the smoothing window, and the grain size below which a depth is none (m).
+pub fn coefficients(
+    histories: &Histories,
+    input: &GuidelineInput,
+    width: f64,
+    window: usize,
+    grain: f64,
+) -> Coefficients {
+    let along: Vec<f64> = histories.force.iter().map(|force| force.x / width).collect();
+    let along = smoothed(&along, window);
+    let by_state = |state: usize| {
+        let touch: Vec<f64> = histories.pushes_by_state.iter().map(|pushes| pushes[state]).collect();
+        smoothed(&touch, window)
+    };
+    let (dead, moving) = (by_state(0), by_state(1));
+    let deposit = smoothed(&histories.dead_depth, window);
+    let total_depth = smoothed(&histories.barrier_depth, window);
+    let upstream: Vec<f64> = histories.incoming.iter().map(|gauge| gauge.velocity).collect();
+    let mean: Vec<f64> = histories.velocity.iter().map(|velocity| velocity[0]).collect();
+    let slow = SLOW * peak(&mean).1;
+    let unit = input.density * input.gravity_normal;
+    let mut told = Coefficients::default();
+    for sample in 0..along.len() {
+        let both = dead[sample] + moving[sample];
+        let share = if both > 0.0 { (dead[sample] / both).clamp(0.0, 1.0) } else { 0.0 };
+        let (first, second) = (share * along[sample], (1.0 - share) * along[sample]);
+        let (deposit, depth) = (deposit[sample], (total_depth[sample] - deposit[sample]).max(0.0));
+        let fixed = unit * deposit * (0.5 * deposit + depth);
+        let own = 0.5 * unit * depth * depth;
+        let flux = |velocity: f64| input.density * velocity * velocity * depth;
+        let lambda = |velocity: f64| {
+            if depth > grain && velocity > slow { (second - own) / flux(velocity) } else { f64::NAN }
+        };
+        told.force_dead.push(first);
+        told.force_moving.push(second);
+        told.guideline_dead.push(input.earth_pressure * fixed);
+        told.guideline_moving.push(input.earth_pressure * own + input.dynamic_pressure * flux(mean[sample].max(0.0)));
+        told.earth_pressure.push(if deposit > grain { first / fixed } else { f64::NAN });
+        told.dynamic_upstream.push(lambda(upstream[sample]));
+        told.dynamic_mean.push(lambda(mean[sample]));
+    }
+    told
+}
+
+impl Coefficients {
+    /// Largest known value; nothing where none is known.
+    pub fn highest(series: &[f64]) -> Option<f64> {
+        series.iter().copied().filter(|value| value.is_finite()).reduce(f64::max)
+    }
+
+    /// The value at the sample where `force` is largest.
+    pub fn at_peak_of(series: &[f64], force: &[f64]) -> Option<f64> {
+        series.get(peak(force).0).copied().filter(|value| value.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::Vec3;
+    use crate::dem::recorders::histories::Gauge;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_barrier_loaded_by_the_guideline_shows_the_guideline_s_coefficients() {
+        let input = crate::loads::cases::tests::input();
+        let (width, deposit, depth, velocity) = (3.0, 1.5, 0.5, 4.0);
+        let unit = input.density * input.gravity_normal;
+        let first = 1.3 * unit * deposit * (0.5 * deposit + depth);
+        let second = 0.5 * unit * depth * depth + 0.8 * input.density * velocity * velocity * depth;
+        let count = 20;
+        let histories = Histories {
+            force: vec![Vec3::new((first + second) * width, 0.0, 0.0); count],
+            pushes_by_state: vec![[first, second]; count],
+            dead_depth: vec![deposit; count],
+            barrier_depth: vec![deposit + depth; count],
+            incoming: vec![Gauge { velocity, ..Gauge::default() }; count],
+            velocity: vec![[2.0 * velocity, 0.0]; count],
+            ..Histories::default()
+        };
+        let told = coefficients(&histories, &input, width, 5, 0.1);
+        assert_relative_eq!(told.earth_pressure[10], 1.3, max_relative = 1e-12);
+        assert_relative_eq!(told.dynamic_upstream[10], 0.8, max_relative = 1e-12);
+        assert_relative_eq!(told.dynamic_mean[10], 0.2, max_relative = 1e-12);
+        assert_relative_eq!(told.force_dead[10], first, max_relative = 1e-12);
+    }
+}

@@ -1,0 +1,15 @@
+//! The full barrier once its deposit has drained: a smaller K and density, both given by the designer.
+
+use crate::loads::cases::{Certainty, Extras, LoadCase, full};
+use crate::loads::input::GuidelineInput;
+
+pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
+    let [earth_pressure, density] = extras.drained?;
+    Some(LoadCase {
+        id: "drained",
+        title: "Full, drained",
+        certainty: Certainty::Given,
+        source: "K and density of the drained deposit: design file",
+        ..full::case(&GuidelineInput { earth_pressure, density, ..*input })
+    })
+}

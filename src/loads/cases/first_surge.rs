@@ -1,0 +1,13 @@
+//! The first surge on the empty barrier: p = K ρ g' (h − z) + λ ρ v² up to h.
+
+use crate::loads::cases::{LoadCase, later_surge};
+use crate::loads::input::GuidelineInput;
+
+pub fn case(input: &GuidelineInput) -> LoadCase {
+    LoadCase {
+        id: "first_surge",
+        title: "First surge on the empty barrier",
+        formula: "R = ½ K ρ g' h² + λ ρ v² h",
+        ..later_surge::case(input, 0.0)
+    }
+}

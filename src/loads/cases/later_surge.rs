@@ -1,0 +1,37 @@
+//! A surge over a deposit of height H_d: K ρ g' (H_d + h − z), and λ ρ v² between H_d and H_d + h.
+
+use crate::loads::cases::{Certainty, LoadCase};
+use crate::loads::input::GuidelineInput;
+use crate::loads::pressure::Diagram;
+use crate::sources::VOLKWEIN_2014;
+
+pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
+    let moving = input.moving_depth();
+    let surface = deposit + moving;
+    LoadCase {
+        id: "later_surge",
+        title: "Surge over a deposit",
+        deposit,
+        moving,
+        diagram: Diagram {
+            unit: input.unit_pressure(),
+            surface,
+            top: surface,
+            block: input.impact_pressure(),
+            block_from: deposit,
+            block_to: surface,
+        },
+        shear: 0.0,
+        shear_certainty: Certainty::Derived,
+        point: None,
+        formula: "R = ½ K ρ g' (H_d + h)² + λ ρ v² h",
+        certainty: Certainty::Read,
+        source: VOLKWEIN_2014,
+    }
+}
+
+/// The last surge, which fills the barrier.
+pub fn last(input: &GuidelineInput) -> LoadCase {
+    let deposit = input.fill_height - input.moving_depth();
+    LoadCase { id: "last_surge", title: "Last surge over the deposit", ..case(input, deposit) }
+}

@@ -1,0 +1,46 @@
+//! The full barrier with a flow of depth h_o over its top: K ρ g' (H + h_o − z) below the top, and the drag
+//! τ = ρ g' h_o tan φ on the top rope. That both act is read (Volkwein, Wendeler, Guasti 2011); the drag's form is from
+//! memory and decides only with a friction that the designer gives.
+
+use crate::loads::cases::{Certainty, Extras, LoadCase, full};
+use crate::loads::input::GuidelineInput;
+use crate::loads::pressure::Diagram;
+
+/// Friction of the drag where none is given: tan 25°, from memory.
+pub const DEFAULT_FRICTION: f64 = 0.4663;
+
+/// Nothing where the design flow does not fill the barrier.
+pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
+    let height = input.barrier_height;
+    let depth = extras.overflow_depth.unwrap_or(input.depth);
+    let weight = input.density * input.gravity_normal * depth;
+    // The drag acts over the length on which the flow rides on the barrier, taken as its own depth.
+    let shear = weight * extras.overflow_friction.unwrap_or(DEFAULT_FRICTION) * depth;
+    (input.fills() || extras.overflow_depth.is_some()).then(|| LoadCase {
+        id: "overtopped",
+        title: "Full and overtopped",
+        deposit: height,
+        moving: depth,
+        diagram: Diagram { unit: input.unit_pressure(), surface: height + depth, top: height, ..Diagram::default() },
+        shear,
+        shear_certainty: if extras.overflow_friction.is_some() { Certainty::Given } else { Certainty::Memory },
+        formula: "R = ½ K ρ g' (H² + 2 H h_o)",
+        source: "Volkwein, Wendeler, Guasti 2011, Design of flexible debris flow barriers",
+        ..full::case(input)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loads::cases::tests::input;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_overflow_adds_its_depth_all_the_way_down() {
+        let case = case(&input(), &Extras::default()).unwrap();
+        let expected = 0.5 * input().unit_pressure() * (16.0 + 2.0 * 4.0 * 1.0);
+        assert_relative_eq!(case.force_per_width(), expected, max_relative = 1e-12);
+        assert!(super::case(&GuidelineInput { fill_height: 3.0, ..input() }, &Extras::default()).is_none());
+    }
+}

@@ -1,0 +1,19 @@
+//! Snow against the barrier: a uniform pressure that the designer gives.
+
+use crate::loads::cases::{Certainty, LoadCase, full};
+use crate::loads::input::GuidelineInput;
+use crate::loads::pressure::Diagram;
+
+pub fn case(input: &GuidelineInput, pressure: f64) -> LoadCase {
+    let top = input.barrier_height;
+    LoadCase {
+        id: "snow",
+        title: "Snow",
+        deposit: 0.0,
+        diagram: Diagram { block: pressure, block_to: top, top, ..Diagram::default() },
+        formula: "R = p H",
+        certainty: Certainty::Given,
+        source: "pressure of the snow: design file",
+        ..full::case(input)
+    }
+}

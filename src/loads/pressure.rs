@@ -1,0 +1,95 @@
+//! A pressure diagram over the height of the barrier: a static triangle, cut at the barrier's top, and a block.
+
+/// Pressures over the height z above the bed (m), uniform over the width.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Diagram {
+    /// Growth of the static pressure with depth (Pa/m).
+    pub unit: f64,
+    /// Height of the surface, where the static pressure is zero (m).
+    pub surface: f64,
+    /// Height up to which the barrier is loaded (m).
+    pub top: f64,
+    /// Uniform pressure (Pa) between two heights (m).
+    pub block: f64,
+    pub block_from: f64,
+    pub block_to: f64,
+}
+
+impl Diagram {
+    /// Pressure at a height (Pa).
+    pub fn at(&self, height: f64) -> f64 {
+        if height > self.top {
+            return 0.0;
+        }
+        let block = if (self.block_from..=self.block_to).contains(&height) { self.block } else { 0.0 };
+        self.unit * (self.surface - height).max(0.0) + block
+    }
+
+    /// Force per width on the strip between two heights, ∫ p dz (N/m).
+    pub fn force(&self, low: f64, high: f64) -> f64 {
+        self.integrate(
+            low,
+            high,
+            |a, b| b - a,
+            |a, b| {
+                let depth = |height: f64| (self.surface - height).max(0.0);
+                0.5 * (depth(a).powi(2) - depth(b).powi(2))
+            },
+        )
+    }
+
+    /// Moment per width about the bed of the pressures on a strip, ∫ p z dz (N).
+    pub fn moment(&self, low: f64, high: f64) -> f64 {
+        self.integrate(
+            low,
+            high,
+            |a, b| 0.5 * (b * b - a * a),
+            |a, b| {
+                let b = b.min(self.surface);
+                let a = a.min(b);
+                self.surface * 0.5 * (b * b - a * a) - (b.powi(3) - a.powi(3)) / 3.0
+            },
+        )
+    }
+
+    fn integrate(
+        &self,
+        low: f64,
+        high: f64,
+        block: impl Fn(f64, f64) -> f64,
+        triangle: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
+        let (low, high) = (low.clamp(0.0, self.top), high.clamp(0.0, self.top));
+        let (from, to) = (low.max(self.block_from), high.min(self.block_to).min(self.top));
+        let blocks = if to > from { self.block * block(from, to) } else { 0.0 };
+        blocks + self.unit * triangle(low, high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_triangle_acts_at_a_third_and_a_block_at_its_middle() {
+        let triangle = Diagram { unit: 10.0, surface: 3.0, top: 3.0, ..Diagram::default() };
+        assert_relative_eq!(triangle.force(0.0, 9.0), 45.0);
+        assert_relative_eq!(triangle.moment(0.0, 9.0), 45.0);
+        let block = Diagram { block: 5.0, block_from: 1.0, block_to: 2.0, top: 3.0, ..Diagram::default() };
+        assert_relative_eq!(block.moment(0.0, 3.0), 1.5 * block.force(0.0, 3.0));
+        assert_eq!(block.at(1.5), 5.0);
+    }
+
+    #[test]
+    fn integrals_match_a_fine_sum_of_pressures() {
+        let diagram = Diagram { unit: 7.0, surface: 3.6, top: 3.0, block: 4.0, block_from: 2.2, block_to: 3.6 };
+        let slices = 300_000;
+        let width = 2.5 / slices as f64;
+        let middles = (0..slices).map(|slice| 0.5 + (slice as f64 + 0.5) * width);
+        let (force, moment) = middles
+            .fold((0.0, 0.0), |(force, moment), z| (force + diagram.at(z) * width, moment + diagram.at(z) * z * width));
+        assert_relative_eq!(diagram.force(0.5, 3.0), force, max_relative = 1e-5);
+        assert_relative_eq!(diagram.moment(0.5, 3.0), moment, max_relative = 1e-5);
+    }
+}

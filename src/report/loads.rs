@@ -1,0 +1,316 @@
+//! The load side of the report: cases with their numbers put in, ropes, other models, what is held, what matters most.
+
+use serde::Serialize;
+
+use crate::checks::detailing;
+use crate::demand::from_loads::RopeLoad;
+use crate::loads::cases::{LoadCase, split};
+use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
+use crate::loads::ladder::MODELS;
+use crate::pipeline::Run;
+use crate::report::plots::pressure::pressure_diagram;
+use crate::report::view::{Row, figures, percent, with_unit};
+use crate::sensitivity;
+
+#[derive(Debug, Serialize)]
+pub struct CaseRow {
+    pub title: &'static str,
+    pub deposit: String,
+    pub moving: String,
+    pub pressure_static: String,
+    pub pressure_dynamic: String,
+    pub force_per_width: String,
+    pub moment: String,
+    pub total: String,
+    /// The resultant in symbols and in numbers.
+    pub formula: &'static str,
+    pub working: String,
+    pub remark: String,
+    pub source: String,
+    pub svg: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct RopeRow {
+    pub rope: usize,
+    pub strip: String,
+    pub case: String,
+    pub load: String,
+    pub sag: String,
+    pub tension: String,
+    pub stroke: String,
+    pub anchor: String,
+    pub working: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct LadderRow {
+    pub name: &'static str,
+    pub formula: &'static str,
+    pub force: String,
+    /// As a share of the guideline's with the design's λ.
+    pub share: String,
+    pub range: String,
+    pub certainty: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+pub struct RuleRow {
+    pub title: &'static str,
+    pub found: String,
+    pub advised: String,
+    pub verdict: &'static str,
+    pub remark: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct SwingRow {
+    pub name: String,
+    pub force: String,
+    pub utilisation: String,
+    pub governing: String,
+}
+
+pub fn cases(run: &Run) -> Vec<CaseRow> {
+    let width = run.file.design.channel.width;
+    let highest = run.guideline.cases.iter().map(|case| case.diagram.at(0.0)).fold(0.0, f64::max);
+    let tallest = run.guideline.cases.iter().map(|case| case.diagram.top).fold(0.0, f64::max);
+    let row = |case: &LoadCase| CaseRow {
+        title: case.title,
+        deposit: with_unit(case.deposit, "m"),
+        moving: with_unit(case.moving, "m"),
+        pressure_static: with_unit(case.pressure_static(), "Pa"),
+        pressure_dynamic: with_unit(case.diagram.block, "Pa"),
+        force_per_width: with_unit(case.force_per_width(), "N/m"),
+        moment: with_unit(case.moment_per_width(), "N m/m"),
+        total: with_unit(case.force_per_width() * width, "N"),
+        formula: case.formula,
+        working: working(run, case),
+        remark: remark(run, case),
+        source: format!("{}; {}", case.source, case.certainty.word()),
+        svg: pressure_diagram(&case.diagram, highest, tallest),
+    };
+    run.guideline.cases.iter().map(row).collect()
+}
+
+/// The formula with numbers, in kN and m so that it can be followed with a pocket calculator.
+fn working(run: &Run, case: &LoadCase) -> String {
+    let input = &run.guideline.input;
+    let unit = case.diagram.unit / 1e3;
+    let unit_text = format!("{unit:.3}");
+    let result = with_unit(case.force_per_width(), "N/m");
+    let block = format!("{:.3} · {:.3}", case.diagram.block / 1e3, case.moving);
+    let surge = |height: f64| format!("½ · {unit_text} · {height:.3}² + {block}");
+    let body = match case.id {
+        "first_surge" | "point_load" => surge(case.moving),
+        "last_surge" => surge(case.deposit + case.moving),
+        "overtopped" => {
+            let top = case.diagram.top;
+            format!("½ · {unit_text} · ({top:.3}² + 2 · {top:.3} · {:.3})", case.moving)
+        }
+        "snow" => format!("{:.3} · {:.3}", case.diagram.block / 1e3, case.diagram.top),
+        _ => format!("½ · {unit_text} · {:.3}²", case.diagram.surface),
+    };
+    let pressures = match case.id {
+        "snow" => String::new(),
+        "drained" => format!("K ρ g' = {unit_text} kN/m³. "),
+        _ => format!(
+            "K ρ g' = {:.2} · {:.0} · {:.3} = {unit_text} kN/m³; λ ρ v² = {:.2} · {:.0} · {:.2}² = {:.1} kPa. ",
+            input.earth_pressure,
+            input.density,
+            input.gravity_normal,
+            input.dynamic_pressure,
+            input.density,
+            input.velocity,
+            input.impact_pressure() / 1e3,
+        ),
+    };
+    format!("{pressures}R = {body} = {result}")
+}
+
+fn remark(run: &Run, case: &LoadCase) -> String {
+    let mut parts = Vec::new();
+    if case.moving > 0.0 && case.deposit > 0.0 && case.shear == 0.0 {
+        let (first, second) = split(&run.guideline.input, case);
+        parts.push(format!(
+            "of it by the deposit F₁ = {}, by the moving flow F₂ = {}",
+            with_unit(first, "N/m"),
+            with_unit(second, "N/m")
+        ));
+    }
+    if case.shear > 0.0 {
+        let enters = if case.shear_certainty.decides() {
+            "enters the checks"
+        } else {
+            "told only: set loads.overflow_friction to have it checked"
+        };
+        parts.push(format!("drag on the top rope ρ g' h_o² tan φ = {} ({enters})", with_unit(case.shear, "N/m")));
+    }
+    if let Some(point) = case.point {
+        parts.push(format!("with {} at {}", with_unit(point.force, "N"), with_unit(point.height, "m")));
+    }
+    parts.join("; ")
+}
+
+pub fn ropes(run: &Run) -> Vec<RopeRow> {
+    let row = |(index, rope): (usize, &RopeLoad)| {
+        let case = rope.case.as_ref()?;
+        let strip = if rope.strip[1].is_finite() {
+            format!("{:.2} to {:.2} m", rope.strip[0], rope.strip[1])
+        } else {
+            format!("{:.2} m to the top", rope.strip[0])
+        };
+        let deposit = if case.id == "later_surge" { format!(" of {:.2} m", case.deposit) } else { String::new() };
+        Some(RopeRow {
+            rope: index + 1,
+            strip,
+            case: format!("{}{deposit}", case.title),
+            load: with_unit(rope.load, "N/m"),
+            sag: with_unit(rope.state.sag, "m"),
+            tension: with_unit(rope.state.tension, "N"),
+            stroke: with_unit(rope.state.stroke, "m"),
+            anchor: format!("{} along, {} across", with_unit(rope.anchor[0], "N"), with_unit(rope.anchor[1], "N")),
+            working: rope_working(run, rope),
+        })
+    };
+    run.guideline.ropes.iter().enumerate().filter_map(row).collect()
+}
+
+fn rope_working(run: &Run, rope: &RopeLoad) -> String {
+    let span = run.file.design.channel.width;
+    let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
+    let half = 0.5 * rope.load * span / 1e3;
+    format!(
+        "H = q L²/(8 f) = {:.2} · {span:.2}²/(8 · {:.3}) = {horizontal:.1} kN; T = √({horizontal:.1}² + {half:.1}²) = {:.1} kN",
+        rope.load / 1e3,
+        rope.state.sag,
+        horizontal.hypot(half),
+    )
+}
+
+pub fn ladder(run: &Run) -> Vec<LadderRow> {
+    let input = &run.guideline.input;
+    let own = run.guideline.cases.first().map_or(1.0, LoadCase::force_per_width);
+    let show = |[low, high]: [f64; 2], text: &dyn Fn(f64) -> String| {
+        if low == high { text(low) } else { format!("{} to {}", text(low), text(high)) }
+    };
+    let row = |model: &crate::loads::ladder::Model| {
+        let force = model.force(input);
+        let outside = if model.in_range(input) { "" } else { "; this flow is outside" };
+        LadderRow {
+            name: model.name,
+            formula: model.formula,
+            force: show(force, &|force| with_unit(force, "N/m")),
+            share: show(force, &|force| format!("{:.1}", force / own)),
+            range: format!("{}{outside}", model.range),
+            certainty: model.certainty.word(),
+        }
+    };
+    MODELS.iter().map(row).collect()
+}
+
+/// What the barrier holds, and what a flow of this volume is like by rules of thumb.
+pub fn holding(run: &Run) -> Vec<Row> {
+    let design = &run.file.design;
+    let row = |name: &str, value: String, remark: String| Row { name: name.into(), value, remark };
+    let mut rows = Vec::new();
+    if let Some(held) = run.guideline.retention {
+        rows.push(row(
+            "Volume held behind the barrier",
+            with_unit(held.volume, "m³"),
+            format!(
+                "V = b h'²/(2 (tan θ − tan θ')), h' = {}, θ' = {:.1}°, over {} of channel; shares of height and slope from the design or from memory of practice",
+                with_unit(held.filled_height, "m"),
+                held.deposit_slope.to_degrees(),
+                with_unit(held.length, "m")
+            ),
+        ));
+        rows.push(row(
+            "Surges until it is full",
+            figures(held.surges),
+            format!("of {} each, the design flow", with_unit(design.flow.volume(), "m³")),
+        ));
+    }
+    let slope = design.channel.slope;
+    if slope > 0.0 {
+        for estimate in peak_discharge(design.flow.volume()) {
+            let [velocity, depth] = velocity_and_depth(estimate.value, slope, design.channel.width);
+            rows.push(row(
+                &format!("Estimate from the volume alone: {}", estimate.name),
+                with_unit(estimate.value, "m³/s"),
+                format!(
+                    "{}; with v = 2.1 Q^0.33 S^0.33: {} and {} deep; from memory, not used in any check",
+                    estimate.formula,
+                    with_unit(velocity, "m/s"),
+                    with_unit(depth, "m")
+                ),
+            ));
+        }
+        let depth = run.guideline.input.depth;
+        let [rough, smooth] = [0.18, 0.05].map(|n| manning_strickler(depth, slope, n));
+        rows.push(row(
+            "Estimate from the depth: Manning-Strickler",
+            format!("{} to {}", with_unit(rough, "m/s"), with_unit(smooth, "m/s")),
+            "v = h^⅔ S^½/n, n 0.18 to 0.05; from memory, not used in any check".into(),
+        ));
+    }
+    rows
+}
+
+pub fn rules(run: &Run) -> Vec<RuleRow> {
+    let rules = detailing::rules(&run.file.design, &run.guideline);
+    let row = |rule: detailing::Rule| {
+        let show = |value: f64| with_unit(value, rule.unit).trim().to_string();
+        let advised = match (rule.least, rule.most) {
+            (Some(least), Some(most)) => format!("{} to {}", show(least), show(most)),
+            (Some(least), None) => format!("at least {}", show(least)),
+            (None, Some(most)) => format!("at most {}", show(most)),
+            (None, None) => String::new(),
+        };
+        let remark = if rule.holds() { rule.source.to_string() } else { format!("{}. {}", rule.source, rule.advice) };
+        RuleRow {
+            title: rule.title,
+            found: show(rule.found),
+            advised,
+            verdict: if rule.holds() { "pass" } else { "warn" },
+            remark,
+        }
+    };
+    rules.into_iter().map(row).collect()
+}
+
+pub fn tornado(run: &Run) -> Vec<SwingRow> {
+    let row = |swing: sensitivity::Swing| SwingRow {
+        name: format!("{} ± {:.0} %", swing.name, 100.0 * swing.share),
+        force: format!("{} … {}", with_unit(swing.down.force, "N"), with_unit(swing.up.force, "N")),
+        utilisation: format!("{} … {}", percent(swing.down.utilisation), percent(swing.up.utilisation)),
+        governing: if swing.down.governing == swing.up.governing {
+            swing.up.governing
+        } else {
+            format!("{}; then {}", swing.down.governing, swing.up.governing.to_lowercase())
+        },
+    };
+    sensitivity::swings(&run.file.design).into_iter().map(row).collect()
+}
+
+pub fn margin(run: &Run) -> String {
+    use sensitivity::Limit;
+    let tell = |name: &str, limit: Limit| match limit {
+        Limit::Unjudged => "no check is judged by the equations".to_string(),
+        Limit::AlwaysFails => format!("no {name}, however small, lets all checks by the equations hold"),
+        Limit::NeverFails => format!("no {name} up to ten times the design's fails a check by the equations"),
+        Limit::At(factor) if factor >= 1.0 => {
+            let grown = 100.0 * (factor - 1.0);
+            format!("the {name} may grow by {grown:.0} % until the first check by the equations fails")
+        }
+        Limit::At(factor) => {
+            let less = 100.0 * (1.0 - factor);
+            format!("the {name} would have to be {less:.0} % smaller for all checks by the equations to hold")
+        }
+    };
+    let margin = sensitivity::margin(&run.file.design);
+    if margin.velocity == Limit::Unjudged {
+        return "No check is judged by the equations.".into();
+    }
+    format!("Alone, {}; {}.", tell("velocity", margin.velocity), tell("depth", margin.depth))
+}

@@ -1,0 +1,171 @@
+//! How far the verdict of the equations moves when an input does, and how much the flow may grow.
+
+use crate::checks::check_all;
+use crate::checks::outcome::Outcome;
+use crate::demand::Demands;
+use crate::demand::from_loads::{Guideline, guideline_for, input};
+use crate::design::{BarrierDesign, Design};
+use crate::loads::input::GuidelineInput;
+
+/// What the equations say of one set of inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Largest total force over the load cases (N).
+    pub force: f64,
+    /// Largest utilisation over the checks that the equations can judge, and the check.
+    pub utilisation: Option<f64>,
+    pub governing: String,
+}
+
+/// The effect of one input, taken down and up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swing {
+    pub name: &'static str,
+    /// Share by which it is changed.
+    pub share: f64,
+    pub down: Point,
+    pub up: Point,
+}
+
+/// How far one input may go until the first check by equations fails.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// No check is judged.
+    Unjudged,
+    /// Some check fails even at the smallest value tried.
+    AlwaysFails,
+    /// All hold even at the largest value tried.
+    NeverFails,
+    /// The factor on the input; above 1 there is something to spare.
+    At(f64),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin {
+    pub velocity: Limit,
+    pub depth: Limit,
+}
+
+type Change = fn(&mut Design, &mut GuidelineInput, f64);
+
+/// Inputs of the tornado: name, share, how to change it by a factor.
+const CHANGES: &[(&str, f64, Change)] = &[
+    ("Velocity v", 0.1, |_, input, factor| input.velocity *= factor),
+    ("Depth h", 0.2, |_, input, factor| input.depth *= factor),
+    ("Density ρ", 0.2, |_, input, factor| input.density *= factor),
+    ("λ", 0.2, |_, input, factor| input.dynamic_pressure *= factor),
+    ("K", 0.2, |_, input, factor| input.earth_pressure *= factor),
+    ("Height of filling", 0.2, |_, input, factor| {
+        input.fill_height = (input.fill_height * factor).min(input.barrier_height);
+    }),
+    ("Plateau of the dissipators", 0.2, |design, _, factor| {
+        if let BarrierDesign::FlexibleNet(net) = &mut design.barrier
+            && let Some(dissipator) = &mut net.dissipators
+        {
+            dissipator.plateau *= factor;
+        }
+    }),
+];
+
+fn point(design: &Design, input: GuidelineInput) -> Point {
+    let guideline: Guideline = guideline_for(design, input);
+    let outcomes = check_all(design, &Demands::meet(&guideline, &[], design.factors.load));
+    let used = |outcome: &&Outcome| outcome.utilisation.is_some();
+    let governing = outcomes
+        .iter()
+        .filter(used)
+        .max_by(|a, b| a.utilisation.partial_cmp(&b.utilisation).unwrap_or(std::cmp::Ordering::Equal));
+    Point {
+        force: guideline.largest_force,
+        utilisation: governing.and_then(|outcome| outcome.utilisation),
+        governing: governing.map_or(String::new(), |outcome| outcome.title.clone()),
+    }
+}
+
+/// The tornado: each input alone, the most telling first.
+pub fn swings(design: &Design) -> Vec<Swing> {
+    let at = |change: Change, factor: f64| {
+        let (mut changed, mut flow) = (design.clone(), input(design));
+        change(&mut changed, &mut flow, factor);
+        flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
+        point(&changed, flow)
+    };
+    let swing = |&(name, share, change): &(&'static str, f64, Change)| Swing {
+        name,
+        share,
+        down: at(change, 1.0 - share),
+        up: at(change, 1.0 + share),
+    };
+    let mut swings: Vec<Swing> = CHANGES.iter().map(swing).collect();
+    let width = |swing: &Swing| match (swing.down.utilisation, swing.up.utilisation) {
+        (Some(down), Some(up)) => (up - down).abs(),
+        _ => (swing.up.force - swing.down.force).abs(),
+    };
+    swings.retain(|swing| width(swing) > 0.0);
+    swings.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    swings
+}
+
+/// By how much the flow may grow, or must shrink, until the first check by equations just holds.
+pub fn margin(design: &Design) -> Margin {
+    let holds = |change: Change, factor: f64| {
+        let (mut changed, mut flow) = (design.clone(), input(design));
+        change(&mut changed, &mut flow, factor);
+        flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
+        point(&changed, flow).utilisation.map(|used| used <= 1.0)
+    };
+    let limit = |change: Change| {
+        match (holds(change, SMALLEST), holds(change, LARGEST)) {
+            (None, _) | (_, None) => return Limit::Unjudged,
+            (Some(false), _) => return Limit::AlwaysFails,
+            (_, Some(true)) => return Limit::NeverFails,
+            _ => {}
+        }
+        let (mut low, mut high) = (SMALLEST, LARGEST);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if holds(change, middle) == Some(true) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Limit::At(low)
+    };
+    Margin { velocity: limit(CHANGES[0].2), depth: limit(CHANGES[1].2) }
+}
+
+/// Factors between which a margin is sought.
+const SMALLEST: f64 = 0.05;
+const LARGEST: f64 = 10.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::read::read_design;
+
+    fn design() -> Design {
+        read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design
+    }
+
+    #[test]
+    fn at_the_margin_the_first_check_just_holds() {
+        let design = design();
+        let Limit::At(factor) = margin(&design).velocity else { panic!("no margin") };
+        let at = |factor: f64| {
+            let flow = input(&design);
+            point(&design, GuidelineInput { velocity: flow.velocity * factor, ..flow }).utilisation.unwrap()
+        };
+        assert!(at(factor) <= 1.0 && at(factor * 1.001) > 1.0, "{factor}");
+    }
+
+    #[test]
+    fn more_of_the_flow_never_uses_less() {
+        for swing in swings(&design()) {
+            if swing.name != "Plateau of the dissipators" {
+                assert!(swing.up.utilisation >= swing.down.utilisation, "{swing:?}");
+                assert!(swing.up.force >= swing.down.force, "{swing:?}");
+            }
+        }
+    }
+}
