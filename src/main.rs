@@ -32,6 +32,9 @@ struct CheckArguments {
     /// Number of starts, each with a packing of its own: their scatter enters the verdict
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     seeds: u32,
+    /// Also simulates the design with each of its main inputs changed alone, down and up
+    #[arg(long)]
+    vary: bool,
 }
 
 #[derive(Subcommand)]
@@ -84,9 +87,9 @@ fn main() {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, out, threads, seeds } = arguments.check;
+            let CheckArguments { design, out, threads, seeds, vary } = arguments.check;
             let design = design.unwrap_or_default();
-            check(&design, out.as_deref(), Wishes { threads: threads.map(usize::from), starts: seeds }) as i32
+            check(&design, out.as_deref(), Wishes { threads: threads.map(usize::from), starts: seeds, vary }) as i32
         }
     };
     process::exit(code);

@@ -17,6 +17,8 @@ use crate::fidelity::{Fidelity, choose};
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Event, Watch, run as run_event};
 use crate::scene::flow::packing::PackingError;
+use crate::sensitivity::simulated::{Variant, swings, variants};
+use crate::sensitivity::{Point, Swing};
 use crate::starts::{Spread, side_by_side};
 
 /// What the whole run says.
@@ -45,6 +47,8 @@ pub struct Run {
     pub guideline: Guideline,
     /// Nothing where the equations alone were asked for.
     pub simulated: Option<Simulated>,
+    /// The simulation's answer to changed inputs, where asked for.
+    pub varied: Vec<Swing>,
     pub outcomes: Vec<Outcome>,
     pub doubts: Vec<String>,
     pub verdict: Verdict,
@@ -155,6 +159,23 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
     Ok(finish(file, guideline, Some(simulated), doubts))
 }
 
+/// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.
+pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
+    let design = &run.file.design;
+    let variants = variants(design);
+    let answer = |variant: &Variant| -> Result<Point, RunError> {
+        let design = &variant.design;
+        let guideline = guideline(design);
+        let simulated = simulate(design, &choose(design), &guideline, design.simulation.seed, watch)?;
+        let mut demands = Demands::meet(&guideline, &[simulated.first()], design.factors.load);
+        demands.leave_out_guideline();
+        Ok(Point::of(simulated.first().force_peak, &check_all(design, &demands)))
+    };
+    let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| answer(&variants[index]));
+    run.varied = swings(&variants, points.into_iter().collect::<Result<_, _>>()?);
+    Ok(())
+}
+
 fn doubts_of(run: &Simulated, starts: usize) -> Vec<String> {
     let named = |doubt| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt };
     doubts(&run.numerics).into_iter().map(named).collect()
@@ -171,7 +192,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
         doubts.push(what.to_string());
     }
     let verdict = verdict(&outcomes, &doubts);
-    Run { file, guideline, simulated, outcomes, doubts, verdict }
+    Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict }
 }
 
 fn simulate(

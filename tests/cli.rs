@@ -83,6 +83,46 @@ fn shape(value: &mut serde_json::Value) -> serde_json::Value {
 }
 
 #[test]
+fn the_equations_alone_take_no_time_and_judge_what_they_can() {
+    let out = folder("loads");
+    let started = std::time::Instant::now();
+    let output = run(&["loads", "designs/small_net.yaml", "--out", out.to_str().expect("path")]);
+    assert!(started.elapsed().as_secs_f64() < 0.5, "{:?}", started.elapsed());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let result = result(&out);
+    assert!(result["simulation"].is_null() && !out.join("histories.csv").exists());
+    let checks = result["checks"].as_array().expect("checks");
+    assert!(checks.iter().all(|check| check["demand_simulation"].is_null()));
+    assert!(checks.iter().any(|check| check["verdict"] == "pass"));
+    // A wall without resistance leaves nothing to judge: that is no pass.
+    let out = folder("loads_wall");
+    let output = run(&["loads", "designs/rigid_wall.yaml", "--out", out.to_str().expect("path")]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// Several starts give their mean and scatter, side by side or one after the other, and their scatter enters the demand.
+#[test]
+fn the_scatter_of_several_starts_enters_the_verdict() {
+    let [one, two] = [("starts_one", "1"), ("starts_two", "2")].map(|(name, threads)| {
+        let out = folder(name);
+        let path = out.to_str().expect("path");
+        run(&["designs/small_net.yaml", "--seeds", "3", "--threads", threads, "--out", path]);
+        result(&out)
+    });
+    assert_eq!(one["checks"], two["checks"]);
+    assert_eq!(one["starts"], two["starts"]);
+    let of = |list: &str, id: &str| {
+        one[list].as_array().expect("list").iter().find(|item| item["id"] == id).expect("item").clone()
+    };
+    let number = |value: &serde_json::Value| value.as_f64().expect("number");
+    let (spread, check) = (of("starts", "net_tension"), of("checks", "net_tension"));
+    // k_n of EN 1990, annex D, for three values; small_net has no factor on loads.
+    let expected = number(&spread["mean"]) + 3.372 * number(&spread["deviation"]);
+    let demand = number(&check["demand_simulation"]);
+    assert!((demand / expected - 1.0).abs() < 1e-3, "{demand} {expected}");
+}
+
+#[test]
 fn bad_input_ends_with_two_and_writes_nothing() {
     let out = folder("bad");
     let output = run(&["tests/bad_designs/several_at_once.yaml", "--out", out.to_str().expect("path")]);

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::commands::ExitCode;
 use crate::design::read::{DesignFile, read_design};
-use crate::pipeline::{Run, RunError, Verdict, by_equations, run};
+use crate::pipeline::{Run, RunError, Verdict, by_equations, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::report::json::ResultFile;
 use crate::report::render::render;
@@ -27,6 +27,8 @@ pub struct Wishes {
     pub threads: Option<usize>,
     /// Number of packings.
     pub starts: u32,
+    /// Whether to run the design again with its inputs changed.
+    pub vary: bool,
 }
 
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given.
@@ -115,7 +117,14 @@ fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
         }
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wishes.threads.unwrap_or(0)).build()?;
-    let result = pool.install(|| run(file, wishes.starts, &Watch { progress: &show, stop: &stop }));
+    let watch = Watch { progress: &show, stop: &stop };
+    let result = pool.install(|| {
+        let mut result = run(file, wishes.starts, &watch)?;
+        if wishes.vary {
+            vary(&mut result, &watch)?;
+        }
+        Ok(result)
+    });
     if let Ok(bar) = bar.lock() {
         bar.finish_and_clear();
     }

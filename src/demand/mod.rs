@@ -102,6 +102,22 @@ impl Demands {
             residual_height: simulated(least(&|seen| seen.residual_height)),
         }
     }
+
+    /// Leaves what the simulation says alone.
+    pub fn leave_out_guideline(&mut self) {
+        let single = [
+            &mut self.total_force,
+            &mut self.wall_force,
+            &mut self.wall_moment,
+            &mut self.brake_force,
+            &mut self.net_tension,
+            &mut self.lateral_tension,
+            &mut self.retained,
+            &mut self.residual_height,
+        ];
+        let by_rope = [&mut self.rope_tension, &mut self.anchor_force, &mut self.brake_stroke];
+        single.into_iter().chain(by_rope.into_iter().flatten()).for_each(|demand| demand.guideline = None);
+    }
 }
 
 /// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.

@@ -20,6 +20,8 @@ pub enum Value {
 pub enum Origin {
     File,
     Default,
+    /// A named set of factors, with its source.
+    Set(&'static str),
 }
 
 /// One value of the design, as typed and as understood.

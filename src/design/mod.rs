@@ -2,6 +2,7 @@
 
 pub mod document;
 pub mod entries;
+pub mod factor_sets;
 pub mod key;
 pub mod read;
 pub mod resolve;

@@ -3,6 +3,7 @@
 use crate::design::Design;
 use crate::design::document::Document;
 use crate::design::entries::{Entries, read};
+use crate::design::factor_sets;
 use crate::design::resolve::resolve;
 use crate::design::rules::RULES;
 use crate::design::schema::DESIGN;
@@ -24,7 +25,8 @@ pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
     let document = Document::parse(bytes).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
-    let entries = read(&document.root, DESIGN, &mut problems);
+    let mut entries = read(&document.root, DESIGN, &mut problems);
+    factor_sets::apply(&mut entries);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
     if problems.is_empty() {
         if let Some(design) = resolve(&entries) {

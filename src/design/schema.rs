@@ -1,5 +1,6 @@
 //! Every key of the design file: meaning, bounds, default. The bounds say what can be, not what is wise.
 
+use crate::design::factor_sets;
 use crate::design::key::{Key, Kind, quantity};
 use crate::units::Dimension as D;
 
@@ -256,6 +257,12 @@ const LIMITS: &[Key] = &[
 ];
 
 const FACTORS: &[Key] = &[
+    Key::default(
+        "set",
+        Kind::Choice(factor_sets::NAMES),
+        "none",
+        "named partial factors on loads, ropes and anchors; each that is given below stands above the set",
+    ),
     Key::default(
         "earth_pressure_k",
         Kind::Number { low: 0.1, high: 20.0 },

@@ -280,17 +280,21 @@ pub fn rules(run: &Run) -> Vec<RuleRow> {
 }
 
 pub fn tornado(run: &Run) -> Vec<SwingRow> {
-    let row = |swing: sensitivity::Swing| SwingRow {
+    swing_rows(&sensitivity::swings(&run.file.design))
+}
+
+pub fn swing_rows(swings: &[sensitivity::Swing]) -> Vec<SwingRow> {
+    let row = |swing: &sensitivity::Swing| SwingRow {
         name: format!("{} ± {:.0} %", swing.name, 100.0 * swing.share),
         force: format!("{} … {}", with_unit(swing.down.force, "N"), with_unit(swing.up.force, "N")),
         utilisation: format!("{} … {}", percent(swing.down.utilisation), percent(swing.up.utilisation)),
         governing: if swing.down.governing == swing.up.governing {
-            swing.up.governing
+            swing.up.governing.clone()
         } else {
             format!("{}; then {}", swing.down.governing, swing.up.governing.to_lowercase())
         },
     };
-    sensitivity::swings(&run.file.design).into_iter().map(row).collect()
+    swings.iter().map(row).collect()
 }
 
 pub fn margin(run: &Run) -> String {

@@ -27,6 +27,7 @@ pub struct View {
     pub rules: Vec<RuleRow>,
     pub tornado: Vec<SwingRow>,
     pub margin: String,
+    pub varied: Vec<SwingRow>,
     pub starts: Vec<Row>,
     pub findings: Vec<Row>,
     pub charts: Vec<Chart>,
@@ -141,6 +142,7 @@ impl View {
             rules: loads::rules(run),
             tornado: loads::tornado(run),
             margin: loads::margin(run),
+            varied: loads::swing_rows(&run.varied),
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| charts(run, seen)),
@@ -250,6 +252,17 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     }
 }
 
+/// A mean and its standard deviation, both in the unit that suits the mean.
+fn with_scatter(mean: f64, deviation: f64, unit: &str) -> String {
+    match unit {
+        "-" => format!("{:.1} ± {:.1} %", 100.0 * mean, 100.0 * deviation),
+        "N" | "N/m" | "Pa" | "N m/m" if mean.abs() >= 2000.0 => {
+            format!("{} ± {} k{unit}", figures(mean / 1e3), figures(deviation / 1e3))
+        }
+        unit => format!("{} ± {} {unit}", figures(mean), figures(deviation)).trim_end().to_string(),
+    }
+}
+
 /// Three significant figures, whole numbers from 100 on.
 pub fn figures(value: f64) -> String {
     match value.abs() {
@@ -280,11 +293,7 @@ fn start_rows(run: &Simulated) -> Vec<Row> {
     }
     let row = |(observable, spread): (super::findings::Observable, crate::starts::Spread)| Row {
         name: observable.title,
-        value: format!(
-            "{} ± {}",
-            with_unit(spread.mean, observable.unit),
-            with_unit(spread.deviation, observable.unit)
-        ),
+        value: with_scatter(spread.mean, spread.deviation, observable.unit),
         remark: format!("mean ± standard deviation of {} starts", spread.starts),
     };
     super::findings::over_starts(run).into_iter().map(row).collect()
@@ -297,7 +306,11 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
         InputRow {
             path: path.clone(),
             typed: entry.typed.clone(),
-            origin: if entry.origin == Origin::File { "file" } else { "default" },
+            origin: match entry.origin {
+                Origin::File => "file",
+                Origin::Default => "default",
+                Origin::Set(source) => source,
+            },
             meaning: entry.meaning,
         }
     };
@@ -347,8 +360,7 @@ const HIGHEST_COEFFICIENT: f64 = 10.0;
 fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
     let told = &seen.first().coefficients;
     let shown = |series: &[f64]| -> Vec<f64> {
-        let known = |value: &f64| if value.is_finite() { value.clamp(0.0, HIGHEST_COEFFICIENT) } else { 0.0 };
-        series.iter().map(known).collect()
+        series.iter().map(|value| if *value <= HIGHEST_COEFFICIENT { value.max(0.0) } else { f64::NAN }).collect()
     };
     let (k, upstream) = (shown(&told.earth_pressure), shown(&told.dynamic_upstream));
     let factors = &run.file.design.factors;
@@ -367,7 +379,7 @@ fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
         ],
     };
     let note = format!(
-        "λ with the velocity just upstream; zero where the depth is less than a grain or the flow has all but stopped; cut at {HIGHEST_COEFFICIENT:.0}."
+        "λ with the velocity just upstream; left out where the depth is less than a grain, the flow has all but stopped, or the value is above {HIGHEST_COEFFICIENT:.0}."
     );
     Chart { title: "K and λ over time", svg: chart.svg(), note }
 }

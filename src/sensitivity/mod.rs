@@ -1,5 +1,7 @@
 //! How far the verdict of the equations moves when an input does, and how much the flow may grow.
 
+pub mod simulated;
+
 use crate::checks::check_all;
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
@@ -70,15 +72,30 @@ const CHANGES: &[(&str, f64, Change)] = &[
 fn point(design: &Design, input: GuidelineInput) -> Point {
     let guideline: Guideline = guideline_for(design, input);
     let outcomes = check_all(design, &Demands::meet(&guideline, &[], design.factors.load));
-    let used = |outcome: &&Outcome| outcome.utilisation.is_some();
-    let governing = outcomes
-        .iter()
-        .filter(used)
-        .max_by(|a, b| a.utilisation.partial_cmp(&b.utilisation).unwrap_or(std::cmp::Ordering::Equal));
-    Point {
-        force: guideline.largest_force,
-        utilisation: governing.and_then(|outcome| outcome.utilisation),
-        governing: governing.map_or(String::new(), |outcome| outcome.title.clone()),
+    Point::of(guideline.largest_force, &outcomes)
+}
+
+impl Point {
+    /// The largest total force (N), and the outcome with the largest utilisation.
+    pub fn of(force: f64, outcomes: &[Outcome]) -> Self {
+        let order =
+            |a: &&Outcome, b: &&Outcome| a.utilisation.partial_cmp(&b.utilisation).unwrap_or(std::cmp::Ordering::Equal);
+        let governing = outcomes.iter().filter(|outcome| outcome.utilisation.is_some()).max_by(order);
+        Self {
+            force,
+            utilisation: governing.and_then(|outcome| outcome.utilisation),
+            governing: governing.map_or(String::new(), |outcome| outcome.title.clone()),
+        }
+    }
+}
+
+impl Swing {
+    /// How much the utilisation moves, or the force where there is none.
+    fn width(&self) -> f64 {
+        match (self.down.utilisation, self.up.utilisation) {
+            (Some(down), Some(up)) => (up - down).abs(),
+            _ => (self.up.force - self.down.force).abs(),
+        }
     }
 }
 
@@ -97,12 +114,8 @@ pub fn swings(design: &Design) -> Vec<Swing> {
         up: at(change, 1.0 + share),
     };
     let mut swings: Vec<Swing> = CHANGES.iter().map(swing).collect();
-    let width = |swing: &Swing| match (swing.down.utilisation, swing.up.utilisation) {
-        (Some(down), Some(up)) => (up - down).abs(),
-        _ => (swing.up.force - swing.down.force).abs(),
-    };
-    swings.retain(|swing| width(swing) > 0.0);
-    swings.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    swings.retain(|swing| swing.width() > 0.0);
+    swings.sort_by(|a, b| b.width().total_cmp(&a.width()));
     swings
 }
 

@@ -69,13 +69,11 @@ impl LineChart<'_> {
             labels.push((y, level.label.clone(), "level".to_string()));
         }
         for series in &self.series {
-            let _ = write!(
-                out,
-                r#"<polyline class="series c{}" points="{}"/>"#,
-                series.colour,
-                self.points(series, &frame)
-            );
-            let last = series.values.last().copied().unwrap_or(0.0) * self.factor;
+            for points in self.stretches(series, &frame) {
+                let _ = write!(out, r#"<polyline class="series c{}" points="{points}"/>"#, series.colour);
+            }
+            let known = series.values.iter().rev().find(|value| value.is_finite());
+            let last = known.copied().unwrap_or(0.0) * self.factor;
             labels.push((frame.y(last), series.label.clone(), format!("c{}", series.colour)));
         }
         draw_labels(labels, &mut out);
@@ -135,27 +133,30 @@ impl LineChart<'_> {
         );
     }
 
-    /// Points of a curve, thinned so that every peak survives.
-    fn points(&self, series: &Series, frame: &Frame) -> String {
+    /// Points of a curve, thinned so that every peak survives; it breaks off where no value is known.
+    fn stretches(&self, series: &Series, frame: &Frame) -> Vec<String> {
         let count = self.time.len().min(series.values.len());
         let chunk = count.div_ceil(COLUMNS).max(1);
-        let mut out = String::new();
+        let mut stretches = vec![String::new()];
         for start in (0..count).step_by(chunk) {
-            let range = start..(start + chunk).min(count);
+            let known = |index: &usize| series.values[*index].is_finite();
+            let range = || (start..(start + chunk).min(count)).filter(known);
             let by_value = |a: &usize, b: &usize| series.values[*a].total_cmp(&series.values[*b]);
-            let (Some(low), Some(high)) = (range.clone().min_by(by_value), range.max_by(by_value)) else {
+            let (Some(low), Some(high)) = (range().min_by(by_value), range().max_by(by_value)) else {
+                stretches.push(String::new());
                 continue;
             };
             let mut pair = [low, high];
             pair.sort_unstable();
             for index in if low == high { &pair[..1] } else { &pair[..] } {
-                let value = series.values[*index] * self.factor;
-                if value.is_finite() {
-                    let _ = write!(out, "{:.1},{:.1} ", frame.x(self.time[*index]), frame.y(value));
+                let (x, y) = (frame.x(self.time[*index]), frame.y(series.values[*index] * self.factor));
+                if let Some(stretch) = stretches.last_mut() {
+                    let _ = write!(stretch, "{x:.1},{y:.1} ");
                 }
             }
         }
-        out
+        stretches.retain(|stretch| !stretch.is_empty());
+        stretches
     }
 }
 
@@ -214,7 +215,17 @@ mod tests {
             LineChart { title: "t", unit: "N", factor: 1.0, time: &time, series: vec![series], levels: Vec::new() };
         let frame = chart.frame();
         let top = format!("{:.1}", frame.y(5.0));
-        assert!(chart.points(&chart.series[0], &frame).contains(&top));
+        assert!(chart.stretches(&chart.series[0], &frame)[0].contains(&top));
+    }
+
+    #[test]
+    fn a_curve_breaks_off_where_nothing_is_known() {
+        let values = [1.0, 2.0, f64::NAN, f64::NAN, 3.0, 4.0];
+        let series = Series { label: "a".into(), values: &values, colour: 0 };
+        let time = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        let chart =
+            LineChart { title: "t", unit: "N", factor: 1.0, time: &time, series: vec![series], levels: Vec::new() };
+        assert_eq!(chart.stretches(&chart.series[0], &chart.frame()).len(), 2);
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub fn pressure_diagram(diagram: &Diagram, highest: f64, tallest: f64) -> String
     if diagram.block > 0.0 && diagram.block_from > 0.0 {
         svg += &label(diagram.at(diagram.block_from), 0.5 * (diagram.block_from + diagram.block_to));
     }
-    svg += &format!("<text x=\"2\" y=\"{:.1}\">{top:.2} m</text>", up(top) + 4.0);
+    svg += &format!("<text x=\"2\" y=\"{:.1}\">{top:.2} m</text>", (up(top) + 4.0).min(BASE - 12.0));
     svg += &format!("<text x=\"2\" y=\"{BASE}\">bed</text></svg>");
     svg
 }
