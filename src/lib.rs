@@ -16,7 +16,10 @@
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
-//! | a load model | a file in [`loads`], its use in [`demand::from_loads`] |
+//! | a load case | a file in [`loads::cases`] and a line in its list; its words in `report::loads` |
+//! | another impact model | an entry of [`loads::ladder::MODELS`] |
+//! | a rule of detailing | a function and a line in [`checks::detailing`] |
+//! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
 //! | a time series | [`dem::recorders`] and a column in [`report::csv`] |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
