@@ -131,7 +131,7 @@ impl Simulation {
     /// Advances the model by one step.
     pub fn step(&mut self) -> Result<(), Unstable> {
         self.prepare()?;
-        self.advance();
+        self.advance(false);
         Ok(())
     }
 
@@ -140,7 +140,7 @@ impl Simulation {
     pub fn step_and_account(&mut self) -> Result<(), Unstable> {
         self.prepare()?;
         let before = self.motion_now();
-        self.advance();
+        self.advance(true);
         let after = self.motion_now();
         let barrier = &self.barrier_motion;
         self.ledger.kinetic = 0.5 * (before.kinetic + after.kinetic) + barrier.kinetic;
@@ -320,8 +320,8 @@ impl Simulation {
         }
     }
 
-    /// Moves everything through the step.
-    fn advance(&mut self) {
+    /// Moves everything through the step; `account` asks for the energy of the barrier's motion.
+    fn advance(&mut self, account: bool) {
         let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
         let law = self.law();
         if let Some(barrier) = &mut self.model.barrier {
@@ -330,7 +330,7 @@ impl Simulation {
         let own = self.barrier_law();
         let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, own, &time);
         self.gather_sums();
-        let fastest_node = self.advance_barrier(net, &own, &time);
+        let fastest_node = self.advance_barrier(net, &own, &time, account);
         self.neighbours.tick(&paces, time.step, fastest_node);
         self.steps += 1;
         self.time += self.time_step;
@@ -338,10 +338,11 @@ impl Simulation {
 
     /// Moves the barrier under its own forces at the start of the step, `net`, and those of the grains; returns the largest speed of
     /// a node (m/s).
-    fn advance_barrier(&mut self, net: NetForces, own: &LawConstants, time: &Stretch) -> f64 {
+    fn advance_barrier(&mut self, net: NetForces, own: &LawConstants, time: &Stretch, account: bool) -> f64 {
         let Some(barrier) = &mut self.model.barrier else { return 0.0 };
         let pushes = self.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
-        let BarrierStep { net, motion, fastest } = step_barrier(barrier, net, pushes, own, time, self.barrier_parts);
+        let BarrierStep { net, motion, fastest } =
+            step_barrier(barrier, net, pushes, own, time, self.barrier_parts, account);
         self.ledger.stored_barrier = net.stored;
         self.ledger.lost_ropes += net.lost_ropes;
         self.ledger.lost_friction += net.lost_rings;

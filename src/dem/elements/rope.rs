@@ -22,11 +22,12 @@ pub struct Pull {
 #[inline]
 pub fn pull(segment: &Segment, a: &Node, b: &Node) -> Pull {
     let line = b.position - a.position;
-    let length = line.norm();
-    let stretch = length - segment.rest_length;
-    if stretch <= 0.0 {
+    let square = line.norm_squared();
+    if square <= segment.rest_length * segment.rest_length {
         return Pull::default();
     }
+    let length = square.sqrt();
+    let stretch = (length - segment.rest_length).max(0.0);
     let direction = line / length;
     let rate = (b.velocity - a.velocity).dot(&direction);
     let spring = segment.stiffness * stretch;

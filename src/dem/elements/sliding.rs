@@ -5,6 +5,7 @@
 //! (capstan). Where they do not, rest length moves from the slack to the taut side until they do. A segment
 //! never gets shorter than a given share of its first length: there the rings touch.
 
+use crate::dem::Vec3;
 use crate::dem::tables::barrier::{Node, Segment};
 
 /// Segments of one rope in order from end to end; rings sit between them.
@@ -31,71 +32,97 @@ impl Chain {
     /// tension T_n+1 after the slide. The difference belongs to the slide:
     /// lost = Σ E' − E_n+1 − ½ (T' − T_n+1) ΔL over all segments, primed before the slide.
     pub fn slide(&self, segments: &mut [Segment], nodes: &[Node], step: f64) -> f64 {
-        let before: Vec<Side> = self.segments.iter().map(|&index| Side::of(&segments[index as usize], nodes)).collect();
+        let mut pieces: Vec<Piece> =
+            self.segments.iter().map(|&index| Piece::of(&segments[index as usize], nodes)).collect();
+        let before: Vec<[f64; 2]> = pieces.iter().map(|piece| [piece.tension(), piece.energy()]).collect();
+        let mut holds = vec![None; pieces.len()];
         for sweep in 0..SWEEPS {
-            let joints = 1..self.segments.len();
+            let joints = 1..pieces.len();
             if sweep % 2 == 0 {
-                joints.for_each(|joint| self.slide_at(joint, segments, nodes));
+                joints.for_each(|joint| self.slide_at(joint, &mut pieces, &mut holds));
             } else {
-                joints.rev().for_each(|joint| self.slide_at(joint, segments, nodes));
+                joints.rev().for_each(|joint| self.slide_at(joint, &mut pieces, &mut holds));
             }
         }
-        let lost = self.segments.iter().zip(&before).map(|(&index, before)| {
-            let segment = &segments[index as usize];
-            let after = Side::of(segment, nodes);
+        let mut lost = 0.0;
+        for ((&index, piece), [tension, energy]) in self.segments.iter().zip(&pieces).zip(before) {
+            let segment = &mut segments[index as usize];
+            if piece.rest_length == segment.rest_length {
+                continue;
+            }
+            segment.set_rest_length(piece.rest_length);
             let [a, b] = segment.nodes.map(|node| nodes[node as usize].pace);
-            let stretched = (b - a).dot(&after.direction) * step;
-            before.energy - after.energy - 0.5 * (before.tension - after.tension) * stretched
-        });
-        lost.sum()
+            let stretched = (b - a).dot(&piece.direction) * step;
+            lost += energy - piece.energy() - 0.5 * (tension - piece.tension()) * stretched;
+        }
+        lost
     }
 
-    /// Slides the rope through the ring between segments `joint − 1` and `joint`.
-    fn slide_at(&self, joint: usize, segments: &mut [Segment], nodes: &[Node]) {
-        let [first, second] = [self.segments[joint - 1] as usize, self.segments[joint] as usize];
-        let [a, b] = [first, second].map(|index| Side::of(&segments[index], nodes));
-        let cosine = a.direction.dot(&b.direction).clamp(-1.0, 1.0);
-        let hold = (self.friction * cosine.acos()).exp();
-        let (taut, slack, taut_index, slack_index) =
-            if a.tension > b.tension { (a, b, first, second) } else { (b, a, second, first) };
-        if taut.tension <= slack.tension * hold {
+    /// Slides the rope through the ring between pieces `joint − 1` and `joint`; `holds` keeps e^(μθ) of rings looked at before.
+    fn slide_at(&self, joint: usize, pieces: &mut [Piece], holds: &mut [Option<f64>]) {
+        let [first, second] = [pieces[joint - 1].tension(), pieces[joint].tension()];
+        let (taut, slack) = if first > second { (joint - 1, joint) } else { (joint, joint - 1) };
+        let (high, low) = (first.max(second), first.min(second));
+        let hold = match holds[joint] {
+            Some(hold) => hold,
+            None => {
+                let cosine = pieces[joint - 1].direction.dot(&pieces[joint].direction).clamp(-1.0, 1.0);
+                // A chord is no longer than its arc: e^(μθ) ≥ 1 + μ √(2 − 2 cos θ), which most rings need no more than.
+                if high <= low * (1.0 + self.friction * (2.0 - 2.0 * cosine).sqrt()) {
+                    return;
+                }
+                *holds[joint].insert(libm::exp(self.friction * libm::acos(cosine)))
+            }
+        };
+        if high <= low * hold {
             return;
         }
         for _ in 0..NEWTON_STEPS {
-            let [taut, slack] = [taut_index, slack_index].map(|index| Side::of(&segments[index], nodes));
+            let [giver, taker] = [&pieces[slack], &pieces[taut]];
             // Tension falls by EA L/l² per rest length given to the taut side, and rises likewise on the other.
-            let wanted = (taut.tension - hold * slack.tension) / (taut.slope + hold * slack.slope);
-            let moved = wanted.min(segments[slack_index].rest_length - self.shortest);
-            if moved == 0.0 || segments[taut_index].rest_length + moved < self.shortest {
+            let wanted = (taker.tension() - hold * giver.tension()) / (taker.slope() + hold * giver.slope());
+            let moved = wanted.min(giver.rest_length - self.shortest);
+            if moved == 0.0 || taker.rest_length + moved < self.shortest {
                 break;
             }
-            segments[taut_index].set_rest_length(segments[taut_index].rest_length + moved);
-            segments[slack_index].set_rest_length(segments[slack_index].rest_length - moved);
+            pieces[taut].rest_length += moved;
+            pieces[slack].rest_length -= moved;
         }
     }
 }
 
-/// One side of a ring.
-struct Side {
-    tension: f64,
-    /// −dT/dl, with l the rest length (N/m).
-    slope: f64,
-    direction: crate::dem::Vec3,
-    energy: f64,
+/// One side of a ring: a segment as it lies, with a rest length that may change.
+struct Piece {
+    /// EA (N)
+    axial: f64,
+    rest_length: f64,
+    length: f64,
+    direction: Vec3,
 }
 
-impl Side {
+impl Piece {
     fn of(segment: &Segment, nodes: &[Node]) -> Self {
         let [a, b] = segment.nodes.map(|node| &nodes[node as usize].position);
         let line = b - a;
         let length = line.norm();
-        let stretch = (length - segment.rest_length).max(0.0);
-        let tension = segment.stiffness * stretch;
-        Self {
-            tension,
-            slope: segment.stiffness * length / segment.rest_length,
-            direction: line / length,
-            energy: 0.5 * tension * stretch,
-        }
+        let axial = segment.stiffness * segment.rest_length;
+        Self { axial, rest_length: segment.rest_length, length, direction: line / length }
+    }
+
+    fn stretch(&self) -> f64 {
+        (self.length - self.rest_length).max(0.0)
+    }
+
+    fn tension(&self) -> f64 {
+        self.axial * self.stretch() / self.rest_length
+    }
+
+    fn energy(&self) -> f64 {
+        0.5 * self.tension() * self.stretch()
+    }
+
+    /// −dT/dl, with l the rest length (N/m).
+    fn slope(&self) -> f64 {
+        self.axial * self.length / self.rest_length.powi(2)
     }
 }

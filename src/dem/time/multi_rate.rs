@@ -23,14 +23,14 @@ use crate::dem::{Vec3, larger_or_nan};
 pub struct BarrierStep {
     /// Forces and tensions, mean over the step; energy stored, at its start.
     pub net: NetForces,
-    /// Motion at the start of the step.
+    /// Motion at the start of the step, where it was asked for.
     pub motion: MotionEnergy,
     /// Largest mean speed of a node (m/s).
     pub fastest: f64,
 }
 
 /// Moves the barrier through one step of the grains, in `parts` steps of its own. `net` holds the forces at the start; `law` the
-/// barrier's own step.
+/// barrier's own step; `account` asks for the energy of its motion.
 pub fn step_barrier<'a>(
     barrier: &mut Barrier,
     net: NetForces,
@@ -38,15 +38,18 @@ pub fn step_barrier<'a>(
     law: &LawConstants,
     time: &Stretch,
     parts: u32,
+    account: bool,
 ) -> BarrierStep {
     let own = Stretch { step: time.step / f64::from(parts), ..*time };
-    let before: Vec<Vec3> = barrier.nodes.iter().map(|node| node.position).collect();
+    let several = parts > 1;
+    let before: Vec<Vec3> = barrier.nodes.iter().filter(|_| several).map(|node| node.position).collect();
+    let told = account.then_some(&time.gravity);
     let mut first = net;
     pushes.for_each(|push| first.push(push, f64::from(parts)));
-    let mut motion = motion_of(barrier, &time.gravity);
+    let mut motion = told.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity));
     // The impulse of the grains acts at once, that of gravity and of the elements over the first part.
     first.take_over(barrier);
-    let after = go(barrier, &first, &own, Some(&time.gravity));
+    let after = go(barrier, &first, &own, told);
     motion.kinetic = 0.5 * (motion.kinetic + after.kinetic);
     motion.rotational = 0.5 * (motion.rotational + after.rotational);
     for _ in 1..parts {
@@ -56,7 +59,7 @@ pub fn step_barrier<'a>(
         first.go_on(&later);
     }
     first.share_out(parts);
-    let fastest = if parts == 1 { note_velocities(barrier) } else { note_paces(barrier, &before, time.step) };
+    let fastest = if several { note_paces(barrier, &before, time.step) } else { note_velocities(barrier) };
     BarrierStep { net: first, motion, fastest }
 }
 
