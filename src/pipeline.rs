@@ -11,8 +11,8 @@ use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Demands;
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::{Guideline, guideline};
-use crate::design::Design;
 use crate::design::read::DesignFile;
+use crate::design::{BarrierDesign, Design};
 use crate::fidelity::{Fidelity, choose};
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Event, Watch, run as run_event};
@@ -169,7 +169,8 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
         let simulated = simulate(design, &choose(design), &guideline, design.simulation.seed, watch)?;
         let mut demands = Demands::meet(&guideline, &[simulated.first()], design.factors.load);
         demands.leave_out_guideline();
-        Ok(Point::of(simulated.first().force_peak, &check_all(design, &demands)))
+        let point = Point::of(simulated.first().force_peak, &check_all(design, &demands));
+        Ok(if doubts(&simulated.numerics).is_empty() { point } else { point.unreliable() })
     };
     let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| answer(&variants[index]));
     run.varied = swings(&variants, points.into_iter().collect::<Result<_, _>>()?);
@@ -187,8 +188,10 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     let demands = Demands::meet(&guideline, &observed, file.design.factors.load);
     let outcomes = check_all(&file.design, &demands);
     let mut doubts = doubts;
-    if outcomes.iter().all(|outcome| outcome.verdict == CheckVerdict::Info) {
-        let what = "no check could be judged; a rigid wall wants its resistance or its stability in the design";
+    let wall = matches!(file.design.barrier, BarrierDesign::RigidWall(_));
+    let strength = |outcome: &&Outcome| outcome.id == "total_force" || outcome.id.starts_with("wall_");
+    if wall && outcomes.iter().filter(strength).all(|outcome| outcome.verdict == CheckVerdict::Info) {
+        let what = "nothing holds the wall's force against a resistance; give the wall's resistance or its stability";
         doubts.push(what.to_string());
     }
     let verdict = verdict(&outcomes, &doubts);

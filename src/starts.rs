@@ -2,23 +2,28 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Runs jobs side by side on `workers` cores, each in a pool of one thread of its own; results in the order of the jobs.
+/// Runs jobs side by side on `workers` cores, each on one thread; results in the order of the jobs. A job that panics panics here.
 pub fn side_by_side<T: Send>(workers: usize, count: usize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = std::sync::atomic::AtomicUsize::new(0);
     let work = || {
+        // Without a pool of its own a job would use that of the whole program, which changes the time it takes alone.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let mut done = Vec::new();
-        let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else { return done };
         loop {
             let index = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             if index >= count {
                 return done;
             }
-            done.push((index, pool.install(|| job(index))));
+            let result = pool.as_ref().map_or_else(|_| job(index), |pool| pool.install(|| job(index)));
+            done.push((index, result));
         }
+    };
+    let joined = |thread: std::thread::ScopedJoinHandle<'_, Vec<(usize, T)>>| {
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     };
     let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..workers.min(count).max(1)).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+        threads.into_iter().flat_map(joined).collect()
     });
     results.sort_by_key(|(index, _)| *index);
     results.into_iter().map(|(_, result)| result).collect()

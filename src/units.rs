@@ -102,7 +102,12 @@ impl Dimension {
 
     /// A value in SI written in this dimension's display unit, such as `15.2 m`.
     pub fn show(self, si: f64) -> String {
-        let symbol = self.display_symbol();
+        let symbol = match (self, si.abs()) {
+            (Self::Pressure, size) if size > 0.0 && size < 1e3 => "Pa",
+            (Self::Pressure, size) if size > 0.0 && size < 1e6 => "kPa",
+            (Self::Pressure, size) if size > 0.0 && size < 1e9 => "MPa",
+            _ => self.display_symbol(),
+        };
         let factor = factor_of(symbol).map_or(1.0, |(_, factor)| factor);
         let value = si / factor;
         let shown = if value != 0.0 && (value.abs() >= 1e5 || value.abs() < 1e-3) {
@@ -141,15 +146,13 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
         return fail(format!("`{trimmed}`, which does not start with a number"), None);
     };
     if unit.is_empty() {
-        return fail(format!("`{trimmed}`, a number without a unit"), Some(example(number, wanted)));
+        return fail(format!("`{trimmed}`, a number without a unit"), Some(with_a_unit(number, value, wanted)));
     }
     let symbol = unit.replace('^', "").replace('³', "3").replace('²', "2").replace('°', "deg");
     match factor_of(&symbol) {
         Some((dimension, factor)) if dimension == wanted && value.is_finite() => Ok(value * factor),
         Some((dimension, _)) if dimension == wanted => fail(format!("`{trimmed}`, which is not a finite number"), None),
-        Some((dimension, _)) => {
-            fail(format!("`{trimmed}`, which is {}", dimension.name()), Some(example(number, wanted)))
-        }
+        Some((dimension, _)) => fail(format!("`{trimmed}`, which is {}", dimension.name()), Some(units_of(wanted))),
         None => fail(format!("`{trimmed}`, whose unit `{unit}` is not known"), near_unit(&symbol, wanted, number)),
     }
 }
@@ -180,7 +183,29 @@ fn example(number: &str, wanted: Dimension) -> String {
     format!("write for example `{number} {}`", wanted.display_symbol())
 }
 
+/// What a number without a unit may have meant.
+fn with_a_unit(number: &str, value: f64, wanted: Dimension) -> String {
+    match wanted {
+        Dimension::Share if value.abs() <= 1.0 => {
+            format!("write for example `{} %`", trim_zeros(&format!("{:.4}", 100.0 * value)))
+        }
+        // Pressures of snow and moduli of steel are too far apart for an example to fit both.
+        Dimension::Pressure => units_of(wanted),
+        _ => example(number, wanted),
+    }
+}
+
+fn units_of(wanted: Dimension) -> String {
+    format!("write {} in {}", wanted.name(), wanted.symbols().join(", "))
+}
+
 fn near_unit(symbol: &str, wanted: Dimension, number: &str) -> Option<String> {
+    if wanted == Dimension::Density
+        && symbol.eq_ignore_ascii_case("kN/m3")
+        && let Ok(weight) = number.parse::<f64>()
+    {
+        return Some(format!("a weight is not a density: write `{:.0} kg/m3`", 1e3 * weight / GRAVITY));
+    }
     let same = wanted.symbols().into_iter().find(|known| known.eq_ignore_ascii_case(symbol));
     let near = same.or_else(|| crate::problem::nearest(symbol, wanted.symbols()));
     Some(match near {

@@ -71,7 +71,9 @@ impl Outcome {
     /// The governing demand must stay below the share `limit` of the design resistance; the capacity shown is their product.
     pub fn at_most(name: CheckName, demand: Demand, resistance: Resistance, limit: f64) -> Self {
         let capacity = resistance.characteristic / resistance.factor * limit;
-        let utilisation = demand.largest().map(|largest| largest / capacity);
+        // No capacity at all, or less than none, is no capacity to divide by.
+        let used = |largest: f64| if capacity > 0.0 { largest / capacity } else { f64::INFINITY };
+        let utilisation = demand.largest().map(used);
         Self { resistance: Some((resistance, limit)), ..Self::judged(name, demand, Some(capacity), utilisation) }
     }
 
@@ -126,6 +128,9 @@ mod tests {
         assert_eq!(verdict(101.0), CheckVerdict::Fail);
         assert_eq!(verdict(f64::NAN), CheckVerdict::Fail);
         assert_eq!(verdict(-f64::NAN), CheckVerdict::Fail);
+        let demand = Demand { guideline: Some(1.0), simulation: None };
+        let none = Resistance { characteristic: -5.0, factor: 1.0 };
+        assert_eq!(Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, none, 1.0).verdict, CheckVerdict::Fail);
     }
 
     #[test]

@@ -2,22 +2,12 @@
 
 use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
-use crate::design::{BarrierDesign, Design};
+use crate::design::{BarrierDesign, Design, Stability};
 use crate::loads::wall::WallInput;
 use crate::sources::WALL_BALANCE;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
-    let Some(stability) = wall.stability else { return Vec::new() };
-    let input = WallInput {
-        height: wall.height,
-        thickness: stability.thickness,
-        base_width: stability.base_width,
-        density: stability.density,
-        base_friction: stability.base_friction,
-        base_slope: stability.base_slope,
-        bed_slope: design.channel.slope,
-    };
+    let (Some(input), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
     let with_own = |demand: Demand, own: f64| Demand {
         guideline: demand.guideline.map(|value| value + own),
         simulation: demand.simulation.map(|value| value + own),
@@ -40,4 +30,27 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             1.0,
         ),
     ]
+}
+
+fn stability_of(design: &Design) -> Option<Stability> {
+    match &design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.stability,
+        BarrierDesign::FlexibleNet(_) => None,
+    }
+}
+
+/// The wall of the design, if it stands by its weight.
+pub fn wall_of(design: &Design) -> Option<WallInput> {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
+    let stability = wall.stability?;
+    let (base_slope, bed_slope) = (stability.base_slope, design.channel.slope);
+    Some(WallInput {
+        height: wall.height / (bed_slope - base_slope).cos(),
+        thickness: stability.thickness,
+        base_width: stability.base_width,
+        density: stability.density,
+        base_friction: stability.base_friction,
+        base_slope,
+        bed_slope,
+    })
 }

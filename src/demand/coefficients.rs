@@ -2,7 +2,7 @@
 //! guideline makes of the same depths and velocities (Albaba 2015, section 5.2, with the depth that its Eq. 5.4 lacks).
 //!
 //! F₁ = K ρ g' H_d (H_d/2 + h) and F₂ = ½ K ρ g' h² + λ ρ v² h, so that
-//! K_eff = 2 F₁/(ρ g' H_d (H_d + 2 h)) and λ_eff = (F₂ − ½ ρ g' h²)/(ρ v² h).
+//! K_eff = 2 F₁/(ρ g' H_d (H_d + 2 h)) and λ_eff = (F₂ − ½ K ρ g' h²)/(ρ v² h), with the design's K.
 
 use crate::dem::recorders::histories::{Histories, peak, smoothed};
 use crate::loads::input::GuidelineInput;
@@ -11,6 +11,13 @@ use crate::loads::input::GuidelineInput;
 /// or its velocity too small to tell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coefficients {
+    pub time: Vec<f64>,
+    /// Depth of the grains at rest H_d and of those that move over them h (m).
+    pub deposit: Vec<f64>,
+    pub moving: Vec<f64>,
+    /// m/s
+    pub velocity_upstream: Vec<f64>,
+    pub velocity_mean: Vec<f64>,
     /// By the simulation: of the grains at rest, and of the moving ones.
     pub force_dead: Vec<f64>,
     pub force_moving: Vec<f64>,
@@ -57,8 +64,17 @@ pub fn coefficients(
         let own = 0.5 * unit * depth * depth;
         let flux = |velocity: f64| input.density * velocity * velocity * depth;
         let lambda = |velocity: f64| {
-            if depth > grain && velocity > slow { (second - own) / flux(velocity) } else { f64::NAN }
+            if depth > grain && velocity > slow {
+                (second - input.earth_pressure * own) / flux(velocity)
+            } else {
+                f64::NAN
+            }
         };
+        told.time.push(histories.time.get(sample).copied().unwrap_or(0.0));
+        told.deposit.push(deposit);
+        told.moving.push(depth);
+        told.velocity_upstream.push(upstream[sample]);
+        told.velocity_mean.push(mean[sample]);
         told.force_dead.push(first);
         told.force_moving.push(second);
         told.guideline_dead.push(input.earth_pressure * fixed);
@@ -76,9 +92,14 @@ impl Coefficients {
         series.iter().copied().filter(|value| value.is_finite()).reduce(f64::max)
     }
 
+    /// The sample at which a force is largest.
+    pub fn peak_of(force: &[f64]) -> usize {
+        peak(force).0
+    }
+
     /// The value at the sample where `force` is largest.
     pub fn at_peak_of(series: &[f64], force: &[f64]) -> Option<f64> {
-        series.get(peak(force).0).copied().filter(|value| value.is_finite())
+        series.get(Self::peak_of(force)).copied().filter(|value| value.is_finite())
     }
 }
 
@@ -91,11 +112,11 @@ mod tests {
 
     #[test]
     fn a_barrier_loaded_by_the_guideline_shows_the_guideline_s_coefficients() {
-        let input = crate::loads::cases::tests::input();
+        let input = GuidelineInput { earth_pressure: 1.3, ..crate::loads::cases::tests::input() };
         let (width, deposit, depth, velocity) = (3.0, 1.5, 0.5, 4.0);
         let unit = input.density * input.gravity_normal;
         let first = 1.3 * unit * deposit * (0.5 * deposit + depth);
-        let second = 0.5 * unit * depth * depth + 0.8 * input.density * velocity * velocity * depth;
+        let second = 0.5 * 1.3 * unit * depth * depth + 0.8 * input.density * velocity * velocity * depth;
         let count = 20;
         let histories = Histories {
             force: vec![Vec3::new((first + second) * width, 0.0, 0.0); count],

@@ -2,9 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use crate::demand::larger;
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet};
-use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope};
-use crate::loads::fill::{Retention, level_deposit_height, retention};
+use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope, later_surge};
+use crate::loads::fill::{Deposit, Retention, level_deposit_height};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::units::GRAVITY;
@@ -23,6 +24,8 @@ pub struct Guideline {
     pub largest_moment: f64,
     /// Each main rope under its governing case, from the bottom; rope 1 is at rest when the bed holds it.
     pub ropes: Vec<RopeLoad>,
+    /// Plateau (N) and stroke (m) of the dissipators, if there are any.
+    pub dissipator: Option<[f64; 2]>,
     /// What the barrier holds; nothing on a level bed.
     pub retention: Option<Retention>,
 }
@@ -37,7 +40,7 @@ pub struct RopeLoad {
     /// The case that governs; nothing for a rope at rest.
     pub case: Option<LoadCase>,
     pub state: RopeState,
-    /// What each anchor takes along the rope's span and across it (N).
+    /// What each anchor takes along the rope's span and down the channel (N).
     pub anchor: [f64; 2],
 }
 
@@ -59,7 +62,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         |case: &LoadCase| case.moment_per_width() + case.point.map_or(0.0, |point| point.force * point.height / width);
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
-        BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &stages),
+        BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
     };
     Guideline {
         input,
@@ -67,8 +70,14 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         cases: all(&input, &extras),
         largest_force: governing.as_ref().map_or(0.0, total),
         governing,
-        largest_moment: stages.iter().map(moment).fold(0.0, f64::max),
+        largest_moment: stages.iter().map(moment).fold(0.0, larger),
         ropes,
+        dissipator: match &design.barrier {
+            BarrierDesign::FlexibleNet(net) => {
+                net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke])
+            }
+            BarrierDesign::RigidWall(_) => None,
+        },
         retention: held(design),
     }
 }
@@ -85,7 +94,11 @@ pub fn input(design: &Design) -> GuidelineInput {
         dynamic_pressure: design.factors.dynamic_pressure,
         depth,
         velocity,
-        fill_height: barrier_height.min(level.max(depth)),
+        fill_height: if design.loads.to_the_top || design.loads.overflow_depth.is_some() {
+            barrier_height
+        } else {
+            barrier_height.min(level.max(depth))
+        },
         barrier_height,
     }
 }
@@ -94,7 +107,7 @@ fn extras(design: &Design) -> Extras {
     let loads = &design.loads;
     Extras {
         overflow_depth: loads.overflow_depth,
-        overflow_friction: loads.overflow_friction,
+        overflow_drag: loads.overflow_drag.map(|(friction, length)| [friction, length]),
         drained: loads.drained.map(|(earth_pressure, density)| [earth_pressure, density]),
         point: loads.point_load.map(|(force, height)| PointLoad { force, height }),
         snow: loads.snow_pressure,
@@ -102,13 +115,18 @@ fn extras(design: &Design) -> Extras {
     }
 }
 
-/// The plumb height that the filled barrier keeps, and the volume behind it.
+/// The height that the filled barrier keeps, and the volume behind it.
 fn held(design: &Design) -> Option<Retention> {
     let slope = design.channel.slope;
-    let plumb = height_over_bed(design) / slope.cos();
-    let filled = design.loads.filled_height * plumb;
+    // A wall does not sag.
+    let share = match &design.barrier {
+        BarrierDesign::RigidWall(_) => 1.0,
+        BarrierDesign::FlexibleNet(_) => design.loads.filled_height,
+    };
+    let filled = share * height_over_bed(design);
     let surface = design.loads.deposit_slope * slope;
-    (slope > surface).then(|| retention(design.channel.width, slope, filled, surface, design.flow.volume()))
+    let shape = Deposit { width: design.channel.width, slope, lean: lean(design), height: filled, surface };
+    (slope > surface).then(|| shape.retention(design.flow.volume()))
 }
 
 /// Height of the barrier's top above the bed, normal to it (m).
@@ -154,7 +172,7 @@ fn lean(design: &Design) -> f64 {
 
 /// Each rope under the case that loads its tributary height most. The lowest rope also takes what an open gap below it
 /// would let through; the topmost carries the weight of the net.
-fn rope_loads(net: &FlexibleNet, design: &Design, stages: &[LoadCase]) -> Vec<RopeLoad> {
+fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages: &[LoadCase]) -> Vec<RopeLoad> {
     let rope = net.main_ropes.rope;
     let span = RopeInput {
         span: design.channel.width,
@@ -180,7 +198,14 @@ fn rope_loads(net: &FlexibleNet, design: &Design, stages: &[LoadCase]) -> Vec<Ro
                 // The weight hangs plumb, the pressure acts along the bed: they are (90° − α) apart.
                 (spread * spread + hung * hung + 2.0 * spread * hung * design.channel.slope.sin()).sqrt()
             };
-            let governing = stages.iter().max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
+            // The surge whose moving flow starts or ends with the strip may lie between the stages.
+            let room = (input.fill_height - input.moving_depth()).max(0.0);
+            let surge = |deposit: f64| LoadCase {
+                point: extras(design).point,
+                ..later_surge::case(input, deposit.clamp(0.0, room))
+            };
+            let own = [low, high.min(top) - input.depth].map(surge);
+            let governing = stages.iter().chain(&own).max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
             let load = design.factors.load * governing.map_or(0.0, on_rope);
             let state = span.under(load);
             let across = 0.5 * load * span.span;

@@ -57,8 +57,10 @@ pub struct Demands {
 
 impl Demands {
     /// `observed` holds what each start of the simulation showed; with several, a demand is the value that the next start
-    /// exceeds (or, for what must be kept, falls below) with a probability of 5 %. None: equations alone.
+    /// exceeds (or, for what must be kept, falls below) with a probability of 5 %; what a dissipator caps stays at its cap as long
+    /// as no start has gone beyond. None: equations alone.
     pub fn meet(guideline: &Guideline, observed: &[&Observed], load_factor: f64) -> Self {
+        let [plateau, stroke] = guideline.dissipator.unwrap_or([f64::INFINITY; 2]);
         let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.state.tension).collect();
         let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.state.stroke).collect();
         let highest = |values: &[f64]| values.iter().copied().reduce(larger);
@@ -69,14 +71,21 @@ impl Demands {
         let least = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.lower());
         let simulated = |simulation: Option<f64>| Demand { guideline: None, simulation };
         // The factor goes on the simulation alone: the guideline's ropes have it already.
-        let by_rope = |by_guideline: &[f64], quantity: &dyn Fn(&Observed) -> &Vec<f64>, factor: f64| -> Vec<Demand> {
-            let of = |rope: usize| Demand {
-                guideline: by_guideline.get(rope).copied(),
-                simulation: most(&|seen| quantity(seen)[rope]).map(|value| factor * value),
+        let by_rope =
+            |by_guideline: &[f64], quantity: &dyn Fn(&Observed) -> &Vec<f64>, factor: f64, cap: f64| -> Vec<Demand> {
+                let of = |rope: usize| {
+                    let largest = observed.iter().map(|seen| quantity(seen)[rope]).fold(0.0, larger);
+                    let capped = |value: f64| {
+                        if value > cap && largest <= cap * CAP_TOLERANCE { largest.max(cap) } else { value }
+                    };
+                    Demand {
+                        guideline: by_guideline.get(rope).copied(),
+                        simulation: most(&|seen| quantity(seen)[rope]).map(|value| factor * capped(value)),
+                    }
+                };
+                let ropes = observed.first().map_or(by_guideline.len(), |seen| quantity(seen).len());
+                (0..ropes).map(of).collect()
             };
-            let ropes = observed.first().map_or(by_guideline.len(), |seen| quantity(seen).len());
-            (0..ropes).map(of).collect()
-        };
         let total_force =
             Demand { guideline: Some(guideline.largest_force), simulation: most(&|seen| seen.force_peak) };
         let wall_force = Demand {
@@ -89,13 +98,14 @@ impl Demands {
             wall_force: wall_force.times(load_factor),
             wall_moment: wall_moment.times(load_factor),
             total_force: total_force.times(load_factor),
-            rope_tension: by_rope(&tensions, &|seen| &seen.rope_tension_peak, load_factor),
-            anchor_force: by_rope(&tensions, &|seen| &seen.anchor_force_peak, load_factor),
+            rope_tension: by_rope(&tensions, &|seen| &seen.rope_tension_peak, load_factor, f64::INFINITY),
+            anchor_force: by_rope(&tensions, &|seen| &seen.anchor_force_peak, load_factor, plateau),
             brake_force: Demand {
                 guideline: highest(&tensions),
-                simulation: most(&|seen| highest(&seen.brake_force_peak).unwrap_or(0.0)),
+                // Capped at the plateau, and so judged by the largest of the starts.
+                simulation: observed.iter().map(|seen| highest(&seen.brake_force_peak).unwrap_or(0.0)).reduce(larger),
             },
-            brake_stroke: by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0),
+            brake_stroke: by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0, stroke),
             net_tension: simulated(most(&|seen| seen.net_tension_peak)).times(load_factor),
             lateral_tension: simulated(most(&|seen| seen.lateral_tension_peak)).times(load_factor),
             retained: simulated(least(&|seen| seen.retained)),
@@ -120,7 +130,10 @@ impl Demands {
     }
 }
 
+/// Share by which rounding may lift a capped load above its cap.
+const CAP_TOLERANCE: f64 = 1.01;
+
 /// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.
-fn larger(a: f64, b: f64) -> f64 {
+pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -248,7 +248,8 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
         Kind::Choice(words) => match node {
             Node::Text(text) if words.contains(&text.as_str()) => Ok(Value::Text(text.clone())),
             Node::Text(text) => {
-                let near = nearest(text, words.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+                let near =
+                    nearest(&text.to_lowercase(), words.iter().copied()).map(|near| format!("did you mean `{near}`?"));
                 Err((node.describe(), near))
             }
             _ => Err((node.describe(), None)),
@@ -268,7 +269,7 @@ fn quantity(node: &Node, dimension: Dimension, low: f64, high: f64) -> Result<f6
     let value = units::parse(&text, dimension).map_err(|error| (error.found, error.hint))?;
     // Bounds are inclusive up to rounding of the unit's factor.
     if value < low - 1e-9 * low.abs() || value > high + 1e-9 * high.abs() {
-        return Err((format!("`{}`", text.trim()), Some("the value is out of range; is the unit right?".into())));
+        return Err((format!("`{}`", text.trim()), Some("the value or its unit is out of range".into())));
     }
     Ok(value)
 }

@@ -243,6 +243,8 @@ pub struct Factors {
     pub rope: f64,
     /// On anchor resistance.
     pub anchor: f64,
+    /// Share of a rope's breaking load that its ends hold.
+    pub rope_end: f64,
 }
 
 /// Loads beside those of the design flow; absent where the designer gives none.
@@ -250,8 +252,10 @@ pub struct Factors {
 pub struct OtherLoads {
     /// Depth of a flow over the full barrier (m).
     pub overflow_depth: Option<f64>,
-    /// tan φ of its drag on the top rope.
-    pub overflow_friction: Option<f64>,
+    /// tan φ of its drag on the barrier's top, and the length on which it rides there (m).
+    pub overflow_drag: Option<(f64, f64)>,
+    /// Whether surges come until the barrier is full.
+    pub to_the_top: bool,
     /// K and density (kg/m³) of the drained deposit.
     pub drained: Option<(f64, f64)>,
     /// Force (N) and height above the bed (m) of a boulder or log.

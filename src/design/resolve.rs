@@ -179,6 +179,7 @@ fn factors(e: &Entries) -> Option<Factors> {
         load: value("load")?,
         rope: value("rope")?,
         anchor: value("anchor")?,
+        rope_end: value("rope_end")?,
     })
 }
 
@@ -187,7 +188,8 @@ fn loads(e: &Entries) -> Option<OtherLoads> {
     let pair = |first: &str, second: &str| value(first).zip(value(second));
     Some(OtherLoads {
         overflow_depth: value("overflow_depth"),
-        overflow_friction: value("overflow_friction").map(f64::tan),
+        overflow_drag: value("overflow_friction").map(f64::tan).zip(value("overflow_length")),
+        to_the_top: e.text("loads.filling")? == "to_the_top",
         drained: pair("drained.earth_pressure_k", "drained.density"),
         point_load: pair("point_load.force", "point_load.height"),
         snow_pressure: value("snow_pressure"),

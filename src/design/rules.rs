@@ -22,6 +22,10 @@ pub const RULES: &[Rule] = &[
     surge_length_agrees,
     flow_within_side_walls,
     wall_segments_fill_the_wall,
+    wall_base_carries_the_wall,
+    wall_base_no_steeper_than_the_bed,
+    point_load_on_the_barrier,
+    overflow_has_friction_and_length,
     mesh_within_the_barrier,
     main_ropes_counted_once,
     rope_heights_increase,
@@ -209,6 +213,57 @@ fn wall_segments_fill_the_wall(e: &Entries) -> Option<Problem> {
             format!("parts that add up to the height {}", length(height)),
         )
     })
+}
+
+const STABILITY: &str = "barrier.rigid_wall.stability";
+
+fn wall_base_carries_the_wall(e: &Entries) -> Option<Problem> {
+    let path = format!("{STABILITY}.base_width");
+    let (base, thickness) = (e.number(&path)?, e.number(&format!("{STABILITY}.thickness"))?);
+    (base < thickness).then(|| {
+        Problem::new(
+            path,
+            format!("a base of {}", length(base)),
+            format!("at least the thickness, {}", length(thickness)),
+        )
+        .hint("the base reaches from the wall's upstream face downstream")
+    })
+}
+
+fn wall_base_no_steeper_than_the_bed(e: &Entries) -> Option<Problem> {
+    let path = format!("{STABILITY}.base_slope");
+    let (base, bed) = (e.number(&path)?, e.number("channel.slope")?);
+    (base > bed).then(|| {
+        let show = |angle| Dimension::Angle.show(angle);
+        Problem::new(
+            path,
+            format!("a base of {}", show(base)),
+            format!("no more than the slope of the bed, {}", show(bed)),
+        )
+        .hint("on a steeper base the load would lift the wall, which is not checked")
+    })
+}
+
+fn point_load_on_the_barrier(e: &Entries) -> Option<Problem> {
+    let path = "loads.point_load.height";
+    let height = e.number(path)?;
+    let barrier = e.number("barrier.rigid_wall.height").or_else(|| e.number(&at("height")))?;
+    (height > barrier).then(|| {
+        Problem::new(path, length(height), format!("no more than the height of the barrier, {}", length(barrier)))
+    })
+}
+
+fn overflow_has_friction_and_length(e: &Entries) -> Option<Problem> {
+    let [friction, stretch] = ["loads.overflow_friction", "loads.overflow_length"];
+    let (given, missing) = match (e.mentions(friction), e.mentions(stretch)) {
+        (true, false) => (friction, stretch),
+        (false, true) => (stretch, friction),
+        _ => return None,
+    };
+    Some(
+        Problem::new(given, format!("no `{missing}`"), "both or neither")
+            .hint("the drag of an overtopping flow is its weight on that length times tan of that angle"),
+    )
 }
 
 fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {

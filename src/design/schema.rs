@@ -278,6 +278,12 @@ const FACTORS: &[Key] = &[
     Key::default("load", Kind::Number { low: 1.0, high: 5.0 }, "1", "partial factor on loads"),
     Key::default("rope", Kind::Number { low: 1.0, high: 5.0 }, "1.5", "partial factor on rope resistance"),
     Key::default("anchor", Kind::Number { low: 1.0, high: 5.0 }, "1.1", "partial factor on anchor resistance"),
+    Key::default(
+        "rope_end",
+        Kind::Number { low: 0.5, high: 1.0 },
+        "1",
+        "share of a rope's breaking load that its ends hold: 1 for sockets, less for ferrules and grips",
+    ),
 ];
 
 const LOADS: &[Key] = &[
@@ -289,17 +295,28 @@ const LOADS: &[Key] = &[
     Key::optional(
         "overflow_friction",
         FRICTION,
-        "friction angle of the overtopping flow on the top rope; only if given does its drag enter a check",
+        "friction angle of the overtopping flow on the barrier's top; its drag enters the checks if this and the length are given",
+    ),
+    Key::optional(
+        "overflow_length",
+        quantity(D::Length, 0.001, 100.0),
+        "length over which the overtopping flow rides on the barrier's top",
+    ),
+    Key::default(
+        "filling",
+        Kind::Choice(&["to_the_top", "one_event"]),
+        "to_the_top",
+        "surges come until the barrier is full; or one event only fills what it can and the barrier is emptied before the next",
     ),
     Key::optional("drained", Kind::Section(DRAINED), "the deposit once it has drained"),
-    Key::optional("point_load", Kind::Section(POINT_LOAD), "a boulder or log, added to the first surge"),
+    Key::optional("point_load", Kind::Section(POINT_LOAD), "a boulder or log, added to every surge"),
     Key::optional("snow_pressure", quantity(D::Pressure, 1.0, 1e6), "uniform pressure of snow on the barrier"),
     Key::optional("self_weight", quantity(D::Pressure, 0.1, 1e5), "weight of the net per area, hung on the top rope"),
     Key::default(
         "filled_height",
         quantity(D::Share, 0.1, 1.0),
         "75 %",
-        "height of the filled barrier over its first, for the volume it holds (from memory of practice)",
+        "height of a filled net over its first, for the volume it holds (from memory of practice)",
     ),
     Key::default(
         "deposit_slope",

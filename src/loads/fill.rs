@@ -8,13 +8,24 @@ pub fn level_deposit_height(volume_per_width: f64, slope: f64, lean: f64) -> f64
     if spread > 0.0 { (2.0 * volume_per_width / spread).sqrt() } else { f64::INFINITY }
 }
 
+/// A deposit with a plane surface behind a barrier in a prismatic channel; lengths in m, angles in rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deposit {
+    pub width: f64,
+    /// Of the bed, θ.
+    pub slope: f64,
+    /// By which the barrier leans upstream from the bed's normal.
+    pub lean: f64,
+    /// At the barrier, normal to the bed, H.
+    pub height: f64,
+    /// Slope of its surface, θ'.
+    pub surface: f64,
+}
+
 /// What a barrier can hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Retention {
-    /// Plumb height of the filled barrier h' (m).
-    pub filled_height: f64,
-    /// Slope of the deposit's surface θ' (rad).
-    pub deposit_slope: f64,
+    pub deposit: Deposit,
     /// Volume held V (m³).
     pub volume: f64,
     /// Length of the deposit, level (m).
@@ -23,13 +34,13 @@ pub struct Retention {
     pub surges: f64,
 }
 
-/// V = b h'²/(2 (tan θ − tan θ')) and length h'/(tan θ − tan θ') for a plumb barrier in a prismatic channel of width b and
-/// slope θ. Derived; the shares of height and slope are the designer's.
-pub fn retention(width: f64, slope: f64, filled_height: f64, deposit_slope: f64, flow_volume: f64) -> Retention {
-    let difference = slope.tan() - deposit_slope.tan();
-    let length = filled_height / difference;
-    let volume = 0.5 * width * filled_height * length;
-    Retention { filled_height, deposit_slope, volume, length, surges: volume / flow_volume }
+impl Deposit {
+    /// V = ½ b H² (cot(θ − θ') + tan lean); for a plumb barrier b h'²/(2 (tan θ − tan θ')) with h' = H/cos θ. Derived.
+    pub fn retention(self, flow_volume: f64) -> Retention {
+        let base = self.height * ((self.slope - self.surface).tan().recip() + self.lean.tan());
+        let volume = 0.5 * self.width * self.height * base;
+        Retention { deposit: self, volume, length: base * self.slope.cos(), surges: volume / flow_volume }
+    }
 }
 
 #[cfg(test)]
@@ -46,8 +57,11 @@ mod tests {
 
     #[test]
     fn matches_the_derived_volume() {
-        // H_b 5 m filled to 3/4, θ 20°, θ' 13.33°, b 12 m: 664.5 m³ over 29.5 m.
-        let held = retention(12.0, 20_f64.to_radians(), 3.75, 13.333_f64.to_radians(), 332.25);
+        // Plumb, H_b 5 m filled to 3/4, θ 20°, θ' 13.33°, b 12 m: 664.5 m³ over 29.5 m.
+        let slope = 20_f64.to_radians();
+        let shape =
+            Deposit { width: 12.0, slope, lean: slope, height: 3.75 * slope.cos(), surface: 13.333_f64.to_radians() };
+        let held = shape.retention(332.25);
         assert_relative_eq!(held.volume, 664.5, max_relative = 1e-3);
         assert_relative_eq!(held.length, 29.5, max_relative = 2e-3);
         assert_relative_eq!(held.surges, 2.0, max_relative = 1e-3);

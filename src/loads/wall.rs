@@ -3,12 +3,13 @@
 //!
 //! Its weight W = ρ g t H presses N = W cos β on the base and pulls T = W sin β down it. Sliding: R cos(α − β) + T ≤ N tan φ.
 //! Overturning: M_R + T H/2 ≤ N (b − t/2), with b the width of the base from the wall's upstream face and M_R the moment of
-//! the load about the bed. That R also presses the wall down, the weight of the flow and its friction on the wall are left
+//! the load about the upstream end of the base: no less than about the downstream edge. That R also presses the wall down, the weight of the flow and its friction on the wall are left
 //! out, which is on the safe side.
 
-/// A gravity wall, SI.
+/// A gravity wall, SI; it stands upright on its base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallInput {
+    /// Along the wall (m): its height normal to the bed over cos(α − β).
     pub height: f64,
     pub thickness: f64,
     pub base_width: f64,

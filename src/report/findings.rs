@@ -80,7 +80,7 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
     let at_peak = row(
         "K by the split, when F₁ is largest",
         of(Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead)),
-        "F₁ over ρ g' H_d (H_d/2 + h) of the depths seen then",
+        format!("F₁ over ρ g' H_d (H_d/2 + h); {}", words_at(told, Coefficients::peak_of(&told.force_dead))),
     );
     let moving = row(
         "λ by the split, when F₂ is largest",
@@ -89,9 +89,27 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
             of(Coefficients::at_peak_of(&told.dynamic_upstream, &told.force_moving)),
             of(Coefficients::at_peak_of(&told.dynamic_mean, &told.force_moving))
         ),
-        "(F₂ − ½ ρ g' h²)/(ρ v² h), with the velocity just upstream / with the mean velocity of all grains",
+        format!(
+            "(F₂ − ½ K ρ g' h²)/(ρ v² h) with the design's K, with the velocity just upstream / with the mean velocity of all grains; {}",
+            words_at(told, Coefficients::peak_of(&told.force_moving))
+        ),
     );
     k.into_iter().chain(lambda).chain([at_peak, moving, side_row(told)]).collect()
+}
+
+/// What the split is made of at one sample.
+fn words_at(told: &Coefficients, sample: usize) -> String {
+    let of = |series: &[f64], unit| with_unit(series.get(sample).copied().unwrap_or(0.0), unit);
+    format!(
+        "at {:.2} s F₁ = {}, F₂ = {}, H_d = {}, h = {}, v = {} / {}",
+        told.time.get(sample).copied().unwrap_or(0.0),
+        of(&told.force_dead, "N/m"),
+        of(&told.force_moving, "N/m"),
+        of(&told.deposit, "m"),
+        of(&told.moving, "m"),
+        of(&told.velocity_upstream, "m/s"),
+        of(&told.velocity_mean, "m/s"),
+    )
 }
 
 /// On which side the guideline errs.

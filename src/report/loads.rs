@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::checks::detailing;
+use crate::checks::wall::wall_of;
 use crate::demand::from_loads::RopeLoad;
 use crate::loads::cases::{LoadCase, split};
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
@@ -82,8 +83,11 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
         pressure_static: with_unit(case.pressure_static(), "Pa"),
         pressure_dynamic: with_unit(case.diagram.block, "Pa"),
         force_per_width: with_unit(case.force_per_width(), "N/m"),
-        moment: with_unit(case.moment_per_width(), "N m/m"),
-        total: with_unit(case.force_per_width() * width, "N"),
+        moment: with_unit(
+            case.moment_per_width() + case.point.map_or(0.0, |point| point.force * point.height / width),
+            "N m/m",
+        ),
+        total: with_unit(case.force_per_width() * width + case.point.map_or(0.0, |point| point.force), "N"),
         formula: case.formula,
         working: working(run, case),
         remark: remark(run, case),
@@ -100,10 +104,20 @@ fn working(run: &Run, case: &LoadCase) -> String {
     let unit_text = format!("{unit:.3}");
     let result = with_unit(case.force_per_width(), "N/m");
     let block = format!("{:.3} · {:.3}", case.diagram.block / 1e3, case.moving);
-    let surge = |height: f64| format!("½ · {unit_text} · {height:.3}² + {block}");
+    let surge = |height: f64| {
+        let over = height - case.diagram.top;
+        if over > 0.0 {
+            let beside = case.diagram.top - case.deposit;
+            return format!(
+                "½ · {unit_text} · ({height:.3}² − {over:.3}²) + {:.3} · {beside:.3} (the flow is deeper than the barrier)",
+                case.diagram.block / 1e3
+            );
+        }
+        format!("½ · {unit_text} · {height:.3}² + {block}")
+    };
     let body = match case.id {
-        "first_surge" | "point_load" => surge(case.moving),
-        "last_surge" => surge(case.deposit + case.moving),
+        "first_surge" => surge(case.moving),
+        "last_surge" | "point_load" => surge(case.deposit + case.moving),
         "overtopped" => {
             let top = case.diagram.top;
             format!("½ · {unit_text} · ({top:.3}² + 2 · {top:.3} · {:.3})", case.moving)
@@ -113,6 +127,10 @@ fn working(run: &Run, case: &LoadCase) -> String {
     };
     let pressures = match case.id {
         "snow" => String::new(),
+        "full" | "overtopped" => format!(
+            "K ρ g' = {:.2} · {:.0} · {:.3} = {unit_text} kN/m³. ",
+            input.earth_pressure, input.density, input.gravity_normal
+        ),
         "drained" => format!("K ρ g' = {unit_text} kN/m³. "),
         _ => format!(
             "K ρ g' = {:.2} · {:.0} · {:.3} = {unit_text} kN/m³; λ ρ v² = {:.2} · {:.0} · {:.2}² = {:.1} kPa. ",
@@ -130,7 +148,7 @@ fn working(run: &Run, case: &LoadCase) -> String {
 
 fn remark(run: &Run, case: &LoadCase) -> String {
     let mut parts = Vec::new();
-    if case.moving > 0.0 && case.deposit > 0.0 && case.shear == 0.0 {
+    if case.moving > 0.0 && case.deposit > 0.0 && case.shear == 0.0 && case.diagram.top >= case.diagram.surface {
         let (first, second) = split(&run.guideline.input, case);
         parts.push(format!(
             "of it by the deposit F₁ = {}, by the moving flow F₂ = {}",
@@ -142,19 +160,23 @@ fn remark(run: &Run, case: &LoadCase) -> String {
         let enters = if case.shear_certainty.decides() {
             "enters the checks"
         } else {
-            "told only: set loads.overflow_friction to have it checked"
+            "told only: give loads.overflow_friction and overflow_length to have it checked"
         };
-        parts.push(format!("drag on the top rope ρ g' h_o² tan φ = {} ({enters})", with_unit(case.shear, "N/m")));
+        parts.push(format!("drag on the barrier's top = {} ({enters})", with_unit(case.shear, "N/m")));
     }
     if let Some(point) = case.point {
-        parts.push(format!("with {} at {}", with_unit(point.force, "N"), with_unit(point.height, "m")));
+        parts.push(format!(
+            "in force and moment, not in force per width: {} at {}; on a rope as the uniform load 2 P/L, shared by lever between the ropes beside it",
+            with_unit(point.force, "N"),
+            with_unit(point.height, "m")
+        ));
     }
     parts.join("; ")
 }
 
 pub fn ropes(run: &Run) -> Vec<RopeRow> {
     let row = |(index, rope): (usize, &RopeLoad)| {
-        let case = rope.case.as_ref()?;
+        let case = rope.case.as_ref().filter(|_| rope.load > 0.0)?;
         let strip = if rope.strip[1].is_finite() {
             format!("{:.2} to {:.2} m", rope.strip[0], rope.strip[1])
         } else {
@@ -169,23 +191,81 @@ pub fn ropes(run: &Run) -> Vec<RopeRow> {
             sag: with_unit(rope.state.sag, "m"),
             tension: with_unit(rope.state.tension, "N"),
             stroke: with_unit(rope.state.stroke, "m"),
-            anchor: format!("{} along, {} across", with_unit(rope.anchor[0], "N"), with_unit(rope.anchor[1], "N")),
-            working: rope_working(run, rope),
+            anchor: format!(
+                "{} along the span, {} down the channel",
+                with_unit(rope.anchor[0], "N"),
+                with_unit(rope.anchor[1], "N")
+            ),
+            working: rope_working(run, rope, case),
         })
     };
     run.guideline.ropes.iter().enumerate().filter_map(row).collect()
 }
 
-fn rope_working(run: &Run, rope: &RopeLoad) -> String {
-    let span = run.file.design.channel.width;
+/// Load and tension with their numbers, in kN and m.
+fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
+    let design = &run.file.design;
+    let diagram = &case.diagram;
+    let (low, high) = (rope.strip[0], rope.strip[1].min(diagram.top));
+    let depth = |height: f64| (diagram.surface - height).max(0.0);
+    let beside = (high.min(diagram.block_to) - low.max(diagram.block_from)).max(0.0);
+    let factor = if design.factors.load == 1.0 { String::new() } else { format!("{:.2} · ", design.factors.load) };
+    let more = match (case.point.is_some(), design.loads.self_weight.is_some(), case.shear > 0.0) {
+        (false, false, false) => "",
+        _ => ", with point load, drag and weight as given",
+    };
+    let span = design.channel.width;
     let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
     let half = 0.5 * rope.load * span / 1e3;
     format!(
-        "H = q L²/(8 f) = {:.2} · {span:.2}²/(8 · {:.3}) = {horizontal:.1} kN; T = √({horizontal:.1}² + {half:.1}²) = {:.1} kN",
+        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3}){more} = {:.2} kN/m; H = q L²/(8 f) = {:.2} · {span:.2}²/(8 · {:.3}) = {horizontal:.1} kN; T = √({horizontal:.1}² + {half:.1}²) = {:.1} kN",
+        diagram.unit / 1e3,
+        depth(low),
+        depth(high),
+        diagram.block / 1e3,
+        rope.load / 1e3,
         rope.load / 1e3,
         rope.state.sag,
         horizontal.hypot(half),
     )
+}
+
+/// The balance of a wall that stands by its weight.
+pub fn wall(run: &Run) -> Vec<Row> {
+    let design = &run.file.design;
+    let Some(wall) = wall_of(design) else { return Vec::new() };
+    let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
+    let ([hold, pull], [right, tilt]) = (wall.sliding(), wall.overturning());
+    vec![
+        row(
+            "Length along the wall",
+            with_unit(wall.height, "m"),
+            "height normal to the bed over cos(α − β); the wall stands upright on its base of slope β",
+        ),
+        row("Weight W", with_unit(wall.weight(), "N/m"), "ρ g t H"),
+        row("Holds against sliding", with_unit(hold, "N/m"), "W cos β tan φ, without partial factor"),
+        row(
+            "Demand for sliding",
+            format!("R · {:.3} + {}", wall.load_share(), with_unit(pull, "N/m")),
+            "R cos(α − β) + W sin β; R with the partial factor on loads",
+        ),
+        row(
+            "Holds against overturning",
+            with_unit(right, "N m/m"),
+            "W cos β (b − t/2) about the downstream edge, without partial factor",
+        ),
+        row(
+            "Demand for overturning",
+            format!("M + {}", with_unit(tilt, "N m/m")),
+            "M of the load about the upstream end of the base, no less than about the edge, + W sin β H/2",
+        ),
+        row(
+            "Left out, on the safe side",
+            "–".into(),
+            "that the load presses the wall down; the weight of the deposit; friction of the deposit on the wall",
+        ),
+        row("Not checked", "–".into(), "pressure under the base, uplift by water, the ground, the wall's own strength"),
+    ]
 }
 
 pub fn ladder(run: &Run) -> Vec<LadderRow> {
@@ -219,9 +299,11 @@ pub fn holding(run: &Run) -> Vec<Row> {
             "Volume held behind the barrier",
             with_unit(held.volume, "m³"),
             format!(
-                "V = b h'²/(2 (tan θ − tan θ')), h' = {}, θ' = {:.1}°, over {} of channel; shares of height and slope from the design or from memory of practice",
-                with_unit(held.filled_height, "m"),
-                held.deposit_slope.to_degrees(),
+                "V = ½ b H² (cot(θ − θ') + tan of the lean), H = {}, θ = {:.1}°, θ' = {:.1}°, lean from the bed's normal {:.1}°, over {} of channel; shares of height and slope from the design or from memory of practice",
+                with_unit(held.deposit.height, "m"),
+                held.deposit.slope.to_degrees(),
+                held.deposit.surface.to_degrees(),
+                held.deposit.lean.to_degrees(),
                 with_unit(held.length, "m")
             ),
         ));

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
-use crate::design::{BarrierDesign, BarrierModel, Design};
+use crate::design::{Arrival, BarrierDesign, BarrierModel, Design};
 use crate::pipeline::{Run, Simulated, Verdict};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
@@ -23,7 +23,12 @@ pub struct View {
     pub cases: Vec<CaseRow>,
     pub ropes: Vec<RopeRow>,
     pub ladder: Vec<LadderRow>,
+    pub wall: Vec<Row>,
     pub holding: Vec<Row>,
+    /// Which start the findings and charts are of.
+    pub start: String,
+    /// How demands follow from several starts.
+    pub by_starts: String,
     pub rules: Vec<RuleRow>,
     pub tornado: Vec<SwingRow>,
     pub margin: String,
@@ -75,16 +80,50 @@ pub struct InputRow {
     pub meaning: &'static str,
 }
 
-const ASSUMPTIONS: &[&str] = &[
-    "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
-    "The flow is dry: no water pressure, no cohesion, no breakage of grains.",
-    "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
-    "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
-    "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.",
-    "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
-    "Strokes of the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
-    "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed; the barrier fills at most to a level surface of the design volume.",
-];
+/// What is assumed, as far as it bears on this design.
+fn assumptions(run: &Run) -> Vec<&'static str> {
+    let design = &run.file.design;
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let default_arrival = match design.flow.arrival {
+        Arrival::DamBreak(block) => block.depth_at_barrier.is_none() || block.velocity_at_barrier.is_none(),
+        Arrival::Surge { .. } => false,
+    };
+    let simulated = run.simulated.is_some();
+    let list = [
+        (
+            simulated,
+            "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
+        ),
+        (simulated, "The flow is dry: no water pressure, no cohesion, no breakage of grains."),
+        (
+            true,
+            "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
+        ),
+        (
+            net,
+            "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
+        ),
+        (net, "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone."),
+        (
+            net && simulated,
+            "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
+        ),
+        (
+            net && simulated,
+            "Strokes and tensions of dissipators in the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
+        ),
+        (
+            default_arrival,
+            "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed, where the design does not give them.",
+        ),
+        (
+            net,
+            "By the equations each main rope carries its strip as a uniform load across the channel, alone: neither net nor lateral ropes share it out.",
+        ),
+    ];
+    let kept = list.into_iter().filter(|(applies, _)| *applies).map(|(_, text)| text);
+    kept.chain(of_ropes(design).filter(|_| simulated)).collect()
+}
 
 /// What the model of the barrier assumes of its ropes.
 fn of_ropes(design: &Design) -> Option<&'static str> {
@@ -102,13 +141,23 @@ fn of_ropes(design: &Design) -> Option<&'static str> {
     }
 }
 
-const NOT_CHECKED: &[&str] = &[
-    "scour, abutments and foundations",
-    "corrosion, abrasion and maintenance",
-    "the bolts or anchors that hold the lowest rope to the bed; the rings",
-    "impact of single boulders larger than the design grains, and of wood",
-    "later surges on a filled barrier, drainage of the deposit, snow",
-];
+/// What nobody has looked at.
+fn not_checked(design: &Design) -> Vec<&'static str> {
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let loads = &design.loads;
+    let list = [
+        (true, "scour, abutments and foundations"),
+        (true, "corrosion, abrasion and maintenance"),
+        (
+            net,
+            "the bolts or anchors that hold the lowest rope to the bed; the rings; punching of the mesh by a single stone",
+        ),
+        (loads.point_load.is_none(), "impact of single boulders larger than the design grains, and of wood"),
+        (loads.drained.is_none(), "drainage of the deposit"),
+        (loads.snow_pressure.is_none(), "snow"),
+    ];
+    list.into_iter().filter(|(applies, _)| *applies).map(|(_, text)| text).collect()
+}
 
 impl View {
     pub fn of(run: &Run) -> Self {
@@ -138,7 +187,10 @@ impl View {
             cases: loads::cases(run),
             ropes: loads::ropes(run),
             ladder: loads::ladder(run),
+            wall: loads::wall(run),
             holding: loads::holding(run),
+            start: run.simulated.as_ref().map_or(String::new(), |seen| start_named(seen)),
+            by_starts: run.simulated.as_ref().map_or(String::new(), |seen| by_starts(seen)),
             rules: loads::rules(run),
             tornado: loads::tornado(run),
             margin: loads::margin(run),
@@ -147,8 +199,8 @@ impl View {
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| charts(run, seen)),
             inputs: input_rows(run),
-            assumptions: ASSUMPTIONS.iter().copied().chain(of_ropes(&run.file.design)).collect(),
-            not_checked: NOT_CHECKED.to_vec(),
+            assumptions: assumptions(run),
+            not_checked: not_checked(&run.file.design),
             numerics: run.simulated.as_ref().map_or_else(Vec::new, super::findings::numerics_rows),
             version: env!("CARGO_PKG_VERSION"),
             sha256: run.file.sha256.clone(),
@@ -177,6 +229,13 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
     let governing = governing.map_or(String::new(), |outcome| {
         format!(" Governing: {} ({}).", outcome.title.to_lowercase(), percent(outcome.utilisation))
     });
+    let broken = loads::rules(run).iter().filter(|rule| rule.verdict == "warn").count();
+    let broken = match broken {
+        0 => String::new(),
+        1 => " One rule of detailing or range is not kept.".to_string(),
+        count => format!(" {count} rules of detailing or range are not kept."),
+    };
+    let governing = format!("{governing}{broken}");
     match run.verdict {
         Verdict::Undecided => {
             let alone = held.iter().filter(by_guideline).count();
@@ -185,9 +244,20 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
                 if run.simulated.is_some() { "The simulation cannot be relied on" } else { "Nothing is decided" };
             format!("{what}; see the reasons below.{hint}")
         }
-        Verdict::Fail => format!("{failed} of {} checks fail.{governing}", held.len()),
+        Verdict::Fail => {
+            let alone = if run.simulated.is_some() { "" } else { ", by the equations alone" };
+            format!("{failed} of {} checks fail{alone}.{governing}", held.len())
+        }
         Verdict::Pass => {
-            let alone = if run.simulated.is_some() { "" } else { " by the equations alone; nothing was simulated" };
+            let unjudged = run.outcomes.iter().filter(|outcome| outcome.capacity.is_some()).count()
+                - held.len().min(run.outcomes.len());
+            let alone = match &run.simulated {
+                None => format!(" by the equations alone; {unjudged} more need the simulation"),
+                Some(simulated) if simulated.starts.len() == 1 => {
+                    "; one start, so its scatter is not known (--seeds)".to_string()
+                }
+                Some(_) => String::new(),
+            };
             let close = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Warn).count();
             let close = if close > 0 { format!(", {close} with less than 10 % to spare") } else { String::new() };
             format!("{0} of {0} checks hold{close}{alone}.{governing}", held.len())
@@ -276,6 +346,24 @@ pub fn figures(value: f64) -> String {
 fn guideline_rows(run: &Run) -> Vec<Row> {
     let input = &run.guideline.input;
     let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
+    let design = &run.file.design;
+    let filling = if input.fills() {
+        "normal to the bed: surges come until the barrier is full (loads.filling)"
+    } else {
+        "normal to the bed: one event only, to a level surface of its volume; the barrier is emptied before the next (loads.filling)"
+    };
+    let values = &design.factors;
+    let factors = format!("load {}, rope {}, anchor {}", values.load, values.rope, values.anchor);
+    let set = run.file.entries.text("factors.set").unwrap_or("none");
+    let typed =
+        ["load", "rope", "anchor"].into_iter().filter(|name| run.file.entries.mentions(&format!("factors.{name}")));
+    let typed = typed.collect::<Vec<_>>().join(", ");
+    let factor_remark = match (set, typed.as_str()) {
+        ("none", "") => "defaults".to_string(),
+        ("none", typed) => format!("typed in the design: {typed}"),
+        (set, "") => format!("of the set {set}"),
+        (set, typed) => format!("of the set {set}, but for what is typed in the design: {typed}"),
+    };
     vec![
         row("K", figures(input.earth_pressure), &format!("static pressure K ρ g H cos α; {VOLKWEIN_2014}")),
         row("λ", figures(input.dynamic_pressure), &format!("dynamic pressure λ ρ v²; {VOLKWEIN_2014}")),
@@ -283,8 +371,26 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
         row("Depth h", with_unit(input.depth, "m"), "of the moving flow"),
         row("Velocity v", with_unit(input.velocity, "m/s"), "of the moving flow"),
         row("Froude number", figures(input.froude()), "v/√(g h cos α)"),
-        row("Height of filling", with_unit(input.fill_height, "m"), "normal to the bed"),
+        row("Height of filling", with_unit(input.fill_height, "m"), filling),
+        row("Partial factors", factors, &factor_remark),
     ]
+}
+
+fn start_named(run: &Simulated) -> String {
+    match run.starts.len() {
+        1 => String::new(),
+        starts => format!(" (start 1 of {starts}, seed {})", run.starts[0].seed),
+    }
+}
+
+fn by_starts(run: &Simulated) -> String {
+    match run.starts.len() {
+        1 => String::new(),
+        starts => format!(
+            "Demands of the simulation are the mean of {starts} starts plus {:.2} standard deviations (for what must be kept: minus), the value that the next start exceeds with a probability of 5 % (EN 1990, annex D); what a dissipator caps stays at its cap.",
+            crate::starts::k_n(starts)
+        ),
+    }
 }
 
 fn start_rows(run: &Simulated) -> Vec<Row> {

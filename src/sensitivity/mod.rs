@@ -78,14 +78,22 @@ fn point(design: &Design, input: GuidelineInput) -> Point {
 impl Point {
     /// The largest total force (N), and the outcome with the largest utilisation.
     pub fn of(force: f64, outcomes: &[Outcome]) -> Self {
-        let order =
-            |a: &&Outcome, b: &&Outcome| a.utilisation.partial_cmp(&b.utilisation).unwrap_or(std::cmp::Ordering::Equal);
+        // A utilisation that is not a number stands above all.
+        let used = |outcome: &Outcome| outcome.utilisation.map_or(f64::NEG_INFINITY, f64::abs);
+        let order = |a: &&Outcome, b: &&Outcome| used(a).total_cmp(&used(b));
         let governing = outcomes.iter().filter(|outcome| outcome.utilisation.is_some()).max_by(order);
         Self {
             force,
             utilisation: governing.and_then(|outcome| outcome.utilisation),
             governing: governing.map_or(String::new(), |outcome| outcome.title.clone()),
         }
+    }
+}
+
+impl Point {
+    /// The same where the run behind it cannot be relied on: it says nothing.
+    pub fn unreliable(self) -> Self {
+        Self { utilisation: None, governing: "cannot be relied on".to_string(), ..self }
     }
 }
 

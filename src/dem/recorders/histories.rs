@@ -44,7 +44,7 @@ pub struct Histories {
     pub push_at_rest: Vec<f64>,
     /// Forces along the channel with which grains at rest and moving grains touch the barrier, at single instants (N).
     pub pushes_by_state: Vec<[f64; 2]>,
-    /// Largest depth of the grains at rest at the barrier, at bulk density (m).
+    /// Depth of the grains at rest where that of all grains at the barrier is largest, at bulk density (m).
     pub dead_depth: Vec<f64>,
     /// Share of the mass that has come to rest at the barrier.
     pub dead: Vec<f64>,

@@ -167,10 +167,10 @@ impl Recorder {
             self.histories.push_at_rest.push(push_at_rest(simulation, &grains, &dead));
         }
         self.histories.pushes_by_state.push(pushes_by_state(simulation, &dead));
-        let at_rest = grains.iter().zip(&dead).filter(|(_, dead)| **dead).map(|(grain, _)| grain);
-        self.histories.dead_depth.push(self.setup.deposit.depth(at_rest));
         self.histories.incoming.push(self.setup.incoming.read(&grains));
-        self.histories.barrier_depth.push(self.setup.deposit.depth(grains.iter()));
+        let [all, at_rest] = self.setup.deposit.depths(&grains, &dead);
+        self.histories.barrier_depth.push(all);
+        self.histories.dead_depth.push(at_rest);
     }
 
     fn sample_shape(&mut self, barrier: &Barrier) {
@@ -233,19 +233,22 @@ impl Recorder {
 const DEPOSIT_WINDOWS: usize = 12;
 
 impl GaugeWindow {
-    /// Largest depth that the mass has at bulk density, over windows along the stretch: a leaning or bulging barrier takes
-    /// part of each window's room, so the window with most mass is the one that tells.
-    fn depth<'a>(&self, grains: impl Iterator<Item = &'a Grain>) -> f64 {
+    /// Largest depth that the mass has at bulk density, over windows along the stretch, and the depth of the dead part in that
+    /// same window: a leaning or bulging barrier takes part of each window's room, so the one with most mass is the one that tells.
+    fn depths(&self, grains: &[Grain], dead: &[bool]) -> [f64; 2] {
         let cell = (self.far - self.near) / (DEPOSIT_WINDOWS + 1) as f64;
-        let mut cells = [0.0; DEPOSIT_WINDOWS + 1];
-        for grain in grains {
+        let mut cells = [[0.0; 2]; DEPOSIT_WINDOWS + 1];
+        for (grain, dead) in grains.iter().zip(dead) {
             let place = (-grain.position.x - self.near) / cell;
             if place >= 0.0 && (place as usize) < cells.len() {
-                cells[place as usize] += grain.body.mass;
+                let [all, at_rest] = &mut cells[place as usize];
+                *all += grain.body.mass;
+                *at_rest += if *dead { grain.body.mass } else { 0.0 };
             }
         }
-        let most = cells.windows(2).map(|pair| pair[0] + pair[1]).fold(0.0, f64::max);
-        most / (self.bulk_density * self.width * 2.0 * cell)
+        let windows = cells.windows(2).map(|pair| [pair[0][0] + pair[1][0], pair[0][1] + pair[1][1]]);
+        let most = windows.fold([0.0; 2], |most, window| if window[0] > most[0] { window } else { most });
+        most.map(|mass| mass / (self.bulk_density * self.width * 2.0 * cell))
     }
 
     fn read(&self, grains: &[Grain]) -> Gauge {

@@ -1,4 +1,4 @@
-//! A surge over a deposit of height H_d: K ρ g' (H_d + h − z), and λ ρ v² between H_d and H_d + h.
+//! A surge over a deposit of height H_d: K ρ g' (H_d + h − z), and λ ρ v² between H_d and H_d + h, as far as the barrier stands.
 
 use crate::loads::cases::{Certainty, LoadCase};
 use crate::loads::input::GuidelineInput;
@@ -6,8 +6,9 @@ use crate::loads::pressure::Diagram;
 use crate::sources::VOLKWEIN_2014;
 
 pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
-    let moving = input.moving_depth();
+    let moving = input.depth;
     let surface = deposit + moving;
+    let top = surface.min(input.barrier_height);
     LoadCase {
         id: "later_surge",
         title: "Surge over a deposit",
@@ -16,10 +17,10 @@ pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
         diagram: Diagram {
             unit: input.unit_pressure(),
             surface,
-            top: surface,
+            top,
             block: input.impact_pressure(),
             block_from: deposit,
-            block_to: surface,
+            block_to: top,
         },
         shear: 0.0,
         shear_certainty: Certainty::Derived,

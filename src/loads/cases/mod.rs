@@ -101,8 +101,8 @@ impl LoadCase {
 pub struct Extras {
     /// Depth of the flow over the full barrier h_o (m); that of the surge unless given.
     pub overflow_depth: Option<f64>,
-    /// tan φ of the drag on the barrier's top.
-    pub overflow_friction: Option<f64>,
+    /// tan φ of the drag on the barrier's top, and the length on which it acts (m).
+    pub overflow_drag: Option<[f64; 2]>,
     /// K and density (kg/m³) of the drained deposit.
     pub drained: Option<[f64; 2]>,
     pub point: Option<PointLoad>,
@@ -125,11 +125,13 @@ pub fn all(input: &GuidelineInput, extras: &Extras) -> Vec<LoadCase> {
     cases
 }
 
-/// Those cases, and the surge over every depth of deposit between: the envelope that each component is held against.
+/// Those cases, and the surge over every depth of deposit between: the envelope that each component is held against. A point
+/// load comes with every surge.
 pub fn envelope(input: &GuidelineInput, extras: &Extras) -> Vec<LoadCase> {
     let room = input.fill_height - input.moving_depth();
     let stages = (1..STAGES).map(|stage| later_surge::case(input, room * stage as f64 / STAGES as f64));
-    all(input, extras).into_iter().chain(stages).filter(|case| case.certainty.decides()).collect()
+    let cases = all(input, extras).into_iter().chain(stages).filter(|case| case.certainty.decides());
+    cases.map(|case| LoadCase { point: extras.point.filter(|_| case.moving > 0.0), ..case }).collect()
 }
 
 /// The part of a stage's resultant that the guideline books to the deposit, F₁ = K ρ g' H_d (H_d/2 + h), and to the
@@ -188,14 +190,33 @@ pub mod tests {
         let case = overtopped::case(&input(), &Extras::default()).unwrap();
         assert!(case.shear > 0.0);
         assert_relative_eq!(case.force_per_width(), case.diagram.force(0.0, 4.0));
-        let given = Extras { overflow_friction: Some(0.5), ..Extras::default() };
+        let given = Extras { overflow_drag: Some([0.5, 2.0]), ..Extras::default() };
         let case = overtopped::case(&input(), &given).unwrap();
         assert_relative_eq!(case.force_per_width(), case.diagram.force(0.0, 4.0) + case.shear);
+    }
+
+    #[test]
+    fn a_flow_deeper_than_the_barrier_loads_it_with_its_whole_depth() {
+        let (height, depth) = (1.5, 2.5);
+        let input = GuidelineInput { depth, fill_height: height, barrier_height: height, ..input() };
+        let fixed = input.unit_pressure() * (depth * height - 0.5 * height * height);
+        let expected = fixed + input.impact_pressure() * height;
+        assert_relative_eq!(first_surge::case(&input).force_per_width(), expected, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_boulder_comes_with_every_surge() {
+        let point = PointLoad { force: 1e5, height: 2.0 };
+        let extras = Extras { point: Some(point), ..Extras::default() };
+        for case in envelope(&input(), &extras) {
+            assert_eq!(case.point.is_some(), case.moving > 0.0, "{}", case.id);
+        }
     }
 
     proptest! {
         #[test]
         fn parts_and_strips_add_up(depth in 0.1..3.0_f64, velocity in 0.0..12.0_f64, fill in 0.2..8.0_f64, cut in 0.01..0.99_f64) {
+            let depth = depth.min(fill);
             let input = GuidelineInput { depth, velocity, fill_height: fill, barrier_height: fill, ..input() };
             for case in [first_surge::case(&input), later_surge::last(&input), full::case(&input)] {
                 let (first, second) = split(&input, &case);

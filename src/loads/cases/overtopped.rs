@@ -1,6 +1,7 @@
 //! The full barrier with a flow of depth h_o over its top: K ρ g' (H + h_o − z) below the top, and the drag
-//! τ = ρ g' h_o tan φ on the top rope. That both act is read (Volkwein, Wendeler, Guasti 2011); the drag's form is from
-//! memory and decides only with a friction that the designer gives.
+//! ρ g' h_o tan φ times the length on which the flow rides on the barrier's top. That both act is read (Volkwein, Wendeler,
+//! Guasti 2011); the form of the drag is Coulomb's. It decides only with a friction and a length that the designer gives; else a
+//! usual friction and the depth h_o as length show its size.
 
 use crate::loads::cases::{Certainty, Extras, LoadCase, full};
 use crate::loads::input::GuidelineInput;
@@ -14,8 +15,8 @@ pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
     let height = input.barrier_height;
     let depth = extras.overflow_depth.unwrap_or(input.depth);
     let weight = input.density * input.gravity_normal * depth;
-    // The drag acts over the length on which the flow rides on the barrier, taken as its own depth.
-    let shear = weight * extras.overflow_friction.unwrap_or(DEFAULT_FRICTION) * depth;
+    let [friction, length] = extras.overflow_drag.unwrap_or([DEFAULT_FRICTION, depth]);
+    let shear = weight * friction * length;
     (input.fills() || extras.overflow_depth.is_some()).then(|| LoadCase {
         id: "overtopped",
         title: "Full and overtopped",
@@ -23,7 +24,7 @@ pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
         moving: depth,
         diagram: Diagram { unit: input.unit_pressure(), surface: height + depth, top: height, ..Diagram::default() },
         shear,
-        shear_certainty: if extras.overflow_friction.is_some() { Certainty::Given } else { Certainty::Memory },
+        shear_certainty: if extras.overflow_drag.is_some() { Certainty::Given } else { Certainty::Memory },
         formula: "R = ½ K ρ g' (H² + 2 H h_o)",
         source: "Volkwein, Wendeler, Guasti 2011, Design of flexible debris flow barriers",
         ..full::case(input)

@@ -1,15 +1,16 @@
-//! A boulder or a log: a point load that the designer gives, added to the first surge.
+//! A boulder or a log: a point load that the designer gives, at the height given. It comes with every surge of the envelope; the
+//! report shows it with the last.
 
-use crate::loads::cases::{Certainty, LoadCase, PointLoad, first_surge};
+use crate::loads::cases::{Certainty, LoadCase, PointLoad, later_surge};
 use crate::loads::input::GuidelineInput;
 
 pub fn case(input: &GuidelineInput, point: PointLoad) -> LoadCase {
     LoadCase {
         id: "point_load",
-        title: "First surge with a boulder or log",
+        title: "Last surge with a boulder or log",
         point: Some(point),
         certainty: Certainty::Given,
         source: "point load: design file",
-        ..first_surge::case(input)
+        ..later_surge::last(input)
     }
 }
