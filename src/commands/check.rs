@@ -143,15 +143,18 @@ fn progress_bar() -> ProgressBar {
 }
 
 fn write(run: &Run, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let rendered = render(&View::of(run))?;
+    let view = View::of(run);
+    let rendered = render(&view)?;
     let mut files = vec![
-        ReportFile { name: "report.html", text: rendered.html },
-        ReportFile { name: "report.md", text: rendered.markdown },
-        ReportFile { name: "result.json", text: serde_json::to_string_pretty(&ResultFile::of(run))? + "\n" },
+        ReportFile { name: "report.html".into(), text: rendered.html },
+        ReportFile { name: "report.md".into(), text: rendered.markdown },
     ];
+    files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile { name, text }));
     if let Some(simulated) = &run.simulated {
-        files.push(ReportFile { name: "histories.csv", text: crate::report::csv::text(&simulated.histories) });
+        files.push(ReportFile { name: "histories.csv".into(), text: crate::report::csv::text(&simulated.histories) });
     }
+    let result = serde_json::to_string_pretty(&ResultFile::of(run))? + "\n";
+    files.push(ReportFile { name: "result.json".into(), text: result });
     write_all(folder, &files)?;
     Ok(())
 }

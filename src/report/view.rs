@@ -3,11 +3,15 @@
 use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::dem::recorders::snapshots::{Moment, Snapshot};
+use crate::dem::tables::barrier::SegmentKind;
 use crate::design::entries::Origin;
 use crate::design::{Arrival, BarrierDesign, BarrierModel, Design};
 use crate::pipeline::{Run, Simulated, Verdict};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
+use crate::report::plots::elevation::{class_names, elevation};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
+use crate::report::plots::side_view::{Setting, side_view};
 use crate::sources::VOLKWEIN_2014;
 
 #[derive(Debug, Serialize)]
@@ -36,6 +40,12 @@ pub struct View {
     pub starts: Vec<Row>,
     pub findings: Vec<Row>,
     pub charts: Vec<Chart>,
+    /// Side views at a few moments, and the barrier from upstream at its largest load.
+    pub views: Vec<Chart>,
+    pub elevation: Option<Chart>,
+    pub classes: Vec<String>,
+    /// Style of all pictures.
+    pub picture_style: &'static str,
     pub inputs: Vec<InputRow>,
     pub assumptions: Vec<&'static str>,
     pub not_checked: Vec<&'static str>,
@@ -68,6 +78,8 @@ pub struct CheckRow {
 #[derive(Debug, Serialize)]
 pub struct Chart {
     pub title: &'static str,
+    /// Name of the picture's file beside the Markdown report.
+    pub file: String,
     pub svg: String,
     pub note: String,
 }
@@ -197,6 +209,10 @@ impl View {
             varied: loads::swing_rows(&run.varied),
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
+            views: run.simulated.as_ref().map_or_else(Vec::new, |seen| views(run, seen)),
+            elevation: run.simulated.as_ref().and_then(|seen| elevation_chart(run, seen)),
+            classes: class_names(),
+            picture_style: PICTURE_STYLE,
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| charts(run, seen)),
             inputs: input_rows(run),
             assumptions: assumptions(run),
@@ -423,6 +439,26 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
     entries.order.iter().map(row).collect()
 }
 
+const PICTURE_STYLE: &str = include_str!("../../templates/pictures.css");
+
+fn file_name(title: &str) -> String {
+    let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '_' };
+    format!("{}.svg", title.replace('λ', "lambda").chars().map(letter).collect::<String>())
+}
+
+impl View {
+    /// Every picture as a file that stands alone: name and text.
+    pub fn pictures(&self) -> Vec<(String, String)> {
+        let alone = |svg: &str| {
+            let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"alone\"");
+            let styled = svg.replacen("<svg", &head, 1);
+            styled.replacen('>', &format!("><style>{PICTURE_STYLE}</style>"), 1) + "\n"
+        };
+        let charts = self.charts.iter().chain(&self.views).chain(&self.elevation);
+        charts.map(|chart| (chart.file.clone(), alone(&chart.svg))).collect()
+    }
+}
+
 fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let mut charts = vec![force_chart(run, seen), mass_chart(run, seen)];
     if seen.histories.strokes.iter().flatten().any(|stroke| *stroke > 0.0) {
@@ -435,6 +471,54 @@ fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     charts.push(split_chart(seen));
     charts.push(coefficient_chart(run, seen));
     charts
+}
+
+/// The slice along the middle at every moment kept.
+fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
+    let design = &run.file.design;
+    let setting = Setting {
+        slope: design.channel.slope,
+        width: design.channel.width,
+        height: run.guideline.input.barrier_height,
+        wall: matches!(design.barrier, BarrierDesign::RigidWall(_)),
+        fastest: seen.first().velocity_peak,
+    };
+    let chart = |snapshot: &Snapshot| Chart {
+        title: match snapshot.moment {
+            Moment::FirstContact => "First contact",
+            Moment::LargestForce => "Largest force",
+            Moment::HalfAtRest => "Half of the mass at rest",
+            Moment::End => "End",
+        },
+        file: format!("flow_{:?}.svg", snapshot.moment).to_lowercase(),
+        svg: side_view(snapshot, &setting),
+        note: format!("at {:.2} s", snapshot.time),
+    };
+    seen.histories.snapshots.iter().map(chart).collect()
+}
+
+/// The barrier when the force on it is largest.
+fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
+    let design = &run.file.design;
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    let snapshot = seen.histories.snapshots.iter().find(|snapshot| snapshot.moment == Moment::LargestForce)?;
+    let resistance = |kind: SegmentKind| {
+        let rope = match kind {
+            SegmentKind::Main(_) => &net.main_ropes.rope,
+            SegmentKind::Lateral => &net.lateral_rope,
+            SegmentKind::Net | SegmentKind::Ring => &net.net_rope,
+        };
+        rope.breaking_load * design.factors.rope_end / design.factors.rope / design.factors.load
+    };
+    Some(Chart {
+        title: "Barrier from upstream, at its largest load",
+        file: file_name("Barrier from upstream"),
+        svg: elevation(snapshot, design.channel.width, resistance),
+        note: format!(
+            "At {:.2} s, as deformed then; colour by tension over design resistance at that instant.",
+            snapshot.time
+        ),
+    })
 }
 
 fn split_chart(seen: &Simulated) -> Chart {
@@ -457,7 +541,12 @@ fn split_chart(seen: &Simulated) -> Chart {
         levels: Vec::new(),
     };
     let note = "By grains at rest and by moving grains that touch the barrier; the guideline with the design's K and λ, the depths seen, and the mean velocity of all grains.";
-    Chart { title: "Deposit and moving flow", svg: chart.svg(), note: note.into() }
+    Chart {
+        title: "Deposit and moving flow",
+        file: file_name("Deposit and moving flow"),
+        svg: chart.svg(),
+        note: note.into(),
+    }
 }
 
 /// K and λ beyond this are cut off in the chart.
@@ -487,7 +576,7 @@ fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
     let note = format!(
         "λ with the velocity just upstream; left out where the depth is less than a grain, the flow has all but stopped, or the value is above {HIGHEST_COEFFICIENT:.0}."
     );
-    Chart { title: "K and λ over time", svg: chart.svg(), note }
+    Chart { title: "K and λ over time", file: file_name("K and λ over time"), svg: chart.svg(), note }
 }
 
 fn force_chart(run: &Run, seen: &Simulated) -> Chart {
@@ -508,7 +597,7 @@ fn force_chart(run: &Run, seen: &Simulated) -> Chart {
             .collect(),
     };
     let note = format!("Mean over {:.0} ms. Dashed: guideline.", 1e3 * seen.facts.smoothing);
-    Chart { title: "Force on the barrier", svg: chart.svg(), note }
+    Chart { title: "Force on the barrier", file: file_name("Force on the barrier"), svg: chart.svg(), note }
 }
 
 fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
@@ -527,6 +616,7 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
     };
     Chart {
         title: "Retained mass",
+        file: file_name("Retained mass"),
         svg: chart.svg(),
         note: "At rest: slower than 5 % of the highest mean velocity.".into(),
     }
@@ -545,7 +635,12 @@ fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
         series: rope_series(&seen.histories.strokes),
         levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
     };
-    Chart { title: "Dissipators", svg: chart.svg(), note: "The longer of the two strokes of each main rope.".into() }
+    Chart {
+        title: "Dissipators",
+        file: file_name("Dissipators"),
+        svg: chart.svg(),
+        note: "The longer of the two strokes of each main rope.".into(),
+    }
 }
 
 fn rope_chart(seen: &Simulated) -> Chart {
@@ -557,7 +652,12 @@ fn rope_chart(seen: &Simulated) -> Chart {
         series: rope_series(&seen.histories.rope_mean),
         levels: Vec::new(),
     };
-    Chart { title: "Main ropes", svg: chart.svg(), note: "Mean along each rope, numbered from the bottom.".into() }
+    Chart {
+        title: "Main ropes",
+        file: file_name("Main ropes"),
+        svg: chart.svg(),
+        note: "Mean along each rope, numbered from the bottom.".into(),
+    }
 }
 
 fn velocity_chart(seen: &Simulated) -> Chart {
@@ -572,6 +672,7 @@ fn velocity_chart(seen: &Simulated) -> Chart {
     };
     Chart {
         title: "Velocity of the flow",
+        file: file_name("Velocity of the flow"),
         svg: chart.svg(),
         note: "Mean over all grains that have not left the model.".into(),
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// A file of the report by its name.
 pub struct ReportFile {
-    pub name: &'static str,
+    pub name: String,
     pub text: String,
 }
 
@@ -15,12 +15,12 @@ pub struct ReportFile {
 pub fn write_all(folder: &Path, files: &[ReportFile]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let temporary = |name: &str| -> PathBuf { folder.join(format!(".{name}.{}.tmp", std::process::id())) };
-    let written = files.iter().try_for_each(|file| fs::write(temporary(file.name), &file.text));
+    let written = files.iter().try_for_each(|file| fs::write(temporary(&file.name), &file.text));
     let renamed = written
-        .and_then(|()| files.iter().try_for_each(|file| fs::rename(temporary(file.name), folder.join(file.name))));
+        .and_then(|()| files.iter().try_for_each(|file| fs::rename(temporary(&file.name), folder.join(&file.name))));
     if renamed.is_err() {
         for file in files {
-            let _ = fs::remove_file(temporary(file.name));
+            let _ = fs::remove_file(temporary(&file.name));
         }
     }
     renamed

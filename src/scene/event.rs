@@ -78,6 +78,7 @@ pub fn run(scene: Scene, longest: f64, watch: &Watch) -> Event {
             break Ending::OutOfTime;
         }
     };
+    recorder.finish(&simulation);
     Event { histories: recorder.histories, ending, simulation, energy_error }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::dem::Vec3;
 use crate::dem::ledger::Ledger;
+use crate::dem::recorders::snapshots::Snapshot;
 
 /// What happened, sample by sample. Forces are means over the sampling interval, so that no impulse is lost.
 #[derive(Clone, Debug, Default)]
@@ -57,6 +58,8 @@ pub struct Histories {
     /// Largest depth of the grains at the barrier, at bulk density (m).
     pub barrier_depth: Vec<f64>,
     pub ledger: Vec<Ledger>,
+    /// The scene at a few moments, in their order.
+    pub snapshots: Vec<Snapshot>,
 }
 
 /// The flow in a window across the channel; zeros where there are no grains.

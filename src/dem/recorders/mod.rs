@@ -4,3 +4,4 @@ pub mod dead_zone;
 pub mod histories;
 pub mod passage;
 pub mod recorder;
+pub mod snapshots;

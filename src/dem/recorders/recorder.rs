@@ -7,12 +7,16 @@ use crate::dem::net::NetForces;
 use crate::dem::recorders::dead_zone::{push_at_rest, pushes_by_state};
 use crate::dem::recorders::histories::{Gauge, Histories};
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
+use crate::dem::recorders::snapshots::{Moment, Snapshot};
 use crate::dem::simulation::{Simulation, Unstable};
 use crate::dem::tables::barrier::{Barrier, SegmentKind};
 use crate::dem::tables::grains::Grain;
 
 /// A grain is at rest below this share of the highest mean velocity (Albaba 2015, section 3.3.3).
 const DEAD_SHARE: f64 = 0.05;
+
+/// A force counts as a new largest, worth a snapshot, if it exceeds the last by this factor.
+const NEW_LARGEST: f64 = 1.005;
 
 /// Rounding of the sum of all masses.
 const UNSEEN: f64 = 1e-9;
@@ -60,6 +64,8 @@ pub struct Recorder {
     lost: [f64; WAYS],
     impact: bool,
     next_passage: f64,
+    /// Largest force of which a snapshot was taken (N).
+    pictured_force: f64,
 }
 
 /// Sums over the steps of one sampling interval.
@@ -92,6 +98,7 @@ impl Recorder {
             lost: [0.0; WAYS],
             impact: false,
             next_passage: 0.0,
+            pictured_force: 0.0,
         }
     }
 
@@ -171,6 +178,38 @@ impl Recorder {
         let [all, at_rest] = self.setup.deposit.depths(&grains, &dead);
         self.histories.barrier_depth.push(all);
         self.histories.dead_depth.push(at_rest);
+        self.picture(simulation, &grains);
+    }
+
+    /// Takes a snapshot if the moment is one of those kept.
+    fn picture(&mut self, simulation: &Simulation, grains: &[Grain]) {
+        if !self.impact {
+            return;
+        }
+        let force = self.histories.force.last().map_or(0.0, |force| force.norm());
+        let half = self.histories.dead.last().is_some_and(|dead| *dead >= 0.5);
+        if self.histories.snapshots.is_empty() {
+            self.keep(Moment::FirstContact, simulation, grains);
+        }
+        if force > self.pictured_force * NEW_LARGEST {
+            self.pictured_force = force;
+            self.histories.snapshots.retain(|snapshot| snapshot.moment != Moment::LargestForce);
+            self.keep(Moment::LargestForce, simulation, grains);
+        }
+        if half && !self.histories.snapshots.iter().any(|snapshot| snapshot.moment == Moment::HalfAtRest) {
+            self.keep(Moment::HalfAtRest, simulation, grains);
+        }
+    }
+
+    fn keep(&mut self, moment: Moment, simulation: &Simulation, grains: &[Grain]) {
+        let barrier = simulation.model.barrier.as_ref().map(|barrier| (barrier, &simulation.sums.net));
+        self.histories.snapshots.push(Snapshot::of(moment, simulation.time, grains, barrier));
+    }
+
+    /// Takes the last snapshot and puts all in the order of time.
+    pub fn finish(&mut self, simulation: &Simulation) {
+        self.keep(Moment::End, simulation, &simulation.snapshot());
+        self.histories.snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 
     fn sample_shape(&mut self, barrier: &Barrier) {

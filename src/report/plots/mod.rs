@@ -1,4 +1,6 @@
 //! Charts as plain SVG, so that the report opens offline and prints sharply.
 
+pub mod elevation;
 pub mod line_chart;
 pub mod pressure;
+pub mod side_view;

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use crate::loads::pressure::Diagram;
 
-const WIDTH: f64 = 220.0;
+const WIDTH: f64 = 234.0;
 const HEIGHT: f64 = 150.0;
-const LEFT: f64 = 34.0;
+const LEFT: f64 = 48.0;
 const BASE: f64 = 126.0;
 
 /// SVG of one diagram; all cases of a report share the largest pressure (Pa) and height (m).

@@ -1,0 +1,72 @@
+//! What the scene looks like at a few moments: grains with their speed, the barrier with its tensions.
+
+use crate::dem::Vec3;
+use crate::dem::net::NetForces;
+use crate::dem::tables::barrier::{Barrier, SegmentKind};
+use crate::dem::tables::grains::Grain;
+
+/// The moments kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    FirstContact,
+    LargestForce,
+    HalfAtRest,
+    End,
+}
+
+/// The scene at one moment.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub moment: Moment,
+    /// s
+    pub time: f64,
+    pub balls: Vec<Ball>,
+    pub strands: Vec<Strand>,
+}
+
+/// One sphere of a grain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    pub place: Vec3,
+    /// m
+    pub radius: f64,
+    /// Of its grain (m/s).
+    pub speed: f64,
+}
+
+/// A segment or cylinder of the barrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strand {
+    pub ends: [Vec3; 2],
+    pub kind: SegmentKind,
+    /// N
+    pub tension: f64,
+}
+
+impl Snapshot {
+    pub fn of(moment: Moment, time: f64, grains: &[Grain], barrier: Option<(&Barrier, &NetForces)>) -> Self {
+        let ball = |grain: &Grain, side: f64| Ball {
+            place: grain.position + grain.axis * (side * grain.body.offset),
+            radius: grain.body.radius,
+            speed: grain.velocity.norm(),
+        };
+        let balls = grains.iter().flat_map(|grain| {
+            let sides: &[f64] = if grain.body.offset > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
+            sides.iter().map(move |side| ball(grain, *side))
+        });
+        Self { moment, time, balls: balls.collect(), strands: barrier.map_or_else(Vec::new, strands) }
+    }
+}
+
+fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {
+    let segments = barrier.segments.iter().map(|segment| (segment.nodes, segment.kind)).zip(&net.tensions);
+    let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.nodes, cylinder.kind)).zip(&net.axial);
+    let strand = |((nodes, kind), &tension): (([u32; 2], SegmentKind), &f64)| Strand {
+        ends: nodes.map(|node| barrier.nodes[node as usize].position),
+        kind,
+        tension,
+    };
+    let dissipators =
+        barrier.dissipators.iter().map(|brake| (brake.nodes, SegmentKind::Main(brake.rope))).zip(&net.brakes);
+    segments.chain(cylinders).chain(dissipators).map(strand).collect()
+}

@@ -1,0 +1,54 @@
+//! The barrier seen along the channel, from upstream: ropes and net coloured by the share of their design resistance.
+
+use std::fmt::Write;
+
+use crate::dem::recorders::snapshots::{Snapshot, Strand};
+use crate::dem::tables::barrier::SegmentKind;
+
+const WIDTH: f64 = 720.0;
+const MARGIN: f64 = 8.0;
+/// Upper ends of the classes, as shares of the design resistance.
+pub const CLASSES: [f64; 6] = [0.05, 0.25, 0.5, 0.75, 1.0, f64::INFINITY];
+
+/// SVG of the barrier; `resistance` gives the design resistance of a part (N).
+pub fn elevation(snapshot: &Snapshot, width: f64, resistance: impl Fn(SegmentKind) -> f64) -> String {
+    let points = || snapshot.strands.iter().flat_map(|strand| strand.ends);
+    let highest = points().map(|place| place.z).fold(0.0, f64::max);
+    let lowest = points().map(|place| place.z).fold(0.0, f64::min);
+    let scale = (WIDTH - 2.0 * MARGIN) / width;
+    let height = (highest - lowest) * scale + 2.0 * MARGIN;
+    let screen = |place: &crate::dem::Vec3| (MARGIN + place.y * scale, MARGIN + (highest - place.z) * scale);
+    let class = |strand: &Strand| {
+        let used = strand.tension / resistance(strand.kind);
+        CLASSES.iter().position(|limit| used <= *limit).unwrap_or(CLASSES.len() - 1)
+    };
+    let mut paths = vec![[String::new(), String::new()]; CLASSES.len()];
+    for strand in &snapshot.strands {
+        let [(x1, y1), (x2, y2)] = [screen(&strand.ends[0]), screen(&strand.ends[1])];
+        let thick = usize::from(!matches!(strand.kind, SegmentKind::Net | SegmentKind::Ring));
+        let _ = write!(paths[class(strand)][thick], "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
+    }
+    let mut svg = format!(
+        "<svg viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\" aria-label=\"barrier from upstream, coloured by utilisation\">"
+    );
+    for (class, [thin, thick]) in paths.iter().enumerate() {
+        let _ =
+            write!(svg, "<path class=\"u{class} thin\" d=\"{thin}\"/><path class=\"u{class} thick\" d=\"{thick}\"/>");
+    }
+    svg + "</svg>"
+}
+
+/// Words for the classes, for the legend.
+pub fn class_names() -> Vec<String> {
+    let mut low = 0.0;
+    let mut names = Vec::new();
+    for limit in CLASSES {
+        names.push(if limit.is_finite() {
+            format!("{:.0} to {:.0} %", 100.0 * low, 100.0 * limit)
+        } else {
+            "more than 100 %".to_string()
+        });
+        low = limit;
+    }
+    names
+}

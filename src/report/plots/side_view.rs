@@ -1,0 +1,78 @@
+//! A slice along the middle of the channel, seen from the side with gravity downwards: grains by speed, barrier, bed.
+
+use std::fmt::Write;
+
+use crate::dem::Vec3;
+use crate::dem::recorders::snapshots::Snapshot;
+
+const WIDTH: f64 = 460.0;
+const HEIGHT: f64 = 330.0;
+/// Spheres drawn at the most.
+const MOST: usize = 900;
+/// Share of the channel's width that the slice takes, if that is not too many spheres.
+const SLICE: f64 = 0.1;
+/// Upper ends of the classes of speed, as shares of the highest mean velocity; the first is at rest.
+const CLASSES: [f64; 4] = [0.05, 0.35, 0.75, f64::INFINITY];
+
+/// What is drawn around the snapshot, SI.
+pub struct Setting {
+    pub slope: f64,
+    pub width: f64,
+    /// Of the barrier, normal to the bed.
+    pub height: f64,
+    /// Whether the barrier is a wall normal to the bed.
+    pub wall: bool,
+    /// Highest mean velocity of the flow.
+    pub fastest: f64,
+}
+
+pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
+    let (sine, cosine) = setting.slope.sin_cos();
+    let turned = |place: &Vec3| (place.x * cosine + place.z * sine, place.z * cosine - place.x * sine);
+    // Three heights upstream and one and a half downstream of the foot.
+    let reach = setting.height / cosine;
+    let (left, right) = (-2.2 * reach, 1.4 * reach);
+    let scale = (WIDTH - 8.0) / (right - left);
+    let middle = HEIGHT * 0.5;
+    let screen = |place: &Vec3| {
+        let (across, up) = turned(place);
+        (4.0 + (across - left) * scale, middle - (up - 0.25 * reach) * scale)
+    };
+    let mut svg = format!(
+        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"side view at {:.2} s\">",
+        snapshot.time
+    );
+    let mut line = |class: &str, from: Vec3, to: Vec3| {
+        let ((x1, y1), (x2, y2)) = (screen(&from), screen(&to));
+        let _ = write!(svg, "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>");
+    };
+    line("bed", Vec3::new(2.0 * left / cosine, 0.0, 0.0), Vec3::new(2.0 * right / cosine, 0.0, 0.0));
+    if setting.wall {
+        line("wall", Vec3::zeros(), Vec3::new(0.0, 0.0, setting.height));
+    }
+    let within = |place: &Vec3, share: f64| (place.y - 0.5 * setting.width).abs() <= 0.5 * share * setting.width;
+    let visible = |place: &Vec3| {
+        let (x, y) = screen(place);
+        (-20.0..WIDTH + 20.0).contains(&x) && (-20.0..HEIGHT + 20.0).contains(&y)
+    };
+    let inside =
+        |share: f64| snapshot.balls.iter().filter(move |ball| within(&ball.place, share) && visible(&ball.place));
+    let share = SLICE * (MOST as f64 / inside(SLICE).count().max(1) as f64).min(1.0);
+    let mut groups = vec![String::new(); CLASSES.len()];
+    for ball in inside(share) {
+        let class = CLASSES.iter().position(|limit| ball.speed <= limit * setting.fastest).unwrap_or(CLASSES.len() - 1);
+        let (x, y) = screen(&ball.place);
+        let _ = write!(groups[class], "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\"/>", ball.radius * scale);
+    }
+    for (class, group) in groups.iter().enumerate() {
+        let _ = write!(svg, "<g class=\"v{class}\">{group}</g>");
+    }
+    let near = |strand: &&crate::dem::recorders::snapshots::Strand| within(&strand.ends[0], 2.0 * SLICE);
+    let mut path = String::new();
+    for strand in snapshot.strands.iter().filter(near) {
+        let [(x1, y1), (x2, y2)] = [screen(&strand.ends[0]), screen(&strand.ends[1])];
+        let _ = write!(path, "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
+    }
+    let _ = write!(svg, "<path class=\"net\" d=\"{path}\"/></svg>");
+    svg
+}
