@@ -32,6 +32,8 @@ pub struct Project {
     pub barrier: String,
     pub revision: String,
     pub author: String,
+    pub checker: String,
+    pub date: String,
     pub notes: String,
 }
 

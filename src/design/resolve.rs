@@ -28,6 +28,8 @@ fn project(e: &Entries) -> Project {
         barrier: text("barrier"),
         revision: text("revision"),
         author: text("author"),
+        checker: text("checker"),
+        date: text("date"),
         notes: text("notes"),
     }
 }

@@ -27,6 +27,8 @@ const PROJECT: &[Key] = &[
     Key::required("barrier", NOTE, "name of the barrier"),
     Key::default("revision", NOTE, "-", "revision of the design"),
     Key::default("author", NOTE, "-", "who made the design"),
+    Key::default("checker", NOTE, "-", "who checks it"),
+    Key::default("date", NOTE, "-", "date of the design, in words"),
     Key::default("notes", NOTE, "", "anything the reader of the report should know"),
 ];
 

@@ -187,6 +187,8 @@ impl View {
                 row("Barrier", &project.barrier),
                 row("Revision", &project.revision),
                 row("Author", &project.author),
+                row("Checker", &project.checker),
+                row("Date", &project.date),
                 row("Notes", &project.notes),
                 row("Design file", &run.file.name),
             ],
@@ -450,8 +452,7 @@ impl View {
     /// Every picture as a file that stands alone: name and text.
     pub fn pictures(&self) -> Vec<(String, String)> {
         let alone = |svg: &str| {
-            let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"alone\"");
-            let styled = svg.replacen("<svg", &head, 1);
+            let styled = svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1);
             styled.replacen('>', &format!("><style>{PICTURE_STYLE}</style>"), 1) + "\n"
         };
         let charts = self.charts.iter().chain(&self.views).chain(&self.elevation);
