@@ -7,10 +7,12 @@ use crate::dem::recorders::snapshots::{Moment, Snapshot};
 use crate::dem::tables::barrier::SegmentKind;
 use crate::design::entries::Origin;
 use crate::design::{Arrival, BarrierDesign, BarrierModel, Design};
+use crate::loads::pressure::Diagram;
 use crate::pipeline::{Run, Simulated, Verdict};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::plots::elevation::{class_names, elevation};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
+use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
 use crate::sources::VOLKWEIN_2014;
 
@@ -43,6 +45,8 @@ pub struct View {
     /// Side views at a few moments, and the barrier from upstream at its largest load.
     pub views: Vec<Chart>,
     pub elevation: Option<Chart>,
+    /// Pressure over height at the largest force and at the end.
+    pub profiles: Vec<Chart>,
     pub classes: Vec<String>,
     /// Style of all pictures.
     pub picture_style: &'static str,
@@ -212,6 +216,7 @@ impl View {
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
             views: run.simulated.as_ref().map_or_else(Vec::new, |seen| views(run, seen)),
+            profiles: run.simulated.as_ref().map_or_else(Vec::new, |seen| profiles(run, seen)),
             elevation: run.simulated.as_ref().and_then(|seen| elevation_chart(run, seen)),
             classes: class_names(),
             picture_style: PICTURE_STYLE,
@@ -455,7 +460,7 @@ impl View {
             let styled = svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1);
             styled.replacen('>', &format!("><style>{PICTURE_STYLE}</style>"), 1) + "\n"
         };
-        let charts = self.charts.iter().chain(&self.views).chain(&self.elevation);
+        let charts = self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation);
         charts.map(|chart| (chart.file.clone(), alone(&chart.svg))).collect()
     }
 }
@@ -496,6 +501,40 @@ fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
         note: format!("at {:.2} s", snapshot.time),
     };
     seen.histories.snapshots.iter().map(chart).collect()
+}
+
+/// Pressure over height when the force is largest, and at the end, beside the guideline's for the depths seen then.
+fn profiles(run: &Run, seen: &Simulated) -> Vec<Chart> {
+    let input = &run.guideline.input;
+    let told = &seen.first().coefficients;
+    let chart = |snapshot: &Snapshot| {
+        let (title, moving) = match snapshot.moment {
+            Moment::LargestForce => ("Pressure at the largest force", true),
+            Moment::End => ("Pressure at rest", false),
+            Moment::FirstContact | Moment::HalfAtRest => return None,
+        };
+        let at = told.time.partition_point(|time| *time < snapshot.time).min(told.time.len().checked_sub(1)?);
+        let (deposit, depth) = (told.deposit[at], told.moving[at]);
+        let velocity = if moving { told.velocity_mean[at].max(0.0) } else { 0.0 };
+        let diagram = Diagram {
+            unit: input.unit_pressure(),
+            surface: deposit + depth,
+            top: input.barrier_height,
+            block: input.dynamic_pressure * input.density * velocity * velocity,
+            block_from: deposit,
+            block_to: deposit + depth,
+        };
+        let note = format!(
+            "at {:.2} s; strips: forces of grains at that instant; line: guideline with the design's K and λ for H_d = {}, h = {} and the mean velocity of {}",
+            snapshot.time,
+            with_unit(deposit, "m"),
+            with_unit(depth, "m"),
+            with_unit(velocity, "m/s")
+        );
+        let svg = profile(&snapshot.touches, run.guideline.width, input.barrier_height, &diagram);
+        Some(Chart { title, file: file_name(title), svg, note })
+    };
+    seen.histories.snapshots.iter().filter_map(chart).collect()
 }
 
 /// The barrier when the force on it is largest.

@@ -65,4 +65,7 @@ pub const CASES: &[&Case] = &[
     &barrier::punching::CASE,
     &barrier::full_scale::BRAKED,
     &barrier::full_scale::UNBRAKED,
+    &barrier::variations::SLOPE,
+    &barrier::variations::OPENINGS,
+    &barrier::variations::ORIENTATION,
 ];

@@ -202,8 +202,7 @@ impl Recorder {
     }
 
     fn keep(&mut self, moment: Moment, simulation: &Simulation, grains: &[Grain]) {
-        let barrier = simulation.model.barrier.as_ref().map(|barrier| (barrier, &simulation.sums.net));
-        self.histories.snapshots.push(Snapshot::of(moment, simulation.time, grains, barrier));
+        self.histories.snapshots.push(Snapshot::of(moment, simulation, grains));
     }
 
     /// Takes the last snapshot and puts all in the order of time.

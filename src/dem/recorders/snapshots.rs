@@ -2,8 +2,10 @@
 
 use crate::dem::Vec3;
 use crate::dem::net::NetForces;
+use crate::dem::simulation::Simulation;
 use crate::dem::tables::barrier::{Barrier, SegmentKind};
 use crate::dem::tables::grains::Grain;
+use crate::dem::tables::surfaces::SurfaceRole;
 
 /// The moments kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +24,8 @@ pub struct Snapshot {
     pub time: f64,
     pub balls: Vec<Ball>,
     pub strands: Vec<Strand>,
+    /// Where grains touch the barrier: height above the bed (m), and force along the channel (N).
+    pub touches: Vec<[f64; 2]>,
 }
 
 /// One sphere of a grain.
@@ -44,7 +48,8 @@ pub struct Strand {
 }
 
 impl Snapshot {
-    pub fn of(moment: Moment, time: f64, grains: &[Grain], barrier: Option<(&Barrier, &NetForces)>) -> Self {
+    pub fn of(moment: Moment, simulation: &Simulation, grains: &[Grain]) -> Self {
+        let barrier = simulation.model.barrier.as_ref().map(|barrier| (barrier, &simulation.sums.net));
         let ball = |grain: &Grain, side: f64| Ball {
             place: grain.position + grain.axis * (side * grain.body.offset),
             radius: grain.body.radius,
@@ -54,8 +59,26 @@ impl Snapshot {
             let sides: &[f64] = if grain.body.offset > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
             sides.iter().map(move |side| ball(grain, *side))
         });
-        Self { moment, time, balls: balls.collect(), strands: barrier.map_or_else(Vec::new, strands) }
+        Self {
+            moment,
+            time: simulation.time,
+            balls: balls.collect(),
+            strands: barrier.map_or_else(Vec::new, strands),
+            touches: touches(simulation),
+        }
     }
+}
+
+fn touches(simulation: &Simulation) -> Vec<[f64; 2]> {
+    let walls = simulation.surface_contacts().filter(|contact| contact.role == SurfaceRole::Wall);
+    let on_wall = walls.map(|contact| [contact.place.z, -contact.force.x]);
+    let nodes = simulation.model.barrier.as_ref().map_or(&[][..], |barrier| &barrier.nodes);
+    let pushes = simulation.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
+    let on_net = pushes.map(|push| {
+        let [a, b] = push.nodes.map(|node| nodes[node as usize].position.z);
+        [a + (b - a) * push.share, push.force.x]
+    });
+    on_wall.chain(on_net).collect()
 }
 
 fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {

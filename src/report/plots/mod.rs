@@ -3,4 +3,5 @@
 pub mod elevation;
 pub mod line_chart;
 pub mod pressure;
+pub mod profile;
 pub mod side_view;

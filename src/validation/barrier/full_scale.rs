@@ -2,8 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::design::BarrierModel;
 use crate::design::read::read_design;
+use crate::design::{BarrierModel, Design};
 use crate::pipeline::{Simulated, run};
 use crate::scene::event::Watch;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
@@ -100,9 +100,14 @@ fn compare(text: &str, published: &[Published]) -> Result<Vec<Finding>, Broken> 
 }
 
 fn run_with(text: &str, model: BarrierModel) -> Result<Simulated, Broken> {
+    run_changed(text, |design| design.simulation.barrier_model = model)
+}
+
+/// Runs a design with something changed, on all cores.
+pub fn run_changed(text: &str, change: impl FnOnce(&mut Design)) -> Result<Simulated, Broken> {
     let scene = |what: String| Broken::Scene(what);
     let mut file = read_design("design", text.as_bytes()).map_err(|_| scene("the design is not one".to_string()))?;
-    file.design.simulation.barrier_model = model;
+    change(&mut file.design);
     let stop = AtomicBool::new(false);
     let watch = Watch { progress: &|_| (), stop: &stop };
     let threads = rayon::ThreadPoolBuilder::new().build().map_err(|error| scene(error.to_string()))?;

@@ -7,3 +7,4 @@ pub mod full_scale;
 pub mod punching;
 pub mod ropes;
 pub mod stand;
+pub mod variations;
