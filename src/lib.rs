@@ -24,7 +24,8 @@
 //! | a time series | [`dem::recorders`] and a column in [`report::csv`] |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
 //! | a scene of the bench | a line in `benches/throughput.rs`, its state in `benches/states` |
-//! | a figure or row of the report | [`report::view`] or [`report::findings`]; the templates loop over them |
+//! | a row of the report | [`report::findings`] (simulation), [`report::loads`] (equations), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
+//! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
 //!
 //! # Invariants
 //! * `design` imports nothing above it; `dem` imports no other part; `loads` and `checks` never see `dem`. A test keeps

@@ -5,7 +5,8 @@ use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
 use crate::design::Design;
 use crate::pipeline::{Run, Simulated};
-use crate::report::view::{Row, with_unit};
+use crate::report::numbers::with_unit;
+use crate::report::view::Row;
 use crate::starts::{Spread, k_n};
 use crate::units::GRAVITY;
 

@@ -9,8 +9,9 @@ use crate::loads::cases::{LoadCase, split};
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::ladder::MODELS;
 use crate::pipeline::Run;
+use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
-use crate::report::view::{Row, figures, percent, with_unit};
+use crate::report::view::Row;
 use crate::sensitivity;
 
 #[derive(Debug, Serialize)]

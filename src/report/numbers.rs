@@ -1,0 +1,49 @@
+//! Numbers as a person writes them: rounding and units.
+
+pub fn percent(share: Option<f64>) -> String {
+    match share {
+        None => "–".to_string(),
+        Some(share) if share > 10.0 => "> 1000 %".to_string(),
+        Some(share) => format!("{:.0} %", 100.0 * share),
+    }
+}
+
+/// A value with the unit a person would use.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    match unit {
+        "N" if value.abs() < 2000.0 => format!("{value:.0} N"),
+        "N" => format!("{} kN", figures(value / 1e3)),
+        "N/m" if value.abs() < 2000.0 => format!("{value:.0} N/m"),
+        "N/m" => format!("{} kN/m", figures(value / 1e3)),
+        "Pa" if value.abs() < 2000.0 => format!("{value:.0} Pa"),
+        "Pa" => format!("{} kPa", figures(value / 1e3)),
+        "N m/m" if value.abs() < 2000.0 => format!("{value:.1} N m/m"),
+        "N m/m" => format!("{} kN m/m", figures(value / 1e3)),
+        "kg" if value.abs() < 2000.0 => format!("{} kg", figures(value)),
+        "kg" => format!("{} t", figures(value / 1e3)),
+        "" => figures(value),
+        "-" => format!("{:.1} %", 100.0 * value),
+        unit => format!("{} {unit}", figures(value)),
+    }
+}
+
+/// A mean and its standard deviation, both in the unit that suits the mean.
+pub fn with_scatter(mean: f64, deviation: f64, unit: &str) -> String {
+    match unit {
+        "-" => format!("{:.1} ± {:.1} %", 100.0 * mean, 100.0 * deviation),
+        "N" | "N/m" | "Pa" | "N m/m" if mean.abs() >= 2000.0 => {
+            format!("{} ± {} k{unit}", figures(mean / 1e3), figures(deviation / 1e3))
+        }
+        unit => format!("{} ± {} {unit}", figures(mean), figures(deviation)).trim_end().to_string(),
+    }
+}
+
+/// Three significant figures, whole numbers from 100 on.
+pub fn figures(value: f64) -> String {
+    match value.abs() {
+        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 10.0 => format!("{value:.1}"),
+        size if size >= 0.1 || size == 0.0 => format!("{value:.2}"),
+        _ => format!("{value:.4}"),
+    }
+}

@@ -1,0 +1,83 @@
+//! What the report says is assumed, and what nobody has looked at, as far as it bears on a design.
+
+use crate::design::{Arrival, BarrierDesign, BarrierModel, Design};
+use crate::pipeline::Run;
+
+/// What is assumed, as far as it bears on this design.
+pub fn assumptions(run: &Run) -> Vec<&'static str> {
+    let design = &run.file.design;
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let default_arrival = match design.flow.arrival {
+        Arrival::DamBreak(block) => block.depth_at_barrier.is_none() || block.velocity_at_barrier.is_none(),
+        Arrival::Surge { .. } => false,
+    };
+    let simulated = run.simulated.is_some();
+    let list = [
+        (
+            simulated,
+            "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
+        ),
+        (simulated, "The flow is dry: no water pressure, no cohesion, no breakage of grains."),
+        (
+            true,
+            "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
+        ),
+        (
+            net,
+            "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
+        ),
+        (net, "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone."),
+        (
+            net && simulated,
+            "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
+        ),
+        (
+            net && simulated,
+            "Strokes and tensions of dissipators in the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
+        ),
+        (
+            default_arrival,
+            "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed, where the design does not give them.",
+        ),
+        (
+            net,
+            "By the equations each main rope carries its strip as a uniform load across the channel, alone: neither net nor lateral ropes share it out.",
+        ),
+    ];
+    let kept = list.into_iter().filter(|(applies, _)| *applies).map(|(_, text)| text);
+    kept.chain(of_ropes(design).filter(|_| simulated)).collect()
+}
+
+/// What the model of the barrier assumes of its ropes.
+fn of_ropes(design: &Design) -> Option<&'static str> {
+    match (&design.barrier, design.simulation.barrier_model) {
+        (BarrierDesign::RigidWall(_), _) => None,
+        (_, BarrierModel::PinnedRopes) => Some(
+            "Ropes pull and never push and do not bend; rings are fixed to the main ropes; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+        ),
+        (_, BarrierModel::SlidingRopes) => Some(
+            "Ropes pull and never push and do not bend; main ropes run through the rings of the net with friction; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+        ),
+        (_, BarrierModel::Cylinders) => Some(
+            "Ropes are elastic cylinders that bend and twist as solid rods of their modulus; rings are squares of four cylinders that slide on the main ropes with friction; axial damping of 5 % and bending damping of 20 % of critical is added.",
+        ),
+    }
+}
+
+/// What nobody has looked at.
+pub fn not_checked(design: &Design) -> Vec<&'static str> {
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let loads = &design.loads;
+    let list = [
+        (true, "scour, abutments and foundations"),
+        (true, "corrosion, abrasion and maintenance"),
+        (
+            net,
+            "the bolts or anchors that hold the lowest rope to the bed; the rings; punching of the mesh by a single stone",
+        ),
+        (loads.point_load.is_none(), "impact of single boulders larger than the design grains, and of wood"),
+        (loads.drained.is_none(), "drainage of the deposit"),
+        (loads.snow_pressure.is_none(), "snow"),
+    ];
+    list.into_iter().filter(|(applies, _)| *applies).map(|(_, text)| text).collect()
+}
