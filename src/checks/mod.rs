@@ -1,6 +1,7 @@
 //! Limit states, one file each. Nothing here sees the simulation: demands come ready.
 
 pub mod anchors;
+pub mod bolts;
 pub mod brakes;
 pub mod credibility;
 pub mod detailing;
@@ -27,6 +28,7 @@ const CHECKS: &[Check] = &[
     brakes::check_stroke,
     brakes::check_plateau,
     anchors::check,
+    bolts::check,
     retained::check,
     height::check,
 ];

@@ -22,8 +22,10 @@ pub struct Guideline {
     pub governing: Option<LoadCase>,
     /// Largest moment about the bed over the envelope, per width (N m/m).
     pub largest_moment: f64,
-    /// Each main rope under its governing case, from the bottom; rope 1 is at rest when the bed holds it.
+    /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
     pub ropes: Vec<RopeLoad>,
+    /// On what holds the lowest rope to the bed, in all, with the partial factor on loads (N); nothing where it is free.
+    pub bed_force: Option<f64>,
     /// Plateau (N) and stroke (m) of the dissipators, if there are any.
     pub dissipator: Option<[f64; 2]>,
     /// What the barrier holds; nothing on a level bed.
@@ -37,7 +39,7 @@ pub struct RopeLoad {
     pub strip: [f64; 2],
     /// Load across the span (N/m).
     pub load: f64,
-    /// The case that governs; nothing for a rope at rest.
+    /// The case that governs; nothing for a rope that the bed holds.
     pub case: Option<LoadCase>,
     pub state: RopeState,
     /// What each anchor takes along the rope's span and down the channel (N).
@@ -64,9 +66,14 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         BarrierDesign::RigidWall(_) => Vec::new(),
         BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
     };
+    let bed_force = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed => ropes.first().map(|rope| rope.load * width),
+        _ => None,
+    };
     Guideline {
         input,
         width,
+        bed_force,
         cases: all(&input, &extras),
         largest_force: governing.as_ref().map_or(0.0, total),
         governing,
@@ -189,9 +196,6 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let low = if index == 0 { 0.0 } else { 0.5 * (heights[index - 1] + heights[index]) };
             let high = if index == last { f64::INFINITY } else { 0.5 * (heights[index] + heights[index + 1]) };
             let strip = [low, high];
-            if index == 0 && net.bottom == Bottom::Fixed {
-                return RopeLoad { strip, ..RopeLoad::default() };
-            }
             let on_rope = |case: &LoadCase| {
                 let spread = case.strip_force(low, high) + point_on_rope(case, &heights, index, span.span);
                 let hung = if index == last { weight } else { 0.0 };
@@ -207,6 +211,10 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let own = [low, high.min(top) - input.depth].map(surge);
             let governing = stages.iter().chain(&own).max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
             let load = design.factors.load * governing.map_or(0.0, on_rope);
+            if index == 0 && net.bottom == Bottom::Fixed {
+                // It neither sags nor pulls at anchors: the bed takes its load where it is.
+                return RopeLoad { strip, load, ..RopeLoad::default() };
+            }
             let state = span.under(load);
             let across = 0.5 * load * span.span;
             let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();

@@ -41,6 +41,8 @@ pub struct Demands {
     pub rope_tension: Vec<Demand>,
     /// N
     pub anchor_force: Vec<Demand>,
+    /// On what holds the lowest rope to the bed, in all (N).
+    pub bed_force: Demand,
     /// Tension of the dissipators (N): by the guideline under factored loads, of the simulation without factor.
     pub brake_force: Demand,
     /// m
@@ -106,6 +108,10 @@ impl Demands {
                 simulation: observed.iter().map(|seen| highest(&seen.brake_force_peak).unwrap_or(0.0)).reduce(larger),
             },
             brake_stroke: by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0, stroke),
+            bed_force: Demand {
+                guideline: guideline.bed_force,
+                simulation: most(&|seen| seen.bed_force_peak).map(|force| load_factor * force),
+            },
             net_tension: simulated(most(&|seen| seen.net_tension_peak)).times(load_factor),
             lateral_tension: simulated(most(&|seen| seen.lateral_tension_peak)).times(load_factor),
             retained: simulated(least(&|seen| seen.retained)),
@@ -119,6 +125,7 @@ impl Demands {
             &mut self.total_force,
             &mut self.wall_force,
             &mut self.wall_moment,
+            &mut self.bed_force,
             &mut self.brake_force,
             &mut self.net_tension,
             &mut self.lateral_tension,

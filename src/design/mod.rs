@@ -155,6 +155,8 @@ pub struct FlexibleNet {
     pub dissipators: Option<DissipatorDesign>,
     /// Characteristic resistance of each anchor (N).
     pub anchor_resistance: f64,
+    /// Characteristic resistance of all that holds the lowest rope to the bed (N), if known.
+    pub bed_resistance: Option<f64>,
     pub bottom: Bottom,
 }
 

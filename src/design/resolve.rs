@@ -153,6 +153,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             None => None,
         },
         anchor_resistance: value("anchors.resistance")?,
+        bed_resistance: value("anchors.bed_resistance"),
         bottom: value("bottom.opening").map_or(Bottom::Fixed, Bottom::Opening),
     })
 }

@@ -240,8 +240,14 @@ const DISSIPATORS: &[Key] = &[
     Key::required("stiffness", quantity(D::Stiffness, 1e2, 1e10), "elastic stiffness before it yields"),
 ];
 
-const ANCHORS: &[Key] =
-    &[Key::required("resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one anchor")];
+const ANCHORS: &[Key] = &[
+    Key::required("resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one anchor"),
+    Key::optional(
+        "bed_resistance",
+        quantity(D::Force, 1.0, 1e10),
+        "characteristic resistance of all that holds the lowest rope to the bed, together",
+    ),
+];
 
 const BOTTOM: &[Key] = &[
     Key::optional("fixed", Kind::Choice(&["to_bed"]), "the lowest rope is bolted to the bed along its length"),

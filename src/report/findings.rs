@@ -48,19 +48,14 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
 }
 
 fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
-    let mut rows = vec![
+    vec![
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
             format!("at {:.2} s; {}", seen.force_peak_time, per_width(seen.force_peak, design)),
         ),
         row("Total force at rest", with_unit(seen.force_residual, "N"), per_width(seen.force_residual, design)),
-    ];
-    if seen.bed_force_peak > 0.0 {
-        let remark = format!("{}; not held against a resistance", per_width(seen.bed_force_peak, design));
-        rows.push(row("Load on the bolts of the lowest rope, largest", with_unit(seen.bed_force_peak, "N"), remark));
-    }
-    rows
+    ]
 }
 
 fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {

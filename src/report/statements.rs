@@ -1,6 +1,6 @@
 //! What the report says is assumed, and what nobody has looked at, as far as it bears on a design.
 
-use crate::design::{Arrival, BarrierDesign, BarrierModel, Design};
+use crate::design::{Arrival, BarrierDesign, BarrierModel, Bottom, Design};
 use crate::pipeline::Run;
 
 /// What is assumed, as far as it bears on this design.
@@ -66,15 +66,16 @@ fn of_ropes(design: &Design) -> Option<&'static str> {
 
 /// What nobody has looked at.
 pub fn not_checked(design: &Design) -> Vec<&'static str> {
-    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let (net, bolts) = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => (true, net.bottom == Bottom::Fixed && net.bed_resistance.is_none()),
+        BarrierDesign::RigidWall(_) => (false, false),
+    };
     let loads = &design.loads;
     let list = [
         (true, "scour, abutments and foundations"),
         (true, "corrosion, abrasion and maintenance"),
-        (
-            net,
-            "the bolts or anchors that hold the lowest rope to the bed; the rings; punching of the mesh by a single stone",
-        ),
+        (net, "the rings; punching of the mesh by a single stone"),
+        (bolts, "the bolts or anchors that hold the lowest rope to the bed"),
         (loads.point_load.is_none(), "impact of single boulders larger than the design grains, and of wood"),
         (loads.drained.is_none(), "drainage of the deposit"),
         (loads.snow_pressure.is_none(), "snow"),
