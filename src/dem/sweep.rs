@@ -21,8 +21,9 @@ use crate::dem::tables::grain_table::{GrainLoad, GrainTable};
 use crate::dem::tables::load_sheets::LoadSheets;
 use crate::dem::time::integrate::{Pace, Stretch};
 
-/// Loads all grains and moves them through one step; pulls at the barrier, which stays where it is. Returns the forces
-/// within the barrier, without those of the grains, and the pace of each block.
+/// Loads all grains and moves them through one step of theirs, that of `law`; pulls at the barrier, which stays where it is,
+/// as at the start of its own step, that of `barrier_law`. Returns the forces within the barrier, without those of the grains,
+/// and the pace of each block.
 pub fn sweep(
     model: &Model,
     grains: &mut GrainTable,
