@@ -94,7 +94,7 @@ impl View {
         });
         Self {
             title: format!("{}: {}", project.name, project.barrier),
-            project: vec![
+            project: [
                 row("Project", &project.name),
                 row("Barrier", &project.barrier),
                 row("Revision", &project.revision),
@@ -103,7 +103,10 @@ impl View {
                 row("Date", &project.date),
                 row("Notes", &project.notes),
                 row("Design file", &run.file.name),
-            ],
+            ]
+            .into_iter()
+            .filter(|row| !matches!(row.value.as_str(), "" | "-"))
+            .collect(),
             verdict: run.verdict.word(),
             verdict_line: verdict_line(run, &outcomes),
             doubts: run.doubts.clone(),
