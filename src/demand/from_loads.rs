@@ -92,7 +92,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
 pub fn input(design: &Design) -> GuidelineInput {
     let (depth, velocity) = incoming(design);
     let slope = design.channel.slope;
-    let level = level_deposit_height(design.flow.volume() / design.channel.width, slope, lean(design));
+    let level = level_fill(design);
     let barrier_height = height_over_bed(design);
     GuidelineInput {
         density: design.flow.bulk_density,
@@ -108,6 +108,11 @@ pub fn input(design: &Design) -> GuidelineInput {
         },
         barrier_height,
     }
+}
+
+/// Height that one event fills, to a level surface (m); 0 on a level bed.
+pub fn level_fill(design: &Design) -> f64 {
+    level_deposit_height(design.flow.volume() / design.channel.width, design.channel.slope, lean(design))
 }
 
 fn extras(design: &Design) -> Extras {

@@ -259,5 +259,17 @@ pub fn over_starts(run: &Simulated) -> Vec<(Observable, Spread)> {
     };
     coefficient("k_effective", "K at rest", |seen| seen.k_effective);
     coefficient("lambda_effective", "λ from the largest force", |seen| seen.lambda_effective);
+    coefficient("k_split", "K by the split, when F₁ is largest", |seen| {
+        let told = &seen.coefficients;
+        Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead)
+    });
+    coefficient("lambda_split_upstream", "λ by the split, when F₂ is largest, velocity upstream", |seen| {
+        let told = &seen.coefficients;
+        Coefficients::at_peak_of(&told.dynamic_upstream, &told.force_moving)
+    });
+    coefficient("lambda_split_mean", "λ by the split, when F₂ is largest, mean velocity", |seen| {
+        let told = &seen.coefficients;
+        Coefficients::at_peak_of(&told.dynamic_mean, &told.force_moving)
+    });
     list
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::checks::detailing;
 use crate::checks::wall::wall_of;
-use crate::demand::from_loads::RopeLoad;
+use crate::demand::from_loads::{RopeLoad, level_fill};
 use crate::loads::cases::{LoadCase, split};
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::ladder::MODELS;
@@ -314,6 +314,17 @@ pub fn holding(run: &Run) -> Vec<Row> {
             format!("of {} each, the design flow", with_unit(design.flow.volume(), "m³")),
         ));
     }
+    let input = &run.guideline.input;
+    let one_event = level_fill(design).min(input.barrier_height);
+    rows.push(row(
+        "Freeboard over one event",
+        with_unit(input.barrier_height - one_event, "m"),
+        format!(
+            "the barrier's {} less the level deposit of the design volume, {}, normal to the bed; no guideline value was found",
+            with_unit(input.barrier_height, "m"),
+            with_unit(one_event, "m")
+        ),
+    ));
     let slope = design.channel.slope;
     if slope > 0.0 {
         for estimate in peak_discharge(design.flow.volume()) {
