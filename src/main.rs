@@ -55,7 +55,7 @@ enum Command {
 
 #[derive(Args)]
 struct ValidateArguments {
-    /// Suites (contact, bulk, wall) or cases (A1, C5, ...) [default: all]
+    /// Suites (contact, bulk, wall, rope, dissipator, net, full-scale) or cases (A1, C5, ...) [default: all]
     names: Vec<String>,
     /// Only the cases that take seconds
     #[arg(long)]

@@ -105,6 +105,68 @@ fn the_equations_alone_take_no_time_and_judge_what_they_can() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// The equations of the report, worked out again from its own text: what stands before the last `=` gives what stands after it.
+#[test]
+fn every_load_case_is_worked_out_to_the_force_it_tells() {
+    let extras = "\nloads:\n  overflow_depth: 0.5 m\n  overflow_friction: 25 deg\n  overflow_length: 1 m\n  snow_pressure: 3 kPa\n  point_load:\n    force: 20 kN\n    height: 1 m\n  drained:\n    earth_pressure_k: 0.5\n    density: 1300 kg/m3\n";
+    let text = std::fs::read_to_string("designs/small_net.yaml").expect("design") + extras;
+    let out = folder("workings");
+    let design = out.with_extension("yaml");
+    std::fs::write(&design, text).expect("design is written");
+    let [path, to] = [&design, &out].map(|path| path.to_str().expect("path"));
+    run(&["loads", path, "--out", to]);
+    let report = std::fs::read_to_string(out.join("report.md")).expect("report");
+    let result = result(&out);
+    let cases = result["guideline"]["cases"].as_array().expect("cases");
+    let lines: Vec<&str> = report.lines().filter(|line| line.contains(" R = ") && line.contains("Source:")).collect();
+    assert_eq!(lines.len(), cases.len());
+    assert!(cases.len() >= 7, "{}", cases.len());
+    for (line, case) in lines.iter().zip(cases) {
+        let (_, equation) = line.rsplit_once("R = ").expect("an equation");
+        let (body, _) = equation.split_once(" = ").expect("its result");
+        let force = case["force_n_per_m"].as_f64().expect("number") / 1e3;
+        assert!((worked_out(body) - force).abs() < 0.01 * force, "{line}: {} {force}", worked_out(body));
+    }
+}
+
+/// Value of a sum of products as the report writes them: `½ · 1.2 · (3² + 2 · 3 · 0.5) + 4.0 · 0.5 (words)`.
+fn worked_out(text: &str) -> f64 {
+    let mut depth = 0;
+    let mut terms = vec![(1.0, String::new())];
+    for letter in text.chars() {
+        depth += i32::from(letter == '(') - i32::from(letter == ')');
+        match letter {
+            '+' if depth == 0 => terms.push((1.0, String::new())),
+            '−' if depth == 0 => terms.push((-1.0, String::new())),
+            _ => terms.last_mut().expect("a term").1.push(letter),
+        }
+    }
+    terms.iter().map(|(sign, term)| sign * product(term)).sum()
+}
+
+fn product(term: &str) -> f64 {
+    let mut value = 1.0;
+    let mut rest = term.trim();
+    while !rest.is_empty() {
+        if let Some(inner) = rest.strip_prefix('(') {
+            let end = inner.find(')').expect("a closing bracket");
+            if inner[..end].chars().all(|letter| !letter.is_alphabetic()) {
+                value *= worked_out(&inner[..end]);
+            }
+            rest = &inner[end + 1..];
+        } else {
+            let (factor, more) = rest.split_once([' ', '·']).unwrap_or((rest, ""));
+            let squared = factor.ends_with('²');
+            let number = factor.trim_end_matches('²');
+            let number: f64 = if number == "½" { 0.5 } else { number.parse().expect("a number") };
+            value *= if squared { number * number } else { number };
+            rest = more;
+        }
+        rest = rest.trim_start_matches([' ', '·']);
+    }
+    value
+}
+
 /// Several starts give their mean and scatter, side by side or one after the other, and their scatter enters the demand.
 #[test]
 fn the_scatter_of_several_starts_enters_the_verdict() {

@@ -115,7 +115,7 @@ fn of_point_load(design: &Design, net: &FlexibleNet) -> Option<Rule> {
             second,
             "m",
             "derived",
-            "below it a part goes into the rope that the bed holds, whose bolts are not checked",
+            "below it a part goes into the rope that the bed holds; give anchors.bed_resistance to have its bolts checked",
         )
     })
 }

@@ -144,7 +144,12 @@ fn working(run: &Run, case: &LoadCase) -> String {
             input.impact_pressure() / 1e3,
         ),
     };
-    format!("{pressures}R = {body} = {result}")
+    let drag = if case.shear > 0.0 && case.shear_certainty.decides() {
+        format!(" + {:.3} (drag on the top)", case.shear / 1e3)
+    } else {
+        String::new()
+    };
+    format!("{pressures}R = {body}{drag} = {result}")
 }
 
 fn remark(run: &Run, case: &LoadCase) -> String {
@@ -211,9 +216,12 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let depth = |height: f64| (diagram.surface - height).max(0.0);
     let beside = (high.min(diagram.block_to) - low.max(diagram.block_from)).max(0.0);
     let factor = if design.factors.load == 1.0 { String::new() } else { format!("{:.2} · ", design.factors.load) };
-    let more = match (case.point.is_some(), design.loads.self_weight.is_some(), case.shear > 0.0) {
-        (false, false, false) => "",
-        _ => ", with point load, drag and weight as given",
+    // What the pressure alone does not make of q, on this rope and in this case.
+    let pressure = design.factors.load * diagram.force(rope.strip[0], rope.strip[1]);
+    let more = if (rope.load - pressure).abs() > 1e-9 * rope.load {
+        ", with point load, drag or weight on this rope"
+    } else {
+        ""
     };
     let span = design.channel.width;
     let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
