@@ -5,19 +5,20 @@ use std::time::Instant;
 use crate::checks::check_all;
 use crate::checks::credibility::{Numerics, doubts};
 use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::wall::unheld;
 use crate::dem::crew;
 use crate::dem::recorders::histories::Histories;
 use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Demands;
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::{Guideline, guideline};
+use crate::design::Design;
 use crate::design::read::DesignFile;
-use crate::design::{BarrierDesign, Design};
 use crate::fidelity::{Fidelity, choose};
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Event, Watch, run as run_event};
 use crate::scene::flow::packing::PackingError;
-use crate::sensitivity::simulated::{Variant, swings, variants};
+use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
 use crate::starts::{Spread, side_by_side};
 
@@ -161,10 +162,8 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
 
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.
 pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
-    let design = &run.file.design;
-    let variants = variants(design);
-    let answer = |variant: &Variant| -> Result<Point, RunError> {
-        let design = &variant.design;
+    let variants = variants(&run.file.design);
+    let answer = |design: &Design| -> Result<Point, RunError> {
         let guideline = guideline(design);
         let simulated = simulate(design, &choose(design), &guideline, design.simulation.seed, watch)?;
         let mut demands = Demands::meet(&guideline, &[simulated.first()], design.factors.load);
@@ -172,8 +171,11 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
         let point = Point::of(simulated.first().force_peak, &check_all(design, &demands));
         Ok(if doubts(&simulated.numerics).is_empty() { point } else { point.unreliable() })
     };
-    let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| answer(&variants[index]));
-    run.varied = swings(&variants, points.into_iter().collect::<Result<_, _>>()?);
+    let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| {
+        let [down, up] = &variants[index].designs;
+        Ok([answer(down)?, answer(up)?])
+    });
+    run.varied = swings(variants, points.into_iter().collect::<Result<_, RunError>>()?);
     Ok(())
 }
 
@@ -182,18 +184,12 @@ fn doubts_of(run: &Simulated, starts: usize) -> Vec<String> {
     doubts(&run.numerics).into_iter().map(named).collect()
 }
 
-fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, doubts: Vec<String>) -> Run {
+fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, mut doubts: Vec<String>) -> Run {
     let observed: Vec<&Observed> =
         simulated.iter().flat_map(|simulated| &simulated.starts).map(|start| &start.observed).collect();
     let demands = Demands::meet(&guideline, &observed, file.design.factors.load);
     let outcomes = check_all(&file.design, &demands);
-    let mut doubts = doubts;
-    let wall = matches!(file.design.barrier, BarrierDesign::RigidWall(_));
-    let strength = |outcome: &&Outcome| outcome.id == "total_force" || outcome.id.starts_with("wall_");
-    if wall && outcomes.iter().filter(strength).all(|outcome| outcome.verdict == CheckVerdict::Info) {
-        let what = "nothing holds the wall's force against a resistance; give the wall's resistance or its stability";
-        doubts.push(what.to_string());
-    }
+    doubts.extend(unheld(&file.design));
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict }
 }

@@ -1,12 +1,9 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Outcome, Resistance};
-use crate::demand::Demands;
+use crate::demand::{CAP_TOLERANCE, Demands};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
 use crate::sources::{BRAKE_DATA, PLATEAU_DATA};
-
-/// Share by which the tension of a dissipator may exceed its plateau before its stroke counts as used up.
-const PLATEAU_TOLERANCE: f64 = 1.01;
 
 fn dissipators(design: &Design) -> Option<(&FlexibleNet, DissipatorDesign)> {
     match &design.barrier {
@@ -45,7 +42,7 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
         Resistance { characteristic: dissipator.plateau, factor: 1.0 },
         1.0,
     );
-    if outcome.utilisation.is_some_and(|utilisation| utilisation <= PLATEAU_TOLERANCE) {
+    if outcome.utilisation.is_some_and(|utilisation| utilisation <= CAP_TOLERANCE) {
         outcome.utilisation = None;
         outcome.verdict = CheckVerdict::Pass;
     }

@@ -54,3 +54,30 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
         bed_slope,
     })
 }
+
+/// Why a wall's verdict would say nothing of its strength: the design gives nothing to hold the force against.
+pub fn unheld(design: &Design) -> Option<String> {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
+    (wall.resistance.is_none() && wall.stability.is_none()).then(|| {
+        "nothing holds the wall's force against a resistance; give the wall's resistance or its stability".to_string()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::read::read_design;
+
+    #[test]
+    fn a_wall_without_resistance_and_stability_is_doubted_and_one_with_either_is_not() {
+        let read = |text: &str| read_design("x", text.as_bytes()).unwrap().design;
+        let mut design = read(include_str!("../../designs/wall_section_5_2.yaml"));
+        assert!(unheld(&design).is_none());
+        if let BarrierDesign::RigidWall(wall) = &mut design.barrier {
+            wall.stability = None;
+        }
+        assert!(unheld(&design).is_some());
+        assert!(unheld(&read(include_str!("../../designs/rigid_wall.yaml"))).is_none());
+        assert!(unheld(&read(include_str!("../../designs/small_net.yaml"))).is_none());
+    }
+}

@@ -71,11 +71,12 @@ fn report_on(
             return ExitCode::Undecided;
         }
     };
-    if let Err(error) = write(&result, &folder) {
+    let view = View::of(&result);
+    if let Err(error) = write(&result, &view, &folder) {
         eprintln!("error: the report could not be written to {}: {error}", folder.display());
         return ExitCode::Undecided;
     }
-    summarise(&result, &folder);
+    summarise(&view, &folder);
     match result.verdict {
         Verdict::Pass => ExitCode::Pass,
         Verdict::Fail => ExitCode::Fail,
@@ -142,9 +143,8 @@ fn progress_bar() -> ProgressBar {
     bar
 }
 
-fn write(run: &Run, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let view = View::of(run);
-    let rendered = render(&view)?;
+fn write(run: &Run, view: &View, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let rendered = render(view)?;
     let mut files = vec![
         ReportFile { name: "report.html".into(), text: rendered.html },
         ReportFile { name: "report.md".into(), text: rendered.markdown },
@@ -160,8 +160,7 @@ fn write(run: &Run, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
 }
 
 /// Verdict and checks for the terminal.
-fn summarise(run: &Run, folder: &Path) {
-    let view = View::of(run);
+fn summarise(view: &View, folder: &Path) {
     let mut out = std::io::stdout().lock();
     let mut say = |line: String| {
         let _ = writeln!(out, "{line}");

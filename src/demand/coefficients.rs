@@ -33,7 +33,7 @@ pub struct Coefficients {
 /// Share of the highest velocity below which λ is not told.
 const SLOW: f64 = 0.2;
 
-/// The samples in the smoothing window, and the grain size below which a depth is none (m).
+/// Splits the force of a run, smoothed over `window` samples, and reads K and λ from it; depths below `grain` (m) are none.
 pub fn coefficients(
     histories: &Histories,
     input: &GuidelineInput,
@@ -53,15 +53,16 @@ pub fn coefficients(
     let upstream: Vec<f64> = histories.incoming.iter().map(|gauge| gauge.velocity).collect();
     let mean: Vec<f64> = histories.velocity.iter().map(|velocity| velocity[0]).collect();
     let slow = SLOW * peak(&mean).1;
-    let unit = input.density * input.gravity_normal;
+    // Without K: that is what is sought.
+    let weight = input.density * input.gravity_normal;
     let mut told = Coefficients::default();
     for sample in 0..along.len() {
         let both = dead[sample] + moving[sample];
         let share = if both > 0.0 { (dead[sample] / both).clamp(0.0, 1.0) } else { 0.0 };
         let (first, second) = (share * along[sample], (1.0 - share) * along[sample]);
         let (deposit, depth) = (deposit[sample], (total_depth[sample] - deposit[sample]).max(0.0));
-        let fixed = unit * deposit * (0.5 * deposit + depth);
-        let own = 0.5 * unit * depth * depth;
+        let fixed = weight * deposit * (0.5 * deposit + depth);
+        let own = 0.5 * weight * depth * depth;
         let flux = |velocity: f64| input.density * velocity * velocity * depth;
         let lambda = |velocity: f64| {
             if depth > grain && velocity > slow {
@@ -87,11 +88,6 @@ pub fn coefficients(
 }
 
 impl Coefficients {
-    /// Largest known value; nothing where none is known.
-    pub fn highest(series: &[f64]) -> Option<f64> {
-        series.iter().copied().filter(|value| value.is_finite()).reduce(f64::max)
-    }
-
     /// The sample at which a force is largest.
     pub fn peak_of(force: &[f64]) -> usize {
         peak(force).0

@@ -17,9 +17,8 @@ pub struct Guideline {
     /// Width of the channel (m).
     pub width: f64,
     pub cases: Vec<LoadCase>,
-    /// Largest total force over the envelope, point loads included (N), and the case it comes from.
+    /// Largest total force over the envelope, point loads included (N).
     pub largest_force: f64,
-    pub governing: Option<LoadCase>,
     /// Largest moment about the bed over the envelope, per width (N m/m).
     pub largest_moment: f64,
     /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
@@ -58,10 +57,6 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     let extras = extras(design);
     let width = design.channel.width;
     let stages = envelope(&input, &extras);
-    let total = |case: &LoadCase| case.force_per_width() * width + case.point.map_or(0.0, |point| point.force);
-    let governing = stages.iter().max_by(|a, b| total(a).total_cmp(&total(b))).cloned();
-    let moment =
-        |case: &LoadCase| case.moment_per_width() + case.point.map_or(0.0, |point| point.force * point.height / width);
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
         BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
@@ -75,9 +70,8 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         width,
         bed_force,
         cases: all(&input, &extras),
-        largest_force: governing.as_ref().map_or(0.0, total),
-        governing,
-        largest_moment: stages.iter().map(moment).fold(0.0, larger),
+        largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger),
+        largest_moment: stages.iter().map(|case| case.mean_moment(width)).fold(0.0, larger),
         ropes,
         dissipator: match &design.barrier {
             BarrierDesign::FlexibleNet(net) => {
@@ -123,7 +117,6 @@ fn extras(design: &Design) -> Extras {
         drained: loads.drained.map(|(earth_pressure, density)| [earth_pressure, density]),
         point: loads.point_load.map(|(force, height)| PointLoad { force, height }),
         snow: loads.snow_pressure,
-        self_weight: loads.self_weight,
     }
 }
 
@@ -174,6 +167,12 @@ fn sliding_velocity(design: &Design, block: &DamBreak) -> f64 {
     (2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length)).sqrt()
 }
 
+/// Plateau (N) and stroke (m) of the dissipators, if there are any.
+fn dissipator(design: &Design) -> Option<[f64; 2]> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke])
+}
+
 /// Angle by which the barrier leans upstream from the bed's normal (rad).
 fn lean(design: &Design) -> f64 {
     match &design.barrier {
@@ -189,7 +188,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
     let span = RopeInput {
         span: design.channel.width,
         axial_stiffness: rope.modulus * FRAC_PI_4 * rope.diameter.powi(2),
-        dissipator: net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke]),
+        dissipator: dissipator(design),
     };
     let top = height_over_bed(design);
     let above_bed = |along: f64| top - (net.height - along) * lean(design).cos();

@@ -137,8 +137,8 @@ impl Demands {
     }
 }
 
-/// Share by which rounding may lift a capped load above its cap.
-const CAP_TOLERANCE: f64 = 1.01;
+/// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
+pub const CAP_TOLERANCE: f64 = 1.01;
 
 /// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.
 pub fn larger(a: f64, b: f64) -> f64 {

@@ -84,11 +84,8 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
         pressure_static: with_unit(case.pressure_static(), "Pa"),
         pressure_dynamic: with_unit(case.diagram.block, "Pa"),
         force_per_width: with_unit(case.force_per_width(), "N/m"),
-        moment: with_unit(
-            case.moment_per_width() + case.point.map_or(0.0, |point| point.force * point.height / width),
-            "N m/m",
-        ),
-        total: with_unit(case.force_per_width() * width + case.point.map_or(0.0, |point| point.force), "N"),
+        moment: with_unit(case.mean_moment(width), "N m/m"),
+        total: with_unit(case.total_force(width), "N"),
         formula: case.formula,
         working: working(run, case),
         remark: remark(run, case),

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
 use crate::pipeline::{Run, Simulated, Verdict};
@@ -38,8 +39,9 @@ pub struct View {
     pub starts: Vec<Row>,
     pub findings: Vec<Row>,
     pub charts: Vec<Chart>,
-    /// Side views at a few moments, and the barrier from upstream at its largest load.
+    /// Side views at a few moments.
     pub views: Vec<Chart>,
+    /// The barrier from upstream at its largest load.
     pub elevation: Option<Chart>,
     /// Pressure over height at the largest force and at the end.
     pub profiles: Vec<Chart>,
@@ -140,6 +142,12 @@ impl View {
             sha256: run.file.sha256.clone(),
         }
     }
+
+    /// Every picture as a file that stands alone: name and text.
+    pub fn pictures(&self) -> Vec<(String, String)> {
+        let pictures = self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation);
+        pictures.map(|chart| (chart.file.clone(), chart.alone())).collect()
+    }
 }
 
 /// Worst first.
@@ -163,8 +171,8 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
     let governing = governing.map_or(String::new(), |outcome| {
         format!(" Governing: {} ({}).", outcome.title.to_lowercase(), percent(outcome.utilisation))
     });
-    let broken = loads::rules(run).iter().filter(|rule| rule.verdict == "warn").count();
-    let broken = match broken {
+    let rules = detailing::rules(&run.file.design, &run.guideline);
+    let broken = match rules.iter().filter(|rule| !rule.holds()).count() {
         0 => String::new(),
         1 => " One rule of detailing or range is not kept.".to_string(),
         count => format!(" {count} rules of detailing or range are not kept."),
@@ -183,8 +191,8 @@ fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
             format!("{failed} of {} checks fail{alone}.{governing}", held.len())
         }
         Verdict::Pass => {
-            let unjudged = run.outcomes.iter().filter(|outcome| outcome.capacity.is_some()).count()
-                - held.len().min(run.outcomes.len());
+            let unjudged = |outcome: &&Outcome| outcome.capacity.is_some() && outcome.verdict == CheckVerdict::Info;
+            let unjudged = run.outcomes.iter().filter(unjudged).count();
             let alone = match &run.simulated {
                 None => format!(" by the equations alone; {unjudged} more need the simulation"),
                 Some(simulated) if simulated.starts.len() == 1 => {
@@ -307,12 +315,4 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
         }
     };
     entries.order.iter().map(row).collect()
-}
-
-impl View {
-    /// Every picture as a file that stands alone: name and text.
-    pub fn pictures(&self) -> Vec<(String, String)> {
-        let pictures = self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation);
-        pictures.map(|chart| (chart.file.clone(), chart.alone())).collect()
-    }
 }

@@ -5,16 +5,16 @@ pub mod simulated;
 use crate::checks::check_all;
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
-use crate::demand::from_loads::{Guideline, guideline_for, input};
+use crate::demand::from_loads::{guideline_for, input};
 use crate::design::{BarrierDesign, Design};
 use crate::loads::input::GuidelineInput;
 
-/// What the equations say of one set of inputs.
+/// What one set of inputs comes to, by the equations or by a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Largest total force over the load cases (N).
+    /// Largest total force (N).
     pub force: f64,
-    /// Largest utilisation over the checks that the equations can judge, and the check.
+    /// Largest utilisation over the checks that are judged, and the check.
     pub utilisation: Option<f64>,
     pub governing: String,
 }
@@ -48,30 +48,40 @@ pub struct Margin {
     pub depth: Limit,
 }
 
-type Change = fn(&mut Design, &mut GuidelineInput, f64);
+/// An input, the share by which it is changed, and how to change it by a factor.
+type Change = (&'static str, f64, fn(&mut Design, &mut GuidelineInput, f64));
 
-/// Inputs of the tornado: name, share, how to change it by a factor.
-const CHANGES: &[(&str, f64, Change)] = &[
-    ("Velocity v", 0.1, |_, input, factor| input.velocity *= factor),
-    ("Depth h", 0.2, |_, input, factor| input.depth *= factor),
+const VELOCITY: Change = ("Velocity v", 0.1, |_, input, factor| input.velocity *= factor);
+const DEPTH: Change = ("Depth h", 0.2, |_, input, factor| input.depth *= factor);
+
+/// Inputs of the tornado.
+const CHANGES: &[Change] = &[
+    VELOCITY,
+    DEPTH,
     ("Density ρ", 0.2, |_, input, factor| input.density *= factor),
     ("λ", 0.2, |_, input, factor| input.dynamic_pressure *= factor),
     ("K", 0.2, |_, input, factor| input.earth_pressure *= factor),
     ("Height of filling", 0.2, |_, input, factor| {
         input.fill_height = (input.fill_height * factor).min(input.barrier_height);
     }),
-    ("Plateau of the dissipators", 0.2, |design, _, factor| {
-        if let BarrierDesign::FlexibleNet(net) = &mut design.barrier
-            && let Some(dissipator) = &mut net.dissipators
-        {
-            dissipator.plateau *= factor;
-        }
-    }),
+    ("Plateau of the dissipators", 0.2, |design, _, factor| scale_plateau(design, factor)),
 ];
 
-fn point(design: &Design, input: GuidelineInput) -> Point {
-    let guideline: Guideline = guideline_for(design, input);
-    let outcomes = check_all(design, &Demands::meet(&guideline, &[], design.factors.load));
+fn scale_plateau(design: &mut Design, factor: f64) {
+    if let BarrierDesign::FlexibleNet(net) = &mut design.barrier
+        && let Some(dissipator) = &mut net.dissipators
+    {
+        dissipator.plateau *= factor;
+    }
+}
+
+/// What the equations say with one input changed.
+fn changed(design: &Design, (_, _, change): Change, factor: f64) -> Point {
+    let (mut design, mut flow) = (design.clone(), input(design));
+    change(&mut design, &mut flow, factor);
+    flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
+    let guideline = guideline_for(&design, flow);
+    let outcomes = check_all(&design, &Demands::meet(&guideline, &[], design.factors.load));
     Point::of(guideline.largest_force, &outcomes)
 }
 
@@ -88,9 +98,7 @@ impl Point {
             governing: governing.map_or(String::new(), |outcome| outcome.title.clone()),
         }
     }
-}
 
-impl Point {
     /// The same where the run behind it cannot be relied on: it says nothing.
     pub fn unreliable(self) -> Self {
         Self { utilisation: None, governing: "cannot be relied on".to_string(), ..self }
@@ -109,17 +117,9 @@ impl Swing {
 
 /// The tornado: each input alone, the most telling first.
 pub fn swings(design: &Design) -> Vec<Swing> {
-    let at = |change: Change, factor: f64| {
-        let (mut changed, mut flow) = (design.clone(), input(design));
-        change(&mut changed, &mut flow, factor);
-        flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
-        point(&changed, flow)
-    };
-    let swing = |&(name, share, change): &(&'static str, f64, Change)| Swing {
-        name,
-        share,
-        down: at(change, 1.0 - share),
-        up: at(change, 1.0 + share),
+    let swing = |&change: &Change| {
+        let (name, share, _) = change;
+        Swing { name, share, down: changed(design, change, 1.0 - share), up: changed(design, change, 1.0 + share) }
     };
     let mut swings: Vec<Swing> = CHANGES.iter().map(swing).collect();
     swings.retain(|swing| swing.width() > 0.0);
@@ -129,12 +129,7 @@ pub fn swings(design: &Design) -> Vec<Swing> {
 
 /// By how much the flow may grow, or must shrink, until the first check by equations just holds.
 pub fn margin(design: &Design) -> Margin {
-    let holds = |change: Change, factor: f64| {
-        let (mut changed, mut flow) = (design.clone(), input(design));
-        change(&mut changed, &mut flow, factor);
-        flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
-        point(&changed, flow).utilisation.map(|used| used <= 1.0)
-    };
+    let holds = |change: Change, factor: f64| changed(design, change, factor).utilisation.map(|used| used <= 1.0);
     let limit = |change: Change| {
         match (holds(change, SMALLEST), holds(change, LARGEST)) {
             (None, _) | (_, None) => return Limit::Unjudged,
@@ -153,7 +148,7 @@ pub fn margin(design: &Design) -> Margin {
         }
         Limit::At(low)
     };
-    Margin { velocity: limit(CHANGES[0].2), depth: limit(CHANGES[1].2) }
+    Margin { velocity: limit(VELOCITY), depth: limit(DEPTH) }
 }
 
 /// Factors between which a margin is sought.
@@ -173,10 +168,7 @@ mod tests {
     fn at_the_margin_the_first_check_just_holds() {
         let design = design();
         let Limit::At(factor) = margin(&design).velocity else { panic!("no margin") };
-        let at = |factor: f64| {
-            let flow = input(&design);
-            point(&design, GuidelineInput { velocity: flow.velocity * factor, ..flow }).utilisation.unwrap()
-        };
+        let at = |factor: f64| changed(&design, VELOCITY, factor).utilisation.unwrap();
         assert!(at(factor) <= 1.0 && at(factor * 1.001) > 1.0, "{factor}");
     }
 

@@ -1,7 +1,7 @@
 //! How far the simulation's own answer moves when an input does: every input alone, down and up, each with a run of its own.
 
-use crate::design::{Arrival, BarrierDesign, Design};
-use crate::sensitivity::{Point, Swing};
+use crate::design::{Arrival, Design};
+use crate::sensitivity::{Point, Swing, scale_plateau};
 
 type Change = fn(&mut Design, f64);
 
@@ -26,43 +26,51 @@ const CHANGES: &[(&str, f64, Change)] = &[
     }),
     ("Friction on the bed", 0.2, |design, factor| design.channel.base_friction *= factor),
     ("Friction between grains", 0.2, |design, factor| design.flow.grain_friction *= factor),
-    ("Plateau of the dissipators", 0.2, |design, factor| {
-        if let BarrierDesign::FlexibleNet(net) = &mut design.barrier
-            && let Some(dissipator) = &mut net.dissipators
-        {
-            dissipator.plateau *= factor;
-        }
-    }),
+    ("Plateau of the dissipators", 0.2, scale_plateau),
 ];
 
-/// One changed design to run.
+/// An input with the designs that it makes, taken down and up.
 pub struct Variant {
-    change: usize,
-    pub design: Design,
+    name: &'static str,
+    share: f64,
+    pub designs: [Design; 2],
 }
 
-/// The designs to run, two for each input that the design has.
+/// The designs to run: two for each input that the design has.
 pub fn variants(design: &Design) -> Vec<Variant> {
-    let of = |change: usize| {
-        let (_, share, apply) = CHANGES[change];
-        [1.0 - share, 1.0 + share].map(|factor| {
+    let variant = |&(name, share, apply): &(&'static str, f64, Change)| {
+        let designs = [1.0 - share, 1.0 + share].map(|factor| {
             let mut changed = design.clone();
             apply(&mut changed, factor);
-            Variant { change, design: changed }
-        })
+            changed
+        });
+        Variant { name, share, designs }
     };
-    (0..CHANGES.len()).flat_map(of).filter(|variant| variant.design != *design).collect()
+    CHANGES.iter().map(variant).filter(|variant| variant.designs[1] != *design).collect()
 }
 
-/// The tornado from what those runs said, in their order; the most telling first.
-pub fn swings(variants: &[Variant], points: Vec<Point>) -> Vec<Swing> {
-    let mut points = points.into_iter();
-    let mut swings = Vec::new();
-    for pair in variants.chunks(2) {
-        let (Some(down), Some(up)) = (points.next(), points.next()) else { break };
-        let (name, share, _) = CHANGES[pair[0].change];
-        swings.push(Swing { name, share, down, up });
-    }
+/// The tornado from what the runs of each variant said; the most telling first.
+pub fn swings(variants: Vec<Variant>, points: Vec<[Point; 2]>) -> Vec<Swing> {
+    let swing = |(Variant { name, share, .. }, [down, up]): (Variant, [Point; 2])| Swing { name, share, down, up };
+    let mut swings: Vec<Swing> = variants.into_iter().zip(points).map(swing).collect();
     swings.sort_by(|a, b| b.width().total_cmp(&a.width()));
     swings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::read::read_design;
+
+    #[test]
+    fn only_inputs_that_the_design_has_are_varied() {
+        let names = |text: &str| -> Vec<&str> {
+            let design = read_design("x", text.as_bytes()).unwrap().design;
+            variants(&design).into_iter().map(|variant| variant.name).collect()
+        };
+        let surge_on_net = names(include_str!("../../designs/small_net.yaml"));
+        let block_on_wall = names(include_str!("../../designs/rigid_wall.yaml"));
+        assert_eq!(surge_on_net.len(), CHANGES.len());
+        assert_eq!(surge_on_net.len() - block_on_wall.len(), 2, "{block_on_wall:?}");
+    }
 }

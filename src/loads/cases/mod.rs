@@ -85,6 +85,16 @@ impl LoadCase {
         self.diagram.moment(0.0, f64::INFINITY) + self.decisive_shear() * self.diagram.top
     }
 
+    /// Force on a barrier of this width, its point load included (N).
+    pub fn total_force(&self, width: f64) -> f64 {
+        self.force_per_width() * width + self.point.map_or(0.0, |point| point.force)
+    }
+
+    /// Moment about the bed, per width, of all that acts on a barrier of this width (N m/m).
+    pub fn mean_moment(&self, width: f64) -> f64 {
+        self.moment_per_width() + self.point.map_or(0.0, |point| point.force * point.height / width)
+    }
+
     /// Force per width on the strip of a rope between two heights; the topmost strip takes the drag (N/m).
     pub fn strip_force(&self, low: f64, high: f64) -> f64 {
         let drag = if high >= self.diagram.top && low < self.diagram.top { self.decisive_shear() } else { 0.0 };
@@ -108,8 +118,6 @@ pub struct Extras {
     pub point: Option<PointLoad>,
     /// Uniform pressure of snow (Pa).
     pub snow: Option<f64>,
-    /// Weight of the barrier per area (N/m²).
-    pub self_weight: Option<f64>,
 }
 
 /// Depths of deposit tried between the empty and the full barrier.
