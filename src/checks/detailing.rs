@@ -167,7 +167,7 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
         let advice = "the gap lets the flow through; keep it below D90";
         rules.push(most("Gap below the net against D90", gap, coarse, "m", ALBABA, advice));
         let advice = "a free lowest rope lifts and let all of the flow under even with gaps of D30; bolt it to the bed";
-        rules.push(most("Lowest ropes that are free", 1.0, 0.0, "", ALBABA, advice));
+        rules.push(most("Lowest ropes that are free", 1.0, 0.0, "count", ALBABA, advice));
     }
     if net.dissipators.is_some() {
         let bypass = if net.lateral_to == LateralTo::Anchors { 2.0 } else { 0.0 };
@@ -175,7 +175,7 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
             "Lateral ropes that pass the dissipators by",
             bypass,
             0.0,
-            "",
+            "count",
             ALBABA,
             "tied to the anchors they load them far above the plateau; tie them to the rope ends",
         ));

@@ -25,6 +25,7 @@ pub const RULES: &[Rule] = &[
     wall_base_carries_the_wall,
     wall_base_no_steeper_than_the_bed,
     point_load_on_the_barrier,
+    self_weight_of_a_net,
     overflow_has_friction_and_length,
     mesh_within_the_barrier,
     main_ropes_counted_once,
@@ -247,9 +248,21 @@ fn wall_base_no_steeper_than_the_bed(e: &Entries) -> Option<Problem> {
 fn point_load_on_the_barrier(e: &Entries) -> Option<Problem> {
     let path = "loads.point_load.height";
     let height = e.number(path)?;
-    let barrier = e.number("barrier.rigid_wall.height").or_else(|| e.number(&at("height")))?;
-    (height > barrier).then(|| {
-        Problem::new(path, length(height), format!("no more than the height of the barrier, {}", length(barrier)))
+    let top = e.number("barrier.rigid_wall.height").or_else(|| {
+        let lean = e.number("channel.slope")? + e.number(&at("tilt"))?;
+        Some(e.number(&at("height"))? * lean.cos() + e.number(&at("bottom.opening")).unwrap_or(0.0))
+    })?;
+    (height > top).then(|| {
+        let allowed = format!("no more than the barrier's top, {} above the bed and normal to it", length(top));
+        Problem::new(path, length(height), allowed)
+    })
+}
+
+fn self_weight_of_a_net(e: &Entries) -> Option<Problem> {
+    let path = "loads.self_weight";
+    (e.mentions(path) && e.has_section("barrier.rigid_wall")).then(|| {
+        Problem::new(path, "the weight of a rigid wall".to_string(), "this key for a net only")
+            .hint("a wall's weight follows from barrier.rigid_wall.stability")
     })
 }
 

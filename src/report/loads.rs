@@ -359,7 +359,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
 pub fn rules(run: &Run) -> Vec<RuleRow> {
     let rules = detailing::rules(&run.file.design, &run.guideline);
     let row = |rule: detailing::Rule| {
-        let show = |value: f64| with_unit(value, rule.unit).trim().to_string();
+        let show = |value: f64| with_unit(value, rule.unit);
         let advised = match (rule.least, rule.most) {
             (Some(least), Some(most)) => format!("{} to {}", show(least), show(most)),
             (Some(least), None) => format!("at least {}", show(least)),

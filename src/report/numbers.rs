@@ -22,6 +22,7 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "kg" if value.abs() < 2000.0 => format!("{} kg", figures(value)),
         "kg" => format!("{} t", figures(value / 1e3)),
         "" => figures(value),
+        "count" => format!("{value:.0}"),
         "-" => format!("{:.1} %", 100.0 * value),
         unit => format!("{} {unit}", figures(value)),
     }

@@ -62,16 +62,19 @@ pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
         wall: matches!(design.barrier, BarrierDesign::RigidWall(_)),
         fastest: seen.first().velocity_peak,
     };
-    let chart = |snapshot: &Snapshot| Chart {
-        title: match snapshot.moment {
+    let chart = |snapshot: &Snapshot| {
+        let title = match snapshot.moment {
             Moment::FirstContact => "First contact",
             Moment::LargestForce => "Largest force",
             Moment::HalfAtRest => "Half of the mass at rest",
             Moment::End => "End",
-        },
-        file: format!("flow_{:?}.svg", snapshot.moment).to_lowercase(),
-        svg: side_view(snapshot, &setting),
-        note: format!("at {:.2} s", snapshot.time),
+        };
+        Chart {
+            title,
+            file: format!("flow_{}", file_name(title)),
+            svg: side_view(snapshot, &setting),
+            note: format!("at {:.2} s", snapshot.time),
+        }
     };
     seen.histories.snapshots.iter().map(chart).collect()
 }

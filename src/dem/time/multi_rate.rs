@@ -43,13 +43,13 @@ pub fn step_barrier<'a>(
     let own = Stretch { step: time.step / f64::from(parts), ..*time };
     let several = parts > 1;
     let before: Vec<Vec3> = barrier.nodes.iter().filter(|_| several).map(|node| node.position).collect();
-    let told = account.then_some(&time.gravity);
+    let accounted = account.then_some(&time.gravity);
     let mut first = net;
     pushes.for_each(|push| first.push(push, f64::from(parts)));
-    let mut motion = told.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity));
+    let mut motion = accounted.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity));
     // The impulse of the grains acts at once, that of gravity and of the elements over the first part.
     first.take_over(barrier);
-    let after = go(barrier, &first, &own, told);
+    let after = go(barrier, &first, &own, accounted);
     motion.kinetic = 0.5 * (motion.kinetic + after.kinetic);
     motion.rotational = 0.5 * (motion.rotational + after.rotational);
     for _ in 1..parts {
@@ -63,11 +63,11 @@ pub fn step_barrier<'a>(
     BarrierStep { net: first, motion, fastest }
 }
 
-/// Moves nodes and frames through one step; returns their motion after the kick where gravity is told for it.
-fn go(barrier: &mut Barrier, net: &NetForces, own: &Stretch, told: Option<&Vec3>) -> MotionEnergy {
+/// Moves nodes and frames through one step; returns the energy of their motion after it where gravity is given to account for.
+fn go(barrier: &mut Barrier, net: &NetForces, own: &Stretch, accounted: Option<&Vec3>) -> MotionEnergy {
     move_nodes(&mut barrier.nodes, &net.forces, &own.gravity, own.step);
     turn_frames(&mut barrier.frames, &net.torques, own.step);
-    told.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity))
+    accounted.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity))
 }
 
 /// Energies of motion and place of the nodes.

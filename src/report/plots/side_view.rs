@@ -7,6 +7,9 @@ use crate::dem::recorders::snapshots::Snapshot;
 
 const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 330.0;
+/// How far the picture reaches up and down from the barrier's foot, level, in plumb heights of the barrier.
+const UPSTREAM: f64 = 2.2;
+const DOWNSTREAM: f64 = 1.4;
 /// Spheres drawn at the most.
 const MOST: usize = 900;
 /// Share of the channel's width that the slice takes, if that is not too many spheres.
@@ -29,9 +32,8 @@ pub struct Setting {
 pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
     let (sine, cosine) = setting.slope.sin_cos();
     let turned = |place: &Vec3| (place.x * cosine + place.z * sine, place.z * cosine - place.x * sine);
-    // Three heights upstream and one and a half downstream of the foot.
     let reach = setting.height / cosine;
-    let (left, right) = (-2.2 * reach, 1.4 * reach);
+    let (left, right) = (-UPSTREAM * reach, DOWNSTREAM * reach);
     let scale = (WIDTH - 8.0) / (right - left);
     let middle = HEIGHT * 0.5;
     let screen = |place: &Vec3| {
