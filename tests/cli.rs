@@ -32,6 +32,15 @@ fn a_small_design_gives_a_whole_report_and_repeats_bit_for_bit() {
     }
     let csv = |folder: &Path| std::fs::read(folder.join("histories.csv")).expect("histories");
     assert_eq!(csv(&one), csv(&two), "the result depends on the number of threads");
+    // What the grains at rest and the moving ones push adds up to the force: at rest, where nothing changes from step to step.
+    let text = String::from_utf8(csv(&one)).expect("text");
+    let last = |name: &str| -> f64 {
+        let column = text.lines().next().and_then(|head| head.split(',').position(|column| column == name));
+        let value = text.lines().last().and_then(|row| row.split(',').nth(column.expect(name)));
+        value.expect("a value").parse().expect("a number")
+    };
+    let [force, at_rest, moving] = ["force_x_n", "touch_of_grains_at_rest_n", "touch_of_grains_moving_n"].map(last);
+    assert!(at_rest > 0.9 * force && ((at_rest + moving) / force - 1.0).abs() < 0.02, "{force} {at_rest} {moving}");
     let html = std::fs::read_to_string(one.join("report.html")).expect("report");
     assert!(!html.contains("http://") && !html.contains("https://"), "the report must open offline");
     let mut result = result(&one);

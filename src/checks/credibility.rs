@@ -27,7 +27,7 @@ pub struct Numerics {
 impl Numerics {
     /// The worse of two runs in every respect.
     pub fn worst(&self, other: &Self) -> Self {
-        let larger = |a: f64, b: f64| if a.is_nan() || a.abs() >= b.abs() { a } else { b };
+        let larger = |a: f64, b: f64| if b.is_nan() || b.abs() > a.abs() { b } else { a };
         Self {
             energy_error: larger(self.energy_error, other.energy_error),
             overlap: larger(self.overlap, other.overlap),
@@ -72,6 +72,16 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_worst_of_several_starts_is_kept() {
+        let one = Numerics { energy_error: -0.02, overlap: 0.1, crossings: 1, ..Numerics::default() };
+        let other = Numerics { energy_error: 0.01, overlap: f64::NAN, missed: true, ..Numerics::default() };
+        for worst in [one.worst(&other), other.worst(&one)] {
+            assert_eq!((worst.energy_error, worst.crossings, worst.missed), (-0.02, 1, true));
+            assert!(worst.overlap.is_nan());
+        }
+    }
 
     #[test]
     fn every_limit_and_nan_raise_a_doubt() {

@@ -144,3 +144,63 @@ pub const CAP_TOLERANCE: f64 = 1.01;
 pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demand::from_loads::guideline;
+    use crate::design::read::read_design;
+    use crate::starts::k_n;
+    use approx::assert_relative_eq;
+
+    /// Starts on `small_net`, whose dissipators have a plateau of 60 kN: its net's tension, the load of anchor 2, the share held.
+    fn demands(starts: &[[f64; 3]]) -> Demands {
+        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let observed: Vec<Observed> = starts
+            .iter()
+            .map(|&[net, anchor, retained]| Observed {
+                net_tension_peak: net,
+                anchor_force_peak: vec![0.0, anchor, 0.0],
+                rope_tension_peak: vec![0.0; 3],
+                brake_stroke: vec![0.0; 3],
+                brake_force_peak: vec![anchor],
+                retained,
+                ..Observed::default()
+            })
+            .collect();
+        Demands::meet(&guideline(&design), &observed.iter().collect::<Vec<_>>(), 1.0)
+    }
+
+    #[test]
+    fn scatter_lifts_a_load_and_lowers_what_must_be_kept() {
+        let demands = demands(&[[1e3, 1e3, 0.98], [2e3, 1e3, 0.96], [3e3, 1e3, 0.94]]);
+        assert_relative_eq!(demands.net_tension.simulation.unwrap(), 2e3 + k_n(3) * 1e3, max_relative = 1e-12);
+        assert_relative_eq!(demands.retained.simulation.unwrap(), 0.96 - k_n(3) * 0.02, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn scatter_does_not_lift_a_dissipator_above_its_plateau_unless_a_start_went_there() {
+        let at_work = demands(&[[0.0, 60e3, 1.0], [0.0, 60e3, 1.0], [0.0, 40e3, 1.0]]);
+        assert_eq!(at_work.anchor_force[1].simulation, Some(60e3));
+        assert_eq!(at_work.brake_force.simulation, Some(60e3));
+        let used_up = demands(&[[0.0, 60e3, 1.0], [0.0, 90e3, 1.0], [0.0, 60e3, 1.0]]);
+        assert!(used_up.anchor_force[1].simulation.unwrap() > 90e3);
+        assert_eq!(used_up.brake_force.simulation, Some(90e3));
+    }
+
+    #[test]
+    fn a_start_that_is_not_a_number_is_seen() {
+        let demands = demands(&[[1e3, 60e3, 1.0], [f64::NAN, f64::NAN, 1.0]]);
+        assert!(demands.net_tension.simulation.unwrap().is_nan());
+        assert!(demands.anchor_force[1].simulation.unwrap().is_nan());
+        assert!(demands.brake_force.simulation.unwrap().is_nan());
+    }
+
+    #[test]
+    fn nothing_of_the_guideline_is_left_where_the_simulation_alone_is_asked() {
+        let mut demands = demands(&[[1e3, 1e3, 1.0]]);
+        demands.leave_out_guideline();
+        // Written out, so that a demand added later is not forgotten: it stands in the text of all of them.
+        assert!(!format!("{demands:?}").contains("guideline: Some"), "{demands:?}");
+    }
+}
