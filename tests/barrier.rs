@@ -67,6 +67,7 @@ fn a_dissipator_stops_a_mass_over_its_plateau() {
         nodes: [0, 1],
         rope: 0,
         rest_length: 1.0,
+        radius: 0.016,
         stiffness: 45.957e6,
         plateau: 250e3,
         stroke: 2.5,

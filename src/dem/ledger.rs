@@ -49,7 +49,7 @@ pub struct Ledger {
     pub kinetic: f64,
     /// Rotational part of `kinetic`.
     pub rotational: f64,
-    /// Gravity potential, relative to the start.
+    /// Gravity potential, zero at the origin of the channel's frame.
     pub potential: f64,
     pub stored_contacts: f64,
     pub stored_barrier: f64,
@@ -80,8 +80,9 @@ impl Ledger {
         self.lost_damping + self.lost_friction + self.lost_ropes + self.lost_dissipators
     }
 
-    /// Imbalance against `start`, relative to the energy put in: the kinetic energy at the start plus the
-    /// potential energy released since. Zero while nothing was put in.
+    /// Imbalance against `start`, relative to the energy put in: the kinetic energy at the start plus the potential energy released
+    /// since, less all that departed grains carry, their motion too, so that the share is rather too large. Zero while nothing was
+    /// put in.
     pub fn relative_error(&self, start: &Self) -> f64 {
         let put_in = start.kinetic + (start.potential - self.potential - self.carried_out).max(0.0);
         let imbalance = self.total() - start.total();

@@ -62,8 +62,8 @@ pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
     net
 }
 
-/// Lets ropes slide through their rings at the present places, before they pull; returns the energy lost since the last step,
-/// which was of length `step` (J).
+/// Lets ropes slide through their rings at the present places, before they pull; returns the energy lost since the barrier's last
+/// step, which was of length `step` (J).
 pub fn slide_all(barrier: &mut Barrier, step: f64) -> f64 {
     let Barrier { nodes, segments, chains, .. } = barrier;
     chains.iter().map(|chain| chain.slide(segments, nodes, step)).sum()

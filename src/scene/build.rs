@@ -56,8 +56,6 @@ fn smoothing(design: &Design) -> f64 {
 /// Settling time over √(block height/g), and its drag times that time.
 const SETTLING: f64 = 1.2;
 const SETTLING_DRAG: f64 = 2.5;
-/// A dam-break block settles with larger steps: it hardly moves.
-const SETTLING_STEP: f64 = 1.5;
 
 /// Gravity in the channel frame.
 fn gravity(slope: f64) -> Vec3 {
@@ -135,14 +133,11 @@ fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
 /// Lets the block settle behind the gate under gravity, slowed by drag.
 fn settle(simulation: &mut Simulation, block: &Block) -> Result<(), Unstable> {
     let fall = (block.height / GRAVITY).sqrt();
-    let step = simulation.time_step;
-    simulation.time_step = SETTLING_STEP * step;
     simulation.drag = SETTLING_DRAG / fall;
     while simulation.time < SETTLING * fall {
         simulation.step()?;
     }
     simulation.drag = 0.0;
-    simulation.time_step = step;
     Ok(())
 }
 

@@ -16,6 +16,8 @@ pub struct Dissipator {
     pub rope: u16,
     /// Length at which tension starts (m).
     pub rest_length: f64,
+    /// Radius with which grains touch it and what it has paid out (m): that of its rope.
+    pub radius: f64,
     /// Elastic stiffness k (N/m).
     pub stiffness: f64,
     /// Plateau force (N).
@@ -75,6 +77,7 @@ mod tests {
             nodes: [0, 1],
             rope: 0,
             rest_length: 0.0,
+            radius: 0.016,
             stiffness: 45.957e6,
             plateau: 250e3,
             stroke: 2.5,

@@ -25,8 +25,8 @@ const SWEEPS: usize = 2;
 const NEWTON_STEPS: usize = 2;
 
 impl Chain {
-    /// Lets the rope slide through its rings, at the places reached by a step of length `step` (s); returns the energy lost in
-    /// friction (J).
+    /// Lets the rope slide through its rings, at the places reached by a step of the barrier of length `step` (s); returns the
+    /// energy lost in friction (J).
     ///
     /// Stretched at the old rest lengths the rope has stored ½ (T_n + T') ΔL in that step, but the integrator works with the
     /// tension T_n+1 after the slide. The difference belongs to the slide:
@@ -51,7 +51,7 @@ impl Chain {
                 continue;
             }
             segment.set_rest_length(piece.rest_length);
-            let [a, b] = segment.nodes.map(|node| nodes[node as usize].pace);
+            let [a, b] = segment.nodes.map(|node| nodes[node as usize].velocity);
             let stretched = (b - a).dot(&piece.direction) * step;
             lost += energy - piece.energy() - 0.5 * (tension - piece.tension()) * stretched;
         }

@@ -54,7 +54,8 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// Changes the rest length; the stiffness EA/L0 follows.
+    /// Changes the rest length; the stiffness EA/L0 follows. The damping stays: it is a share of what the piece it came with had
+    /// critical, between those two nodes' masses.
     pub fn set_rest_length(&mut self, rest_length: f64) {
         self.stiffness *= self.rest_length / rest_length;
         self.rest_length = rest_length;
@@ -123,6 +124,9 @@ impl Barrier {
         let cylinders = self.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes, cylinder.section.radius));
         let touchable = segments.chain(cylinders).filter(|(kind, ..)| *kind != SegmentKind::Ring);
         self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius }).collect();
+        self.lines.extend(
+            self.dissipators.iter().map(|dissipator| Line { nodes: dissipator.nodes, radius: dissipator.radius }),
+        );
         for node in &mut self.nodes {
             node.lines.clear();
             node.radius = 0.0;

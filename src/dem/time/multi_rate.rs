@@ -14,7 +14,7 @@ use crate::dem::contact::law::LawConstants;
 use crate::dem::contact::ropes::Push;
 use crate::dem::ledger::MotionEnergy;
 use crate::dem::net::{NetForces, pull_all};
-use crate::dem::tables::barrier::Barrier;
+use crate::dem::tables::barrier::{Barrier, Frame, Node};
 use crate::dem::time::integrate::{Stretch, move_nodes, turn_frames};
 use crate::dem::{Vec3, larger_or_nan};
 
@@ -43,19 +43,18 @@ pub fn step_barrier<'a>(
     let own = Stretch { step: time.step / f64::from(parts), ..*time };
     let several = parts > 1;
     let before: Vec<Vec3> = barrier.nodes.iter().filter(|_| several).map(|node| node.position).collect();
-    let accounted = account.then_some(&time.gravity);
     let mut first = net;
     pushes.for_each(|push| first.push(push, f64::from(parts)));
-    let mut motion = accounted.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity));
+    let at_start = account.then(|| (barrier.nodes.clone(), barrier.frames.clone()));
     // The impulse of the grains acts at once, that of gravity and of the elements over the first part.
     first.take_over(barrier);
-    let after = go(barrier, &first, &own, accounted);
-    motion.kinetic = 0.5 * (motion.kinetic + after.kinetic);
-    motion.rotational = 0.5 * (motion.rotational + after.rotational);
+    go(barrier, &first, &own);
+    let motion = at_start
+        .map_or(MotionEnergy::default(), |(nodes, frames)| motion_since(&nodes, &frames, barrier, &time.gravity));
     for _ in 1..parts {
         let later = pull_all(barrier, law);
         later.take_over(barrier);
-        go(barrier, &later, &own, None);
+        go(barrier, &later, &own);
         first.go_on(&later);
     }
     first.share_out(parts);
@@ -63,22 +62,21 @@ pub fn step_barrier<'a>(
     BarrierStep { net: first, motion, fastest }
 }
 
-/// Moves nodes and frames through one step; returns the energy of their motion after it where gravity is given to account for.
-fn go(barrier: &mut Barrier, net: &NetForces, own: &Stretch, accounted: Option<&Vec3>) -> MotionEnergy {
+/// Moves nodes and frames through one step.
+fn go(barrier: &mut Barrier, net: &NetForces, own: &Stretch) {
     move_nodes(&mut barrier.nodes, &net.forces, &own.gravity, own.step);
     turn_frames(&mut barrier.frames, &net.torques, own.step);
-    accounted.map_or(MotionEnergy::default(), |gravity| motion_of(barrier, gravity))
 }
 
-/// Energies of motion and place of the nodes.
-fn motion_of(barrier: &Barrier, gravity: &Vec3) -> MotionEnergy {
+/// Energies of motion and place at the instant between `nodes` and `frames` as they moved before it and the barrier as it moves now.
+fn motion_since(nodes: &[Node], frames: &[Frame], barrier: &Barrier, gravity: &Vec3) -> MotionEnergy {
     let mut sums = MotionEnergy::default();
-    for node in barrier.nodes.iter().filter(|node| !node.fixed) {
-        sums.kinetic += 0.5 * node.mass * node.velocity.norm_squared();
-        sums.potential -= node.mass * gravity.dot(&node.position);
+    for (before, after) in nodes.iter().zip(&barrier.nodes).filter(|(node, _)| !node.fixed) {
+        sums.kinetic += 0.5 * before.mass * before.velocity.dot(&after.velocity);
+        sums.potential -= before.mass * gravity.dot(&before.position);
     }
-    for frame in barrier.frames.iter().filter(|frame| !frame.held) {
-        let turning = 0.5 * frame.inertia * frame.spin.norm_squared();
+    for (before, after) in frames.iter().zip(&barrier.frames).filter(|(frame, _)| !frame.held) {
+        let turning = 0.5 * before.inertia * before.spin.dot(&after.spin);
         sums.kinetic += turning;
         sums.rotational += turning;
     }

@@ -71,7 +71,7 @@ pub(super) struct Builder<'a> {
     pub(super) grid: Grid,
     pub(super) barrier: Barrier,
     pub(super) knots: BTreeMap<(usize, usize), u32>,
-    /// Nodes of main ropes that run through rings, from side to side, by row.
+    /// Nodes of main ropes from end to end, by row.
     pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
 }
 
@@ -130,8 +130,7 @@ impl Builder<'_> {
         for row in 0..self.grid.row_heights.len() {
             for column in self.grid.knot_columns(row) {
                 let mut position = self.place(self.across(column), self.grid.row_heights[row]);
-                let at_end = column == 0 || column == self.grid.columns;
-                if self.model == BarrierModel::Cylinders && self.has_free_rope(row) && !at_end {
+                if self.model == BarrierModel::Cylinders && self.has_free_rope(row) {
                     position += upstream * ring_stand_off(&self.design.main_ropes);
                 }
                 let node = self.add_node(position, bottom_fixed && row == 0);
@@ -156,23 +155,28 @@ impl Builder<'_> {
 
     fn add_main_ropes(&mut self) {
         for (rope, row) in self.grid.rope_rows.clone().into_iter().enumerate() {
-            let kind = SegmentKind::Main(rope as u16);
-            let nodes: Vec<u32> = self.knots_of_row(row);
+            let (rope, free) = (rope as u16, self.has_free_rope(row));
+            let ends = [0, self.grid.columns].map(|column| {
+                let place = self.place(self.across(column), self.grid.row_heights[row]);
+                self.add_node(place, !free)
+            });
             let first_segment = self.barrier.segments.len() as u32;
-            if self.model == BarrierModel::Cylinders && self.has_free_rope(row) {
-                self.add_ringed_rope(rope as u16, row);
+            let nodes = if self.model == BarrierModel::Cylinders && free {
+                self.add_ringed_rope(rope, row, ends)
             } else {
+                let nodes: Vec<u32> = [&ends[..1], &self.knots_of_row(row), &ends[1..]].concat();
                 for pair in nodes.windows(2) {
-                    self.add_line([pair[0], pair[1]], kind, &self.design.main_ropes.rope);
+                    self.add_line([pair[0], pair[1]], SegmentKind::Main(rope), &self.design.main_ropes.rope);
                 }
-            }
-            let held_by_bed = rope == 0 && self.design.bottom == Bottom::Fixed;
-            if !held_by_bed {
+                nodes
+            };
+            self.rope_nodes.insert(row, nodes);
+            if free {
                 let segments = (first_segment..self.barrier.segments.len() as u32).collect();
                 self.add_chain(segments);
                 let up = self.grid.row_heights[row];
-                self.add_rope_end(rope as u16, nodes[0], self.place(0.0, up));
-                self.add_rope_end(rope as u16, nodes[nodes.len() - 1], self.place(self.channel.width, up));
+                self.add_rope_end(rope, ends[0], self.place(0.0, up));
+                self.add_rope_end(rope, ends[1], self.place(self.channel.width, up));
             }
         }
     }
@@ -195,6 +199,7 @@ impl Builder<'_> {
                 nodes: [anchor, end],
                 rope,
                 rest_length: END_PIECE,
+                radius: 0.5 * self.design.main_ropes.rope.diameter,
                 stiffness: dissipator.stiffness,
                 plateau: dissipator.plateau,
                 stroke: dissipator.stroke,
@@ -204,29 +209,30 @@ impl Builder<'_> {
         }
     }
 
-    /// Ropes along both sides of the net; at each main rope they meet the rope's end or its anchor.
+    /// Ropes along both sides of the net, which meet its knots there; at each main rope they meet the rope's end or its anchor.
     fn add_lateral_ropes(&mut self) {
         for column in [0, self.grid.columns] {
-            let mut line: Vec<u32> = Vec::new();
-            for row in (0..self.grid.row_heights.len()).step_by(2) {
-                line.push(self.lateral_stop(column, row));
-            }
+            let stops = 0..self.grid.row_heights.len();
+            let line: Vec<u32> = stops.filter_map(|row| self.lateral_stop(column, row)).collect();
             for pair in line.windows(2) {
                 self.add_line([pair[0], pair[1]], SegmentKind::Lateral, &self.design.lateral_rope);
             }
         }
     }
 
-    fn lateral_stop(&self, column: usize, row: usize) -> u32 {
-        let rope = self.grid.rope_rows.iter().position(|&rope_row| rope_row == row);
-        let anchor = match (self.design.lateral_to, rope) {
-            (LateralTo::Anchors, Some(rope)) => {
-                let side = usize::from(column > 0);
-                self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == rope).nth(side)
-            }
-            _ => None,
+    fn lateral_stop(&self, column: usize, row: usize) -> Option<u32> {
+        let Some(rope) = self.grid.rope_rows.iter().position(|&rope_row| rope_row == row) else {
+            return self.knots.get(&(column, row)).copied();
         };
-        anchor.map_or_else(|| self.knots[&(column, row)], |anchor| anchor.node)
+        let side = usize::from(column > 0);
+        let mut anchors = self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == rope);
+        match (self.design.lateral_to, anchors.nth(side)) {
+            (LateralTo::Anchors, Some(anchor)) => Some(anchor.node),
+            _ => {
+                let nodes = &self.rope_nodes[&row];
+                Some(nodes[side * (nodes.len() - 1)])
+            }
+        }
     }
 
     fn knots_of_row(&self, row: usize) -> Vec<u32> {
@@ -261,7 +267,7 @@ impl Builder<'_> {
 
     fn finish(mut self) -> BuiltNet {
         self.barrier.connect();
-        // Where rings carry the net, the rope tells how high a row stands and how wide.
+        // Along a main rope, the rope tells how high a row stands and how wide.
         let row = |row| self.rope_nodes.get(&row).cloned().unwrap_or_else(|| self.knots_of_row(row));
         let rows = (0..self.grid.row_heights.len()).map(row).collect();
         BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }

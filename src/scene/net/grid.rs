@@ -2,7 +2,9 @@
 
 use crate::design::FlexibleNet;
 
-/// Rows and columns of half mesh diagonals. A knot sits at (column, row) where both are even or both odd.
+/// Rows and columns of half mesh diagonals. A knot sits at (column, row) where one of them is even and the other odd: so a main
+/// rope has its outermost knots half a diagonal from its ends, which the net leaves free, and the side of the net has a knot on
+/// every other row between two main ropes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Number of half diagonals across the barrier; even.
@@ -34,6 +36,6 @@ impl Grid {
 
     /// Columns of the knots in one row, from one side to the other.
     pub fn knot_columns(&self, row: usize) -> impl Iterator<Item = usize> + use<> {
-        (row % 2..=self.columns).step_by(2)
+        (1 - row % 2..=self.columns).step_by(2)
     }
 }

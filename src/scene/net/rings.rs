@@ -1,7 +1,7 @@
 //! Main ropes of cylinders, with rings as squares of four cylinders round them (Albaba 2015, sections 4.2.2 and 4.2.3).
 //!
 //! A ring stands across its rope, with a corner upstream that one more cylinder ties to a knot of the net. So the knots on a main
-//! rope stand a little upstream of it. Two diagonals hold a ring in shape. The outermost knots are the ends of the rope.
+//! rope stand a little upstream of it. Two diagonals hold a ring in shape.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -32,44 +32,42 @@ pub fn ring_stand_off(ropes: &MainRopes) -> f64 {
 }
 
 impl Builder<'_> {
-    /// Adds a main rope of cylinders along `row`, and the rings on it.
-    pub(super) fn add_ringed_rope(&mut self, rope: u16, row: usize) {
+    /// Adds a main rope of cylinders along `row` from end to end, and a ring at each knot; returns the rope's nodes.
+    pub(super) fn add_ringed_rope(&mut self, rope: u16, row: usize, ends: [u32; 2]) -> Vec<u32> {
         let ropes = self.design.main_ropes.clone();
         let up = self.grid.row_heights[row];
         let columns: Vec<usize> = self.grid.knot_columns(row).collect();
-        let spacing = self.across(columns[1]) - self.across(columns[0]);
-        let parts = (spacing / ropes.element_length).round().max(1.0) as usize;
-        let mut nodes = vec![self.knots[&(columns[0], row)]];
-        for pair in columns.windows(2) {
+        let stops = [&[0], &columns[..], &[self.grid.columns]].concat();
+        let mut nodes = vec![ends[0]];
+        let mut ring_places = Vec::new();
+        for pair in stops.windows(2) {
             let [from, to] = [pair[0], pair[1]].map(|column| self.across(column));
+            let parts = ((to - from) / ropes.element_length).round().max(1.0) as usize;
             let last = if pair[1] == self.grid.columns { parts - 1 } else { parts };
             for part in 1..=last {
                 let across = from + (to - from) * part as f64 / parts as f64;
                 nodes.push(self.add_node(self.place(across, up), false));
             }
+            ring_places.push(nodes.len() as u32 - 1);
         }
-        nodes.push(self.knots[&(self.grid.columns, row)]);
+        nodes.push(ends[1]);
         let section = Section::round(0.5 * ropes.rope.diameter, ropes.rope.modulus, POISSON);
         let first = self.barrier.cylinders.len() as u32;
         for pair in nodes.windows(2) {
             self.add_cylinder([pair[0], pair[1]], SegmentKind::Main(rope), section);
         }
         let cylinders = first..self.barrier.cylinders.len() as u32;
-        for (number, &column) in columns.iter().enumerate().skip(1) {
-            if column < self.grid.columns {
-                let knot = self.knots[&(column, row)];
-                let near = first + (number * parts) as u32;
-                let ring = RingSide {
-                    side: 0,
-                    rope: cylinders.clone(),
-                    near,
-                    memory: Memory::default(),
-                    friction: ropes.ring_friction,
-                };
-                self.add_ring(knot, self.place(self.across(column), up), &ring);
-            }
+        for (column, place) in columns.into_iter().zip(ring_places) {
+            let ring = RingSide {
+                side: 0,
+                rope: cylinders.clone(),
+                near: first + place,
+                memory: Memory::default(),
+                friction: ropes.ring_friction,
+            };
+            self.add_ring(self.knots[&(column, row)], self.place(self.across(column), up), &ring);
         }
-        self.rope_nodes.insert(row, nodes);
+        nodes
     }
 
     /// Adds a ring round `centre`, tied to `knot`; `ring` tells of the rope.

@@ -37,6 +37,7 @@ fn dissipator() -> Dissipator {
         nodes: [0, 1],
         rope: 0,
         rest_length: 1.0,
+        radius: 0.016,
         stiffness: STIFFNESS,
         plateau: PLATEAU,
         stroke: STROKE,

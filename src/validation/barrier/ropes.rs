@@ -202,6 +202,7 @@ fn braked() -> Result<Vec<Finding>, Broken> {
             nodes: [barrier.nodes.len() as u32 - 1, end as u32],
             rope: 0,
             rest_length: 0.0,
+            radius: 0.016,
             stiffness: 46e6,
             plateau,
             stroke: 2.5,

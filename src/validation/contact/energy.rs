@@ -102,8 +102,15 @@ fn collide(
 fn ledger() -> Result<Vec<Finding>, Broken> {
     let [start, end] = collide(cloud(700, 5), 0.3, 0.5, 2e-6, 15_000)?;
     let energy = start.kinetic;
+    // Steps as long as a run takes them, and longer ones: about 0.4 and 0.6 of the critical step of the smallest pair.
+    let long = |step: f64| -> Result<f64, Broken> {
+        let [start, end] = collide(cloud(700, 5), 0.3, 0.5, step, (0.03 / step) as usize)?;
+        Ok(end.relative_error(&start))
+    };
     Ok(vec![
-        Finding::close("imbalance over energy", end.relative_error(&start), 0.0, 1e-3),
+        Finding::close("imbalance over energy", end.relative_error(&start), 0.0, 1e-4),
+        Finding::close("imbalance in steps of 0.4 critical", long(2.7e-5)?, 0.0, 5e-4),
+        Finding::close("imbalance in steps of 0.6 critical", long(4e-5)?, 0.0, 5e-4),
         Finding::between("lost in dashpots over energy", end.lost_damping / energy, 0.05, 1.0),
         Finding::between("lost by slip over energy", end.lost_friction / energy, 0.01, 1.0),
     ])
