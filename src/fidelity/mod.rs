@@ -1,7 +1,7 @@
 //! How finely to model, and why.
 
 use crate::dem::contact::law::contact_stiffness;
-use crate::dem::contact::restitution::damping_ratio_for;
+use crate::dem::contact::restitution::{LONGEST_PHASE, damping_ratio_for};
 use crate::dem::time::stable_step::critical_step_of_pair;
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, Rope};
 use crate::scene::flow::release::bodies;
@@ -32,29 +32,45 @@ fn step_share(wish: FidelityWish) -> (&'static str, f64) {
 /// their dashpot, and a knot of the net with its ropes and a grain pressed on it.
 pub fn choose(design: &Design) -> Fidelity {
     let (name, share) = step_share(design.simulation.fidelity);
-    let grains = critical_step_of_grains(design);
+    let pairs = stiffest_pairs(design);
+    let grains = pairs.critical_step;
     let net = match &design.barrier {
         BarrierDesign::RigidWall(_) => f64::INFINITY,
         BarrierDesign::FlexibleNet(net) => critical_step_of_net(net, design),
     };
     let governing =
         if net < grains { "a knot of the net with a grain pressed on it" } else { "a pair of the smallest grains" };
-    let time_step = round_down(share * grains.min(net));
-    let reason = format!(
+    let bounce = LONGEST_PHASE / pairs.frequency;
+    let stable = share * grains.min(net);
+    let mut reason = format!(
         "{share} of the critical step of {governing} ({:.2e} s); what is really connected is audited during the run",
         grains.min(net)
     );
+    if bounce < stable {
+        reason.push_str("; shortened so that restitution is kept on the mean of many impacts");
+    }
+    let time_step = round_down(stable.min(bounce));
     Fidelity { name, time_step, skin_share: 0.6, reason }
 }
 
-fn critical_step_of_grains(design: &Design) -> f64 {
+/// What the pairs of grains ask of the step.
+struct Pairs {
+    /// Shortest critical step (s).
+    critical_step: f64,
+    /// Highest angular frequency √(k/m_r) (rad/s).
+    frequency: f64,
+}
+
+fn stiffest_pairs(design: &Design) -> Pairs {
     let flow = &design.flow;
     let zeta = damping_ratio_for(flow.restitution);
-    let steps = bodies(flow).into_iter().map(|body| {
-        let stiffness = flow.modulus * body.radius;
-        critical_step_of_pair(stiffness, 0.5 * body.mass, zeta)
-    });
-    steps.fold(f64::INFINITY, f64::min)
+    let mut pairs = Pairs { critical_step: f64::INFINITY, frequency: 0.0 };
+    for body in bodies(flow) {
+        let (stiffness, reduced) = (flow.modulus * body.radius, 0.5 * body.mass);
+        pairs.critical_step = pairs.critical_step.min(critical_step_of_pair(stiffness, reduced, zeta));
+        pairs.frequency = pairs.frequency.max((stiffness / reduced).sqrt());
+    }
+    pairs
 }
 
 /// Four net ropes meet in a knot; along the mesh's diagonal their stiffness adds up to twice one rope's on each

@@ -158,9 +158,8 @@ pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: 
     let damping = point.overlap.if_above(zero, constants.damping(&point.spring), zero);
     let normal_force = zero.or_larger(spring - damping * separation_rate);
     let dashpot = normal_force - spring;
-    let before = point.overlap + separation_rate * step;
-    let half_touching = zero.or_larger(point.overlap) * zero.or_larger(-before)
-        - zero.or_larger(before) * zero.or_larger(-point.overlap);
+    let passed = zero.or_larger(-(point.overlap * (point.overlap + separation_rate * step)));
+    let half_touching = point.overlap.if_above(zero, passed, -passed);
     let lost_damping =
         (half_touching * point.spring.stiffness - (memory.dashpot + dashpot) * separation_rate * step) * 0.5;
 

@@ -3,7 +3,8 @@
 //!
 //! At a ring with wrap angle θ the tensions of the two sides obey T_1 ≤ T_2 e^(μθ) and the other way round
 //! (capstan). Where they do not, rest length moves from the slack to the taut side until they do. A segment
-//! never gets shorter than a given share of its first length: there the rings touch.
+//! never gets shorter than a given share of its first length: there the rings touch. The tensions compared are the elastic ones; what
+//! the segments' small dashpots add while they stretch or shorten is left out.
 
 use crate::dem::Vec3;
 use crate::dem::tables::barrier::{Node, Segment};
