@@ -68,4 +68,5 @@ pub const CASES: &[&Case] = &[
     &barrier::variations::SLOPE,
     &barrier::variations::OPENINGS,
     &barrier::variations::ORIENTATION,
+    &barrier::variations::LATERAL,
 ];

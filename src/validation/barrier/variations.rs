@@ -1,6 +1,6 @@
-//! FS3 to FS5: the full-scale barrier with one thing changed, as in the thesis's chapters 4.6 and 5.
+//! FS3 to FS6: the full-scale barrier with one thing changed, as in the thesis's chapters 4.6 and 5.
 
-use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet};
+use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
 use crate::pipeline::Simulated;
 use crate::validation::barrier::full_scale::run_changed;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
@@ -36,6 +36,17 @@ pub const ORIENTATION: Case = Case {
     weakness: "the thesis's figures for fbN and rigW are not at hand: only their order is judged",
     cost: Cost::Long,
     run: orientation,
+};
+
+pub const LATERAL: Case = Case {
+    id: "FS6",
+    suite: Suite::FullScale,
+    title: "Lateral ropes to the anchors (des_2) instead of to the dissipators (des_1)",
+    source: "Albaba 2015, section 5.5.2: all is held, the dissipators hardly move, force and anchor loads are higher",
+    tier: Tier::SecondHand,
+    weakness: "the thesis's figures for des_2 are not at hand: only what it says in words is judged",
+    cost: Cost::Long,
+    run: lateral,
 };
 
 const BRAKED: &str = include_str!("../../../designs/site_a.yaml");
@@ -119,5 +130,21 @@ fn orientation() -> Result<Vec<Finding>, Broken> {
         ),
         Finding::between("without dissipators over fbG with them", free.force_peak / plumb.force_peak, 1.0, 2.0),
         Finding::close("rigW: from highest velocity to largest force (s)", until_peak, 1.0, 0.3),
+    ])
+}
+
+fn lateral() -> Result<Vec<Finding>, Broken> {
+    let to_dissipators = run_changed(BRAKED, |_| ())?;
+    let to_anchors = run_changed(BRAKED, |design| net(design, |net| net.lateral_to = LateralTo::Anchors))?;
+    let [first, second] = [&to_dissipators, &to_anchors].map(Simulated::first);
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let strokes = [first, second].map(|seen| largest(&seen.brake_stroke_mean));
+    let anchors = [first, second].map(|seen| largest(&seen.anchor_force_peak));
+    Ok(vec![
+        Finding::near("des_2: mass held", second.retained, 1.0, 0.01),
+        Finding::between("des_2: largest stroke over that of des_1", strokes[1] / strokes[0], 0.0, 0.25),
+        Finding::between("des_2: largest force over that of des_1", second.force_peak / first.force_peak, 1.0, 1.5),
+        Finding::between("des_2: largest anchor load over that of des_1", anchors[1] / anchors[0], 1.0, 4.0),
+        Finding::told("des_2: largest anchor load (kN)", anchors[1] * 1e-3),
     ])
 }
