@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process;
 
 use barrier_check::commands::check::{Wishes, check, loads};
+use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
 use barrier_check::commands::validate::{Selection, validate};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -47,6 +48,11 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Makes the report of an earlier run again, without running it
+    Report {
+        /// Folder of the earlier run
+        folder: PathBuf,
+    },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
     /// Runs validation cases: scenes with known answers
@@ -83,6 +89,7 @@ fn main() {
             0
         }
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
+        Some(Command::Report { folder }) => report(&folder) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }

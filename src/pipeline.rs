@@ -1,5 +1,7 @@
 //! The run on one page: design → fidelity → scene → histories → demands → outcomes → verdict.
 
+use serde::{Deserialize, Serialize};
+
 use std::time::Instant;
 
 use crate::checks::check_all;
@@ -64,10 +66,12 @@ pub struct Simulated {
     /// Worst over the starts.
     pub numerics: Numerics,
     pub starts: Vec<Start>,
+    /// Why runs cannot be relied on.
+    pub doubts: Vec<String>,
 }
 
 /// One start: its packing, and what came of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Start {
     pub seed: u64,
     pub observed: Observed,
@@ -86,7 +90,7 @@ impl Simulated {
 }
 
 /// Counts and times of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
     pub grains: usize,
     pub spheres: usize,
@@ -131,7 +135,7 @@ pub enum RunError {
 /// By equations alone: loads, ropes, checks.
 pub fn by_equations(file: DesignFile) -> Run {
     let guideline = guideline(&file.design);
-    finish(file, guideline, None, Vec::new())
+    finish(file, guideline, None)
 }
 
 /// Runs one design from words to verdict, with as many packings as `starts` asks for, from the design's seed on. Call inside
@@ -149,15 +153,22 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
         side_by_side(threads, starts as usize, |index| simulate(design, &fidelity, &guideline, seed(index), watch))
     };
     let mut runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let doubts: Vec<String> = runs.iter().flat_map(|run| doubts_of(run, runs.len())).collect();
+    let doubts = runs.iter().flat_map(|run| doubts_of(run, runs.len())).collect();
     let mut simulated = runs.remove(0);
+    simulated.doubts = doubts;
     simulated.facts.threads = threads;
     simulated.facts.wall_clock = started.elapsed().as_secs_f64();
     for other in runs {
         simulated.numerics = simulated.numerics.worst(&other.numerics);
         simulated.starts.extend(other.starts);
     }
-    Ok(finish(file, guideline, Some(simulated), doubts))
+    Ok(finish(file, guideline, Some(simulated)))
+}
+
+/// What a recorded simulation says, as at first.
+pub fn restore(file: DesignFile, simulated: Option<Simulated>, varied: Vec<Swing>) -> Run {
+    let guideline = guideline(&file.design);
+    Run { varied, ..finish(file, guideline, simulated) }
 }
 
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.
@@ -169,7 +180,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
         let mut demands = Demands::meet(&guideline, &[simulated.first()], design.factors.load);
         demands.leave_out_guideline();
         let point = Point::of(simulated.first().force_peak, &check_all(design, &demands));
-        Ok(if doubts(&simulated.numerics).is_empty() { point } else { point.unreliable() })
+        Ok(if simulated.doubts.is_empty() { point } else { point.unreliable() })
     };
     let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| {
         let [down, up] = &variants[index].designs;
@@ -180,15 +191,16 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
 }
 
 fn doubts_of(run: &Simulated, starts: usize) -> Vec<String> {
-    let named = |doubt| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt };
-    doubts(&run.numerics).into_iter().map(named).collect()
+    let named = |doubt: &String| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt.clone() };
+    run.doubts.iter().map(named).collect()
 }
 
-fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, mut doubts: Vec<String>) -> Run {
+fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) -> Run {
     let observed: Vec<&Observed> =
         simulated.iter().flat_map(|simulated| &simulated.starts).map(|start| &start.observed).collect();
     let demands = Demands::meet(&guideline, &observed, file.design.factors.load);
     let outcomes = check_all(&file.design, &demands);
+    let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
     doubts.extend(unheld(&file.design));
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict }
@@ -222,7 +234,8 @@ fn simulate(
         let numerics = numerics(&event);
         let observed = Observed::read(&event.histories, design, guideline, reading);
         let starts = vec![Start { seed, observed }];
-        Ok(Simulated { fidelity: fidelity.clone(), histories: event.histories, facts, numerics, starts })
+        let doubts = doubts(&numerics);
+        Ok(Simulated { fidelity: fidelity.clone(), histories: event.histories, facts, numerics, starts, doubts })
     })
 }
 

@@ -1,5 +1,7 @@
 //! Whether a run may be believed at all. A run that breaks one of these limits ends undecided, never as a pass.
 
+use serde::{Deserialize, Serialize};
+
 /// Energy imbalance over the energy put in.
 pub const ENERGY_LIMIT: f64 = 0.01;
 /// Overlap over the smaller grain's radius.
@@ -9,7 +11,7 @@ pub const OVERLAP_LIMIT: f64 = 0.20;
 pub const STEP_LIMIT: f64 = 1.5;
 
 /// What a run shows of its own numerics.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Numerics {
     pub energy_error: f64,
     pub overlap: f64,

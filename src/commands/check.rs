@@ -1,6 +1,6 @@
 //! `barrier-check DESIGN`: from a design file to a report and an exit code.
 
-use std::io::{IsTerminal, Read, Write};
+use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -8,13 +8,10 @@ use std::sync::{Arc, Mutex};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::commands::ExitCode;
+use crate::commands::output::hand_over;
 use crate::design::read::{DesignFile, read_design};
-use crate::pipeline::{Run, RunError, Verdict, by_equations, run, vary};
+use crate::pipeline::{Run, RunError, by_equations, run, vary};
 use crate::problem::{Problem, Problems};
-use crate::report::json::ResultFile;
-use crate::report::render::render;
-use crate::report::view::View;
-use crate::report::write::{ReportFile, write_all};
 use crate::scene::event::{ProgressReport, Watch};
 
 /// Bytes read of a file at the most; the document refuses anything near.
@@ -71,17 +68,7 @@ fn report_on(
             return ExitCode::Undecided;
         }
     };
-    let view = View::of(&result);
-    if let Err(error) = write(&result, &view, &folder) {
-        eprintln!("error: the report could not be written to {}: {error}", folder.display());
-        return ExitCode::Undecided;
-    }
-    summarise(&view, &folder);
-    match result.verdict {
-        Verdict::Pass => ExitCode::Pass,
-        Verdict::Fail => ExitCode::Fail,
-        Verdict::Undecided => ExitCode::Undecided,
-    }
+    hand_over(&result, &folder)
 }
 
 /// Warns of a report that does not belong to this run.
@@ -141,36 +128,4 @@ fn progress_bar() -> ProgressBar {
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.set_message("packing the flow");
     bar
-}
-
-fn write(run: &Run, view: &View, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let rendered = render(view)?;
-    let mut files = vec![
-        ReportFile { name: "report.html".into(), text: rendered.html },
-        ReportFile { name: "report.md".into(), text: rendered.markdown },
-    ];
-    files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile { name, text }));
-    if let Some(simulated) = &run.simulated {
-        files.push(ReportFile { name: "histories.csv".into(), text: crate::report::csv::text(&simulated.histories) });
-    }
-    let result = serde_json::to_string_pretty(&ResultFile::of(run))? + "\n";
-    files.push(ReportFile { name: "result.json".into(), text: result });
-    write_all(folder, &files)?;
-    Ok(())
-}
-
-/// Verdict and checks for the terminal.
-fn summarise(view: &View, folder: &Path) {
-    let mut out = std::io::stdout().lock();
-    let mut say = |line: String| {
-        let _ = writeln!(out, "{line}");
-    };
-    for check in &view.checks {
-        say(format!("{:<5} {:>6}  {}", check.verdict.to_uppercase(), check.utilisation, check.title));
-    }
-    say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
-    for doubt in &view.doubts {
-        say(format!("  {doubt}"));
-    }
-    say(format!("report: {}", folder.join("report.html").display()));
 }

@@ -1,6 +1,8 @@
 //! One file per command. Only these and the report's writer touch files.
 
 pub mod check;
+pub mod output;
+pub mod report;
 pub mod schema;
 pub mod validate;
 

@@ -1,5 +1,7 @@
 //! The energy account of a run: what came in, where it is, where it went.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::contact::law::Response;
 
 /// Sums over the contacts of one block in one step.
@@ -44,7 +46,7 @@ pub struct MotionEnergy {
 }
 
 /// Energies of the whole model at one instant, and losses since the start (all J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     pub kinetic: f64,
     /// Rotational part of `kinetic`.

@@ -4,12 +4,14 @@
 //! F₁ = K ρ g' H_d (H_d/2 + h) and F₂ = ½ K ρ g' h² + λ ρ v² h, so that
 //! K_eff = 2 F₁/(ρ g' H_d (H_d + 2 h)) and λ_eff = (F₂ − ½ K ρ g' h²)/(ρ v² h), with the design's K.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::recorders::histories::{Histories, peak, smoothed};
 use crate::loads::input::GuidelineInput;
 
 /// Time series, one value for each sample; forces per width (N/m). A coefficient is NaN where its depth is less than a grain
 /// or its velocity too small to tell.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Coefficients {
     pub time: Vec<f64>,
     /// Depth of the grains at rest H_d and of those that move over them h (m).

@@ -1,12 +1,14 @@
 //! What the simulation showed, as numbers.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
 use crate::demand::coefficients::{Coefficients, coefficients};
 use crate::demand::from_loads::Guideline;
 use crate::design::Design;
 
 /// Numbers read off the histories of one run, SI.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
     /// Largest total force of the smoothed signal (N) and its time (s).
     pub force_peak: f64,

@@ -16,6 +16,8 @@ pub struct DesignFile {
     pub name: String,
     /// SHA-256 of the file, in hexadecimal.
     pub sha256: String,
+    /// The file itself.
+    pub text: Vec<u8>,
     pub design: Design,
     pub entries: Entries,
 }
@@ -30,7 +32,7 @@ pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
     if problems.is_empty() {
         if let Some(design) = resolve(&entries) {
-            return Ok(DesignFile { name: stem(file), sha256: sha256(bytes), design, entries });
+            return Ok(DesignFile { name: stem(file), sha256: sha256(bytes), text: bytes.to_vec(), design, entries });
         }
         problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
     }

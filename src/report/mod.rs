@@ -7,6 +7,7 @@ pub mod loads;
 pub mod numbers;
 pub mod pictures;
 pub mod plots;
+pub mod recording;
 pub mod render;
 pub mod statements;
 pub mod validation;

@@ -97,6 +97,6 @@ pub fn render(rows: &[Row]) -> Result<Vec<ReportFile>, tera::Error> {
     context.insert("cases", rows);
     context.insert("verdict_line", &verdict_line(rows));
     context.insert("version", env!("CARGO_PKG_VERSION"));
-    let file = |name| tera.render(name, &context).map(|text| ReportFile { name: name.to_string(), text });
+    let file = |name| tera.render(name, &context).map(|text| ReportFile::new(name, text));
     Ok(vec![file("validation.html")?, file("validation.md")?])
 }

@@ -7,7 +7,13 @@ use std::path::{Path, PathBuf};
 /// A file of the report by its name.
 pub struct ReportFile {
     pub name: String,
-    pub text: String,
+    pub bytes: Vec<u8>,
+}
+
+impl ReportFile {
+    pub fn new(name: impl Into<String>, content: impl Into<Vec<u8>>) -> Self {
+        Self { name: name.into(), bytes: content.into() }
+    }
 }
 
 /// Writes `files` into `folder`. They are first written beside it under temporary names and then renamed one by
@@ -15,7 +21,7 @@ pub struct ReportFile {
 pub fn write_all(folder: &Path, files: &[ReportFile]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let temporary = |name: &str| -> PathBuf { folder.join(format!(".{name}.{}.tmp", std::process::id())) };
-    let written = files.iter().try_for_each(|file| fs::write(temporary(&file.name), &file.text));
+    let written = files.iter().try_for_each(|file| fs::write(temporary(&file.name), &file.bytes));
     let renamed = written
         .and_then(|()| files.iter().try_for_each(|file| fs::rename(temporary(&file.name), folder.join(&file.name))));
     if renamed.is_err() {

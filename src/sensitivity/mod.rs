@@ -2,6 +2,8 @@
 
 pub mod simulated;
 
+use serde::{Deserialize, Serialize};
+
 use crate::checks::check_all;
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
@@ -10,7 +12,7 @@ use crate::design::{BarrierDesign, Design};
 use crate::loads::input::GuidelineInput;
 
 /// What one set of inputs comes to, by the equations or by a simulation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Largest total force (N).
     pub force: f64,
@@ -20,9 +22,9 @@ pub struct Point {
 }
 
 /// The effect of one input, taken down and up.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Swing {
-    pub name: &'static str,
+    pub name: String,
     /// Share by which it is changed.
     pub share: f64,
     pub down: Point,
@@ -119,7 +121,7 @@ impl Swing {
 pub fn swings(design: &Design) -> Vec<Swing> {
     let swing = |&change: &Change| {
         let (name, share, _) = change;
-        Swing { name, share, down: changed(design, change, 1.0 - share), up: changed(design, change, 1.0 + share) }
+        Swing { name: name.to_string(), share, down: changed(design, change, 1.0 - share), up: changed(design, change, 1.0 + share) }
     };
     let mut swings: Vec<Swing> = CHANGES.iter().map(swing).collect();
     swings.retain(|swing| swing.width() > 0.0);

@@ -51,7 +51,12 @@ pub fn variants(design: &Design) -> Vec<Variant> {
 
 /// The tornado from what the runs of each variant said; the most telling first.
 pub fn swings(variants: Vec<Variant>, points: Vec<[Point; 2]>) -> Vec<Swing> {
-    let swing = |(Variant { name, share, .. }, [down, up]): (Variant, [Point; 2])| Swing { name, share, down, up };
+    let swing = |(Variant { name, share, .. }, [down, up]): (Variant, [Point; 2])| Swing {
+        name: name.to_string(),
+        share,
+        down,
+        up,
+    };
     let mut swings: Vec<Swing> = variants.into_iter().zip(points).map(swing).collect();
     swings.sort_by(|a, b| b.width().total_cmp(&a.width()));
     swings

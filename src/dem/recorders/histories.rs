@@ -1,11 +1,14 @@
 //! Time series of one run, all with the same times.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::ledger::Ledger;
+use crate::dem::recorders::film::Film;
 use crate::dem::recorders::snapshots::Snapshot;
 
 /// What happened, sample by sample. Forces are means over the sampling interval, so that no impulse is lost.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Histories {
     /// End of each sampling interval (s).
     pub time: Vec<f64>,
@@ -60,10 +63,11 @@ pub struct Histories {
     pub ledger: Vec<Ledger>,
     /// The scene at a few moments, in their order.
     pub snapshots: Vec<Snapshot>,
+    pub film: Film,
 }
 
 /// The flow in a window across the channel; zeros where there are no grains.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Gauge {
     /// Height below which 90 % of the grain centres lie, plus half a grain (m).
     pub thickness: f64,

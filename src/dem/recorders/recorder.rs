@@ -179,6 +179,7 @@ impl Recorder {
         self.histories.barrier_depth.push(all);
         self.histories.dead_depth.push(at_rest);
         self.picture(simulation, &grains);
+        self.histories.film.take(simulation, &grains);
     }
 
     /// Takes a snapshot if the moment is one of those kept.
@@ -207,7 +208,9 @@ impl Recorder {
 
     /// Takes the last snapshot and puts all in the order of time.
     pub fn finish(&mut self, simulation: &Simulation) {
-        self.keep(Moment::End, simulation, &simulation.snapshot());
+        let grains = simulation.snapshot();
+        self.keep(Moment::End, simulation, &grains);
+        self.histories.film.finish(simulation, &grains);
         self.histories.snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 

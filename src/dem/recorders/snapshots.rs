@@ -1,5 +1,7 @@
 //! What the scene looks like at a few moments: grains with their speed, the barrier with its tensions.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::net::NetForces;
 use crate::dem::simulation::Simulation;
@@ -8,7 +10,7 @@ use crate::dem::tables::grains::Grain;
 use crate::dem::tables::surfaces::SurfaceRole;
 
 /// The moments kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Moment {
     FirstContact,
     LargestForce,
@@ -17,7 +19,7 @@ pub enum Moment {
 }
 
 /// The scene at one moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snapshot {
     pub moment: Moment,
     /// s
@@ -29,7 +31,7 @@ pub struct Snapshot {
 }
 
 /// One sphere of a grain.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ball {
     pub place: Vec3,
     /// m
@@ -39,7 +41,7 @@ pub struct Ball {
 }
 
 /// A segment or cylinder of the barrier.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Strand {
     pub ends: [Vec3; 2],
     pub kind: SegmentKind,

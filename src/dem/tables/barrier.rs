@@ -1,5 +1,7 @@
 //! Flexible barrier: point masses (nodes) joined by tension-only segments, dissipators, or cylinders that bend.
 
+use serde::{Deserialize, Serialize};
+
 use nalgebra::UnitQuaternion;
 
 use crate::dem::Vec3;
@@ -63,7 +65,7 @@ impl Segment {
 }
 
 /// Which part of the barrier a segment or cylinder belongs to; `Main` carries the number of its rope from the bottom.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SegmentKind {
     Net,
     Main(u16),

@@ -6,6 +6,8 @@
 //! k = uᵀKu, c = uᵀCu (u of unit mass) the critical step is the root of k Δt² + 2 c Δt = 4. The iteration approaches the
 //! largest eigenvalue from below, so a margin is put on its result.
 
+use serde::{Deserialize, Serialize};
+
 use std::ops::Range;
 
 use crate::dem::Vec3;
@@ -20,7 +22,7 @@ const ITERATIONS: usize = 16;
 const MARGIN: f64 = 1.10;
 
 /// Step over critical step, and whose mode is the fastest.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepRatio {
     pub value: f64,
     /// Share of the mode's energy in the nodes of the barrier; the rest is in grains.

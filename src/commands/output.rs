@@ -1,0 +1,63 @@
+//! What every command that ends in a report does with it: write it, tell of it, end by its verdict.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::commands::ExitCode;
+use crate::pipeline::{Run, Verdict};
+use crate::report::json::ResultFile;
+use crate::report::recording;
+use crate::report::render::render;
+use crate::report::view::View;
+use crate::report::write::{ReportFile, write_all};
+
+/// Writes all files of the report into `folder` and tells the verdict.
+pub fn hand_over(run: &Run, folder: &Path) -> ExitCode {
+    let view = View::of(run);
+    let written = files(run, &view).and_then(|files| Ok(write_all(folder, &files)?));
+    if let Err(error) = written {
+        eprintln!("error: the report could not be written to {}: {error}", folder.display());
+        return ExitCode::Undecided;
+    }
+    summarise(&view, folder);
+    exit_code(run.verdict)
+}
+
+/// What the program ends with after a verdict.
+pub fn exit_code(verdict: Verdict) -> ExitCode {
+    match verdict {
+        Verdict::Pass => ExitCode::Pass,
+        Verdict::Fail => ExitCode::Fail,
+        Verdict::Undecided => ExitCode::Undecided,
+    }
+}
+
+fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Box<dyn std::error::Error>> {
+    let rendered = render(view)?;
+    let mut files =
+        vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
+    files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile::new(name, text)));
+    if let Some(simulated) = &run.simulated {
+        files.push(ReportFile::new("histories.csv", crate::report::csv::text(&simulated.histories)));
+    }
+    files.push(ReportFile::new("design.yaml", run.file.text.clone()));
+    files.push(ReportFile::new(recording::FILE, recording::encode(run)?));
+    files.push(ReportFile::new("result.json", serde_json::to_string_pretty(&ResultFile::of(run))? + "\n"));
+    Ok(files)
+}
+
+/// Verdict and checks for the terminal.
+fn summarise(view: &View, folder: &Path) {
+    let mut out = std::io::stdout().lock();
+    let mut say = |line: String| {
+        let _ = writeln!(out, "{line}");
+    };
+    for check in &view.checks {
+        say(format!("{:<5} {:>6}  {}", check.verdict.to_uppercase(), check.utilisation, check.title));
+    }
+    say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
+    for doubt in &view.doubts {
+        say(format!("  {doubt}"));
+    }
+    say(format!("report: {}", folder.join("report.html").display()));
+}

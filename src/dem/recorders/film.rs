@@ -1,0 +1,161 @@
+//! The course of an event for the eye: where grains and barrier are at even times, in single precision.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dem::Vec3;
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::barrier::{Barrier, SegmentKind};
+use crate::dem::tables::grains::Grain;
+use crate::dem::tables::surfaces::SurfaceRole;
+
+/// Frames kept at the most; when there are as many, every other one goes, and from then on half as many are taken.
+const MOST_FRAMES: usize = 128;
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Film {
+    /// Radius of its spheres and their distance from its centre (m) of every grain, by its number.
+    pub looks: Vec<[f32; 2]>,
+    /// The barrier's ropes: nodes and kind.
+    pub ropes: Vec<([u32; 2], SegmentKind)>,
+    pub frames: Vec<Frame>,
+    /// Samples from one frame to the next, and samples seen.
+    stride: usize,
+    seen: usize,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// s
+    pub time: f64,
+    /// By the grain's number; nothing where it has left the model.
+    pub grains: Vec<Option<Pose>>,
+    /// Places of the barrier's nodes (m).
+    pub nodes: Vec<[f32; 3]>,
+    /// Tension of each rope (N).
+    pub tensions: Vec<f32>,
+}
+
+/// A grain in a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    /// m
+    pub place: [f32; 3],
+    /// Direction from its centre to its second sphere.
+    pub axis: [f32; 3],
+    /// m/s
+    pub speed: f32,
+    /// Force on the barrier (N).
+    pub force: f32,
+}
+
+impl Film {
+    /// Takes a frame of the present sample, if it is one for it.
+    pub fn take(&mut self, simulation: &Simulation, grains: &[Grain]) {
+        self.stride = self.stride.max(1);
+        let wanted = self.seen.is_multiple_of(self.stride);
+        self.seen += 1;
+        if !wanted {
+            return;
+        }
+        if self.frames.is_empty() {
+            self.introduce(simulation, grains);
+        }
+        if self.frames.len() == MOST_FRAMES {
+            let mut place = 0;
+            self.frames.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
+            self.stride *= 2;
+        }
+        let frame = self.frame(simulation, grains);
+        self.frames.push(frame);
+    }
+
+    /// Takes the last frame, whatever the time since the one before.
+    pub fn finish(&mut self, simulation: &Simulation, grains: &[Grain]) {
+        if self.frames.last().is_some_and(|frame| frame.time < simulation.time) {
+            let frame = self.frame(simulation, grains);
+            self.frames.push(frame);
+        }
+    }
+
+    fn introduce(&mut self, simulation: &Simulation, grains: &[Grain]) {
+        let count = grains.iter().map(|grain| grain.id as usize + 1).max().unwrap_or(0);
+        self.looks = vec![[0.0; 2]; count];
+        for grain in grains {
+            self.looks[grain.id as usize] = [grain.body.radius as f32, grain.body.offset as f32];
+        }
+        self.ropes = simulation.model.barrier.as_ref().map_or_else(Vec::new, ropes);
+    }
+
+    fn frame(&self, simulation: &Simulation, grains: &[Grain]) -> Frame {
+        let mut poses = vec![None; self.looks.len()];
+        for grain in grains {
+            poses[grain.id as usize] = Some(Pose {
+                place: single(&grain.position),
+                axis: single(&grain.axis),
+                speed: grain.velocity.norm() as f32,
+                force: 0.0,
+            });
+        }
+        for (row, force) in pushes(simulation) {
+            if let Some(Some(pose)) = poses.get_mut(simulation.grains.ids[row] as usize) {
+                pose.force += force.norm() as f32;
+            }
+        }
+        let net = &simulation.sums.net;
+        let nodes = simulation.model.barrier.iter().flat_map(|barrier| &barrier.nodes);
+        Frame {
+            time: simulation.time,
+            grains: poses,
+            nodes: nodes.map(|node| single(&node.position)).collect(),
+            tensions: net.tensions.iter().chain(&net.axial).chain(&net.brakes).map(|tension| *tension as f32).collect(),
+        }
+    }
+}
+
+/// What grains press on the barrier with, by their rows (N).
+fn pushes(simulation: &Simulation) -> Vec<(usize, Vec3)> {
+    let walls = simulation.surface_contacts().filter(|contact| contact.role == SurfaceRole::Wall);
+    let on_wall = walls.map(|contact| (contact.row, contact.force));
+    let pushes = simulation.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
+    on_wall.chain(pushes.map(|push| (push.row as usize, push.force))).collect()
+}
+
+/// All that pulls, in the order of the tensions: segments, cylinders, dissipators.
+fn ropes(barrier: &Barrier) -> Vec<([u32; 2], SegmentKind)> {
+    let segments = barrier.segments.iter().map(|segment| (segment.nodes, segment.kind));
+    let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.nodes, cylinder.kind));
+    let dissipators = barrier.dissipators.iter().map(|brake| (brake.nodes, SegmentKind::Main(brake.rope)));
+    segments.chain(cylinders).chain(dissipators).collect()
+}
+
+fn single(vector: &Vec3) -> [f32; 3] {
+    [vector.x as f32, vector.y as f32, vector.z as f32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validation::scenes::{cloud, free_model};
+    use crate::dem::tables::grains::GrainShape;
+
+    #[test]
+    fn frames_are_thinned_evenly() {
+        let grains = cloud(3, 1);
+        let mut simulation = Simulation::new(free_model(grains.clone(), GrainShape::Clump), 1e-4, 0.01, 1e3);
+        let mut film = Film::default();
+        for sample in 0..1000 {
+            simulation.time = f64::from(sample);
+            film.take(&simulation, &grains);
+        }
+        film.finish(&simulation, &grains);
+        let times: Vec<f64> = film.frames.iter().map(|frame| frame.time).collect();
+        assert!(times.len() > MOST_FRAMES / 2 && times.len() <= MOST_FRAMES + 1);
+        let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert!(gaps[..gaps.len() - 1].iter().all(|gap| *gap == gaps[0]));
+        assert_eq!(times.last(), Some(&999.0));
+        assert_eq!(film.looks.len(), 3);
+    }
+}
