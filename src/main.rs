@@ -36,6 +36,9 @@ struct CheckArguments {
     /// Also simulates the design with each of its main inputs changed alone, down and up
     #[arg(long)]
     vary: bool,
+    /// Also writes the course of the event for ParaView, into the folder `vtk` of the report
+    #[arg(long)]
+    vtk: bool,
 }
 
 #[derive(Subcommand)]
@@ -52,6 +55,9 @@ enum Command {
     Report {
         /// Folder of the earlier run
         folder: PathBuf,
+        /// Also writes the course of the event for ParaView, into the folder `vtk` of the report
+        #[arg(long)]
+        vtk: bool,
     },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
@@ -89,14 +95,15 @@ fn main() {
             0
         }
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
-        Some(Command::Report { folder }) => report(&folder) as i32,
+        Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, out, threads, seeds, vary } = arguments.check;
+            let CheckArguments { design, out, threads, seeds, vary, vtk } = arguments.check;
             let design = design.unwrap_or_default();
-            check(&design, out.as_deref(), Wishes { threads: threads.map(usize::from), starts: seeds, vary }) as i32
+            let wishes = Wishes { threads: threads.map(usize::from), starts: seeds, vary, vtk };
+            check(&design, out.as_deref(), wishes) as i32
         }
     };
     process::exit(code);

@@ -26,16 +26,18 @@ pub struct Wishes {
     pub starts: u32,
     /// Whether to run the design again with its inputs changed.
     pub vary: bool,
+    /// Whether to write files for ParaView.
+    pub vtk: bool,
 }
 
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given.
 pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes) -> ExitCode {
-    report_on(path, out, "", |file| simulate(file, wishes))
+    report_on(path, out, "", wishes.vtk, |file| simulate(file, wishes))
 }
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
 pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
-    report_on(path, out, "_loads", |file| Ok(by_equations(file)))
+    report_on(path, out, "_loads", false, |file| Ok(by_equations(file)))
 }
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -44,6 +46,7 @@ fn report_on(
     path: &Path,
     out: Option<&Path>,
     suffix: &str,
+    with_vtk: bool,
     work: impl FnOnce(DesignFile) -> Result<Run, Failure>,
 ) -> ExitCode {
     let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(format!("{name}{suffix}")), PathBuf::from);
@@ -68,7 +71,7 @@ fn report_on(
             return ExitCode::Undecided;
         }
     };
-    hand_over(&result, &folder)
+    hand_over(&result, &folder, with_vtk)
 }
 
 /// Warns of a report that does not belong to this run.

@@ -9,12 +9,18 @@ use crate::report::json::ResultFile;
 use crate::report::recording;
 use crate::report::render::render;
 use crate::report::view::View;
+use crate::report::vtk;
 use crate::report::write::{ReportFile, write_all};
 
-/// Writes all files of the report into `folder` and tells the verdict.
-pub fn hand_over(run: &Run, folder: &Path) -> ExitCode {
+/// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
+pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
     let view = View::of(run);
-    let written = files(run, &view).and_then(|files| Ok(write_all(folder, &files)?));
+    let film = run.simulated.as_ref().map(|seen| &seen.histories.film).filter(|_| with_vtk);
+    let written = files(run, &view).and_then(|files| {
+        // The report last: who finds it finds all.
+        film.map_or(Ok(()), |film| write_all(&folder.join(vtk::FOLDER), &vtk::files(film)))?;
+        Ok(write_all(folder, &files)?)
+    });
     if let Err(error) = written {
         eprintln!("error: the report could not be written to {}: {error}", folder.display());
         return ExitCode::Undecided;

@@ -12,4 +12,5 @@ pub mod render;
 pub mod statements;
 pub mod validation;
 pub mod view;
+pub mod vtk;
 pub mod write;
