@@ -191,7 +191,8 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
 }
 
 fn doubts_of(run: &Simulated, starts: usize) -> Vec<String> {
-    let named = |doubt: &String| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt.clone() };
+    let named =
+        |doubt: &String| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt.clone() };
     run.doubts.iter().map(named).collect()
 }
 

@@ -9,6 +9,7 @@ pub mod pictures;
 pub mod plots;
 pub mod recording;
 pub mod render;
+pub mod replay;
 pub mod statements;
 pub mod validation;
 pub mod view;

@@ -13,6 +13,7 @@ use crate::report::plots::elevation::elevation;
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
+use crate::report::replay::{Replay, Stage, pack};
 
 #[derive(Debug, Serialize)]
 pub struct Chart {
@@ -32,6 +33,7 @@ impl Chart {
 }
 
 pub const PICTURE_STYLE: &str = include_str!("../../templates/pictures.css");
+pub const REPLAY_SCRIPT: &str = include_str!("../../templates/replay.js");
 
 fn file_name(title: &str) -> String {
     let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '_' };
@@ -135,6 +137,16 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
             snapshot.time
         ),
     })
+}
+
+/// The film of the first start.
+pub fn replay(run: &Run, seen: &Simulated) -> Option<Replay> {
+    let channel = &run.file.design.channel;
+    let wall = match &run.file.design.barrier {
+        BarrierDesign::RigidWall(wall) => Some(wall.height),
+        BarrierDesign::FlexibleNet(_) => None,
+    };
+    pack(&seen.histories.film, &Stage { width: channel.width, slope: channel.slope, wall })
 }
 
 fn split_chart(seen: &Simulated) -> Chart {

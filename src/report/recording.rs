@@ -5,8 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dem::recorders::histories::Histories;
 use crate::checks::credibility::Numerics;
+use crate::dem::recorders::histories::Histories;
 use crate::design::read::read_design;
 use crate::fidelity::choose;
 use crate::pipeline::{Facts, Run, Simulated, Start, restore};
@@ -98,8 +98,7 @@ pub fn decode(bytes: &[u8]) -> Result<Run, RecordingError> {
     if crc32fast::hash(body) != number(4) {
         return Err(RecordingError::Damaged);
     }
-    let recording: Recording<Seen, Vec<Swing>> =
-        postcard::from_bytes(body).map_err(|_| RecordingError::Damaged)?;
+    let recording: Recording<Seen, Vec<Swing>> = postcard::from_bytes(body).map_err(|_| RecordingError::Damaged)?;
     let name = format!("{}.yaml", recording.design_name);
     let file = read_design(&name, &recording.design).map_err(RecordingError::Design)?;
     let fidelity = choose(&file.design);

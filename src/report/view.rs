@@ -8,8 +8,9 @@ use crate::design::entries::Origin;
 use crate::pipeline::{Run, Simulated, Verdict};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, percent, with_scatter, with_unit};
-use crate::report::pictures::{self, Chart, PICTURE_STYLE};
+use crate::report::pictures::{self, Chart, PICTURE_STYLE, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
+use crate::report::replay::Replay;
 use crate::report::statements::{assumptions, not_checked};
 use crate::sources::VOLKWEIN_2014;
 
@@ -46,6 +47,9 @@ pub struct View {
     /// Pressure over height at the largest force and at the end.
     pub profiles: Vec<Chart>,
     pub classes: Vec<String>,
+    pub replay: Option<Replay>,
+    /// Program of the page that shows it.
+    pub replay_script: &'static str,
     /// Style of all pictures.
     pub picture_style: &'static str,
     pub inputs: Vec<InputRow>,
@@ -132,6 +136,8 @@ impl View {
             profiles: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::profiles(run, seen)),
             elevation: run.simulated.as_ref().and_then(|seen| pictures::elevation_chart(run, seen)),
             classes: class_names(),
+            replay: run.simulated.as_ref().and_then(|seen| pictures::replay(run, seen)),
+            replay_script: REPLAY_SCRIPT,
             picture_style: PICTURE_STYLE,
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),

@@ -82,7 +82,13 @@ fn barrier(film: &Film, frame: &Frame) -> String {
     poly_data(&points, "Lines", [&nodes, &ends], "CellData", &data)
 }
 
-fn poly_data(points: &[f32], cells: &str, [connectivity, offsets]: [&[u32]; 2], place: &str, data: &[String]) -> String {
+fn poly_data(
+    points: &[f32],
+    cells: &str,
+    [connectivity, offsets]: [&[u32]; 2],
+    place: &str,
+    data: &[String],
+) -> String {
     let count = points.len() / 3;
     let pieces = offsets.len();
     let other = if cells == "Verts" { "NumberOfLines" } else { "NumberOfVerts" };

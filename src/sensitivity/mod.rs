@@ -121,7 +121,12 @@ impl Swing {
 pub fn swings(design: &Design) -> Vec<Swing> {
     let swing = |&change: &Change| {
         let (name, share, _) = change;
-        Swing { name: name.to_string(), share, down: changed(design, change, 1.0 - share), up: changed(design, change, 1.0 + share) }
+        Swing {
+            name: name.to_string(),
+            share,
+            down: changed(design, change, 1.0 - share),
+            up: changed(design, change, 1.0 + share),
+        }
     };
     let mut swings: Vec<Swing> = CHANGES.iter().map(swing).collect();
     swings.retain(|swing| swing.width() > 0.0);

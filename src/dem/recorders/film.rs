@@ -138,8 +138,8 @@ fn single(vector: &Vec3) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validation::scenes::{cloud, free_model};
     use crate::dem::tables::grains::GrainShape;
+    use crate::validation::scenes::{cloud, free_model};
 
     #[test]
     fn frames_are_thinned_evenly() {
