@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process;
 
 use barrier_check::commands::check::{Wishes, check, loads};
+use barrier_check::commands::compare::compare;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
 use barrier_check::commands::validate::{Selection, validate};
@@ -27,6 +28,13 @@ struct CheckArguments {
     /// Folder for the report [default: out/<name of the design file>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    how: HowArguments,
+}
+
+/// How to simulate.
+#[derive(Args)]
+struct HowArguments {
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -41,6 +49,12 @@ struct CheckArguments {
     vtk: bool,
 }
 
+impl HowArguments {
+    fn wishes(&self) -> Wishes {
+        Wishes { threads: self.threads.map(usize::from), starts: self.seeds, vary: self.vary, vtk: self.vtk }
+    }
+}
+
 #[derive(Subcommand)]
 enum Command {
     /// Checks a design by the equations alone, without the simulation
@@ -50,6 +64,17 @@ enum Command {
         /// Folder for the report [default: out/<name of the design file>_loads]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+    },
+    /// Holds several designs side by side on one page
+    Compare {
+        /// Design files, or folders of earlier runs; the first is what the others are compared with
+        #[arg(required = true, num_args = 2.., value_name = "DESIGN")]
+        designs: Vec<PathBuf>,
+        /// Folder for the page and the reports
+        #[arg(long, value_name = "DIR", default_value = "out/compare")]
+        out: PathBuf,
+        #[command(flatten)]
+        how: HowArguments,
     },
     /// Makes the report of an earlier run again, without running it
     Report {
@@ -95,15 +120,14 @@ fn main() {
             0
         }
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
+        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.wishes()) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, out, threads, seeds, vary, vtk } = arguments.check;
-            let design = design.unwrap_or_default();
-            let wishes = Wishes { threads: threads.map(usize::from), starts: seeds, vary, vtk };
-            check(&design, out.as_deref(), wishes) as i32
+            let CheckArguments { design, out, how } = arguments.check;
+            check(&design.unwrap_or_default(), out.as_deref(), how.wishes()) as i32
         }
     };
     process::exit(code);

@@ -3,7 +3,7 @@
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -16,6 +16,9 @@ use crate::scene::event::{ProgressReport, Watch};
 
 /// Bytes read of a file at the most; the document refuses anything near.
 const MOST_READ: u64 = 2 << 20;
+
+/// Whether Ctrl-C was pressed.
+static STOP: AtomicBool = AtomicBool::new(false);
 
 /// How to run a design.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +43,7 @@ pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
     report_on(path, out, "_loads", false, |file| Ok(by_equations(file)))
 }
 
-type Failure = Box<dyn std::error::Error + Send + Sync>;
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 fn report_on(
     path: &Path,
@@ -95,11 +98,9 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 }
 
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
-fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let heard = stop.clone();
-    // A second handler cannot be set; then Ctrl-C simply ends the program, which writes nothing either.
-    let _ = ctrlc::set_handler(move || heard.store(true, Ordering::Relaxed));
+pub fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
+    // Set once; that it cannot be set again for the next of several designs is no matter.
+    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
     let bar = Mutex::new(progress_bar());
     let show = |report: ProgressReport| {
         if let Ok(bar) = bar.lock() {
@@ -108,7 +109,7 @@ fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
         }
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wishes.threads.unwrap_or(0)).build()?;
-    let watch = Watch { progress: &show, stop: &stop };
+    let watch = Watch { progress: &show, stop: &STOP };
     let result = pool.install(|| {
         let mut result = run(file, wishes.starts, &watch)?;
         if wishes.vary {

@@ -1,13 +1,14 @@
 //! One file per command. Only these and the report's writer touch files.
 
 pub mod check;
+pub mod compare;
 pub mod output;
 pub mod report;
 pub mod schema;
 pub mod validate;
 
 /// How the program ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitCode {
     /// All checks hold.
     Pass = 0,

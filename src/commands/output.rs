@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::commands::ExitCode;
+use crate::commands::check::Failure;
 use crate::pipeline::{Run, Verdict};
 use crate::report::json::ResultFile;
 use crate::report::recording;
@@ -14,19 +15,28 @@ use crate::report::write::{ReportFile, write_all};
 
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
-    let view = View::of(run);
-    let film = run.simulated.as_ref().map(|seen| &seen.histories.film).filter(|_| with_vtk);
-    let written = files(run, &view).and_then(|files| {
-        // The report last: who finds it finds all.
-        film.map_or(Ok(()), |film| write_all(&folder.join(vtk::FOLDER), &vtk::files(film)))?;
-        Ok(write_all(folder, &files)?)
-    });
-    if let Err(error) = written {
-        eprintln!("error: the report could not be written to {}: {error}", folder.display());
-        return ExitCode::Undecided;
+    match write_report(run, folder, with_vtk) {
+        Err(error) => {
+            eprintln!("error: the report could not be written to {}: {error}", folder.display());
+            ExitCode::Undecided
+        }
+        Ok(view) => {
+            summarise(&view, folder);
+            exit_code(run.verdict)
+        }
     }
-    summarise(&view, folder);
-    exit_code(run.verdict)
+}
+
+/// Writes all files of the report into `folder`; returns what they show.
+pub fn write_report(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failure> {
+    let view = View::of(run);
+    let files = files(run, &view)?;
+    if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
+        write_all(&folder.join(vtk::FOLDER), &vtk::files(&seen.histories.film))?;
+    }
+    // The report last: who finds it finds all.
+    write_all(folder, &files)?;
+    Ok(view)
 }
 
 /// What the program ends with after a verdict.
@@ -38,8 +48,8 @@ pub fn exit_code(verdict: Verdict) -> ExitCode {
     }
 }
 
-fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Box<dyn std::error::Error>> {
-    let rendered = render(view)?;
+fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
+    let rendered = render(view).map_err(|error| error.to_string())?;
     let mut files =
         vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
     files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile::new(name, text)));

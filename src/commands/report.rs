@@ -3,21 +3,27 @@
 use std::path::Path;
 
 use crate::commands::ExitCode;
+use crate::commands::check::Failure;
 use crate::commands::output::hand_over;
+use crate::pipeline::Run;
 use crate::report::recording::{self, decode};
 
 /// Makes the report in `folder` again from its recording, and the files for ParaView where asked for.
 pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
-    let file = folder.join(recording::FILE);
-    let refuse = |what: &dyn std::fmt::Display| {
-        eprintln!("error: {}: {what}", file.display());
-        ExitCode::Undecided
-    };
-    match std::fs::read(&file) {
-        Err(error) => refuse(&format!("{error}. A folder written by `barrier-check DESIGN` is wanted")),
-        Ok(bytes) => match decode(&bytes) {
-            Err(error) => refuse(&error),
-            Ok(run) => hand_over(&run, folder, with_vtk),
-        },
+    match read_recording(folder) {
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::Undecided
+        }
+        Ok(run) => hand_over(&run, folder, with_vtk),
     }
+}
+
+/// The run recorded in `folder`.
+pub fn read_recording(folder: &Path) -> Result<Run, Failure> {
+    let file = folder.join(recording::FILE);
+    let bytes = std::fs::read(&file).map_err(|error| {
+        format!("{}: {error}. A folder written by `barrier-check DESIGN` is wanted", file.display())
+    })?;
+    Ok(decode(&bytes).map_err(|error| format!("{}: {error}", file.display()))?)
 }

@@ -1,5 +1,6 @@
 //! The report: HTML and Markdown for people, JSON and CSV for programs. Computes no engineering number.
 
+pub mod compare;
 pub mod csv;
 pub mod findings;
 pub mod json;

@@ -10,6 +10,7 @@ use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow}
 use crate::report::numbers::{figures, percent, with_scatter, with_unit};
 use crate::report::pictures::{self, Chart, PICTURE_STYLE, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
+use crate::report::render::PAGE_STYLE;
 use crate::report::replay::Replay;
 use crate::report::statements::{assumptions, not_checked};
 use crate::sources::VOLKWEIN_2014;
@@ -52,6 +53,7 @@ pub struct View {
     pub replay_script: &'static str,
     /// Style of all pictures.
     pub picture_style: &'static str,
+    pub page_style: &'static str,
     pub inputs: Vec<InputRow>,
     pub assumptions: Vec<&'static str>,
     pub not_checked: Vec<&'static str>,
@@ -93,11 +95,7 @@ impl View {
     pub fn of(run: &Run) -> Self {
         let project = &run.file.design.project;
         let row = |name: &str, value: &str| Row { name: name.into(), value: value.into(), remark: String::new() };
-        let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
-        outcomes.sort_by(|a, b| {
-            let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);
-            rank(a.verdict).cmp(&rank(b.verdict)).then(used(b).total_cmp(&used(a)))
-        });
+        let outcomes = worst_first(run);
         Self {
             title: format!("{}: {}", project.name, project.barrier),
             project: [
@@ -114,7 +112,7 @@ impl View {
             .filter(|row| !matches!(row.value.as_str(), "" | "-"))
             .collect(),
             verdict: run.verdict.word(),
-            verdict_line: verdict_line(run, &outcomes),
+            verdict_line: summary(run),
             doubts: run.doubts.clone(),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
             guideline: guideline_rows(run),
@@ -139,6 +137,7 @@ impl View {
             replay: run.simulated.as_ref().and_then(|seen| pictures::replay(run, seen)),
             replay_script: REPLAY_SCRIPT,
             picture_style: PICTURE_STYLE,
+            page_style: PAGE_STYLE,
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),
             assumptions: assumptions(run),
@@ -156,6 +155,16 @@ impl View {
     }
 }
 
+/// Outcomes by their verdict, then by how much is used.
+fn worst_first(run: &Run) -> Vec<&Outcome> {
+    let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
+    outcomes.sort_by(|a, b| {
+        let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);
+        rank(a.verdict).cmp(&rank(b.verdict)).then(used(b).total_cmp(&used(a)))
+    });
+    outcomes
+}
+
 /// Worst first.
 fn rank(verdict: CheckVerdict) -> u8 {
     match verdict {
@@ -166,7 +175,9 @@ fn rank(verdict: CheckVerdict) -> u8 {
     }
 }
 
-fn verdict_line(run: &Run, sorted: &[&Outcome]) -> String {
+/// The verdict in a sentence.
+pub fn summary(run: &Run) -> String {
+    let sorted = worst_first(run);
     let held: Vec<_> = run.outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info).collect();
     let failed = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail).count();
     let by_guideline = |outcome: &&&Outcome| match (outcome.demand.guideline, outcome.capacity) {

@@ -1,0 +1,90 @@
+//! `barrier-check compare A B ...`: several designs on one page.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use crate::commands::ExitCode;
+use crate::commands::check::{Failure, Wishes, load, simulate};
+use crate::commands::output::{exit_code, write_report};
+use crate::commands::report::read_recording;
+use crate::pipeline::Run;
+use crate::report::compare::{Variant, files};
+use crate::report::write::write_all;
+
+/// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report and the page
+/// that holds them side by side below `out`. Ends by the worst verdict.
+pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
+    let mut variants = Vec::new();
+    let mut folders = BTreeSet::new();
+    // All are read before the first runs, so that nobody waits for an error.
+    let sources: Vec<_> = paths.iter().map(|path| Source::read(path)).collect();
+    let mut refused = false;
+    for (path, source) in paths.iter().zip(&sources) {
+        if let Err(error) = source {
+            eprintln!("{}: {error}", path.display());
+            refused = true;
+        }
+    }
+    if refused {
+        return ExitCode::Undecided;
+    }
+    for (path, source) in paths.iter().zip(sources.into_iter().flatten()) {
+        eprintln!("{}", path.display());
+        match source.run(wishes) {
+            Ok(run) => variants.push(Variant { folder: free_name(&run.file.name, &mut folders), run }),
+            Err(error) => {
+                eprintln!("error: {error}");
+                return ExitCode::Undecided;
+            }
+        }
+    }
+    let written = write(&variants, out, wishes.vtk);
+    if let Err(error) = written {
+        eprintln!("error: the comparison could not be written to {}: {error}", out.display());
+        return ExitCode::Undecided;
+    }
+    for Variant { run, .. } in &variants {
+        println!("{:<9} {}", run.verdict.word().to_uppercase(), run.file.name);
+    }
+    println!("comparison: {}", out.join("compare.html").display());
+    variants.iter().map(|variant| exit_code(variant.run.verdict)).max().unwrap_or(ExitCode::Undecided)
+}
+
+/// What a variant comes from.
+enum Source {
+    Design(Box<crate::design::read::DesignFile>),
+    Recorded(Box<Run>),
+}
+
+impl Source {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        if path.is_dir() {
+            return Ok(Self::Recorded(Box::new(read_recording(path)?)));
+        }
+        load(path).map(|file| Self::Design(Box::new(file))).map_err(|problems| problems.to_string().into())
+    }
+
+    fn run(self, wishes: Wishes) -> Result<Run, Failure> {
+        match self {
+            Self::Design(file) => simulate(*file, wishes),
+            Self::Recorded(run) => Ok(*run),
+        }
+    }
+}
+
+fn write(variants: &[Variant], out: &Path, with_vtk: bool) -> Result<(), Failure> {
+    for variant in variants {
+        write_report(&variant.run, &out.join(&variant.folder), with_vtk)?;
+    }
+    let page = files(variants).map_err(|error| error.to_string())?;
+    Ok(write_all(out, &page)?)
+}
+
+/// The name, or with a number behind it if it is taken.
+fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let numbered = (2..).map(|number| format!("{name}_{number}"));
+    let free = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken.contains(name));
+    let free = free.unwrap_or_default();
+    taken.insert(free.clone());
+    free
+}

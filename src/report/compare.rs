@@ -1,0 +1,288 @@
+//! Several designs on one page: what they differ in, and what comes of it.
+
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+
+use crate::checks::outcome::Outcome;
+use crate::dem::recorders::histories::smoothed;
+use crate::pipeline::{Run, Simulated};
+use crate::report::findings::over_starts;
+use crate::report::numbers::{percent, with_scatter, with_unit};
+use crate::report::pictures::{Chart, PICTURE_STYLE};
+use crate::report::plots::line_chart::{LineChart, Series};
+use crate::report::render::{PAGE_STYLE, Rendered, render_as};
+use crate::report::view::summary;
+use crate::report::write::ReportFile;
+use crate::scene::build::SAMPLES_PER_WINDOW;
+use crate::starts::Spread;
+
+const HTML: &str = include_str!("../../templates/compare.html");
+const MARKDOWN: &str = include_str!("../../templates/compare.md");
+
+/// Change of a single start, over the first design's value, below which it is not marked: two packings of one design differ by
+/// as much.
+const UNTOLD: f64 = 0.1;
+/// Standard deviations of the difference beyond which it is marked, where every design has several starts.
+const CLEAR: f64 = 2.0;
+/// Moments in a chart.
+const MOMENTS: usize = 800;
+
+/// One design of the comparison.
+pub struct Variant {
+    /// Name of the folder of its own report.
+    pub folder: String,
+    pub run: Run,
+}
+
+#[derive(Debug, Serialize)]
+struct Page {
+    variants: Vec<Head>,
+    checks: Vec<Line>,
+    observed: Vec<Line>,
+    inputs: Vec<Line>,
+    charts: Vec<Chart>,
+    /// When a difference is marked.
+    marking: String,
+    version: &'static str,
+    page_style: &'static str,
+    picture_style: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Head {
+    letter: char,
+    name: String,
+    title: String,
+    folder: String,
+    verdict: &'static str,
+    verdict_line: String,
+}
+
+/// A row: what it is of, and a cell for each design.
+#[derive(Debug, Serialize)]
+struct Line {
+    title: String,
+    cells: Vec<Cell>,
+}
+
+#[derive(Clone, Debug, Default, Serialize)]
+struct Cell {
+    text: String,
+    /// Class of the style sheet; empty for plain.
+    class: &'static str,
+    /// How it differs from the first design, where that is worth a mark.
+    change: String,
+}
+
+/// The page as files. `variants` holds two at least.
+pub fn files(variants: &[Variant]) -> Result<Vec<ReportFile>, tera::Error> {
+    let page = Page {
+        variants: variants.iter().zip('A'..).map(|(variant, letter)| head(variant, letter)).collect(),
+        checks: check_lines(variants),
+        observed: observed_lines(variants),
+        inputs: input_lines(variants),
+        charts: charts(variants),
+        marking: marking(variants),
+        version: env!("CARGO_PKG_VERSION"),
+        page_style: PAGE_STYLE,
+        picture_style: PICTURE_STYLE,
+    };
+    let Rendered { html, markdown } = render_as("page", &page, [HTML, MARKDOWN])?;
+    let mut files = vec![ReportFile::new("compare.html", html), ReportFile::new("compare.md", markdown)];
+    files.extend(page.charts.iter().map(|chart| ReportFile::new(&chart.file, chart.alone())));
+    Ok(files)
+}
+
+fn head(variant: &Variant, letter: char) -> Head {
+    let project = &variant.run.file.design.project;
+    Head {
+        letter,
+        name: variant.run.file.name.clone(),
+        title: format!("{}: {}", project.name, project.barrier),
+        folder: variant.folder.clone(),
+        verdict: variant.run.verdict.word(),
+        verdict_line: summary(&variant.run),
+    }
+}
+
+/// Ids of all variants in the order in which they first come up.
+fn all_ids(ids: impl Iterator<Item = String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    ids.filter(|id| seen.insert(id.clone())).collect()
+}
+
+fn check_lines(variants: &[Variant]) -> Vec<Line> {
+    let ids =
+        all_ids(variants.iter().flat_map(|variant| variant.run.outcomes.iter().map(|outcome| outcome.id.clone())));
+    let line = |id: String| {
+        let found = |variant: &Variant| variant.run.outcomes.iter().find(|outcome| outcome.id == id).cloned();
+        let outcomes: Vec<Option<Outcome>> = variants.iter().map(found).collect();
+        let title = outcomes.iter().flatten().next().map_or(String::new(), |outcome| outcome.title.clone());
+        Line { title, cells: outcomes.iter().map(check_cell).collect() }
+    };
+    ids.into_iter().map(line).collect()
+}
+
+fn check_cell(outcome: &Option<Outcome>) -> Cell {
+    let Some(outcome) = outcome else { return Cell { text: "–".into(), ..Cell::default() } };
+    let demand = outcome.demand.simulation.or(outcome.demand.guideline);
+    let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit));
+    Cell { text, class: outcome.verdict.word(), change: percent(outcome.utilisation) }
+}
+
+fn observed_lines(variants: &[Variant]) -> Vec<Line> {
+    type Told = Vec<(crate::report::findings::Observable, Spread)>;
+    let told = |variant: &Variant| variant.run.simulated.as_ref().map_or_else(Vec::new, over_starts);
+    let told: Vec<Told> = variants.iter().map(told).collect();
+    let ids = all_ids(told.iter().flatten().map(|(observable, _)| observable.id.clone()));
+    let line = |id: String| {
+        let found: Vec<_> = told.iter().map(|told| told.iter().find(|(observable, _)| observable.id == id)).collect();
+        let (title, unit) = found
+            .iter()
+            .flatten()
+            .next()
+            .map_or((String::new(), ""), |(observable, _)| (observable.title.clone(), observable.unit));
+        let first = found[0].map(|(_, spread)| *spread);
+        let cell = |found: &Option<&(_, Spread)>| match found {
+            None => Cell { text: "–".into(), ..Cell::default() },
+            Some((_, spread)) => observed_cell(*spread, first, unit),
+        };
+        Line { title, cells: found.iter().map(cell).collect() }
+    };
+    ids.into_iter().map(line).collect()
+}
+
+fn observed_cell(spread: Spread, first: Option<Spread>, unit: &str) -> Cell {
+    let text = match spread.starts {
+        1 => with_unit(spread.mean, unit),
+        _ => with_scatter(spread.mean, spread.deviation, unit),
+    };
+    let change = first.filter(|first| differs(&spread, first)).map_or(String::new(), |first| match unit {
+        "-" => format!("{:+.1} points", 100.0 * (spread.mean - first.mean)),
+        _ => format!("{:+.0} %", 100.0 * (spread.mean / first.mean - 1.0)),
+    });
+    Cell { text, class: if change.is_empty() { "" } else { "differs" }, change }
+}
+
+/// Whether a difference is more than scatter may make.
+fn differs(one: &Spread, other: &Spread) -> bool {
+    let difference = (one.mean - other.mean).abs();
+    if one.starts > 1 && other.starts > 1 {
+        return difference > CLEAR * one.deviation.hypot(other.deviation);
+    }
+    difference > UNTOLD * other.mean.abs()
+}
+
+fn marking(variants: &[Variant]) -> String {
+    let several = variants
+        .iter()
+        .all(|variant| variant.run.simulated.as_ref().is_some_and(|simulated| simulated.starts.len() > 1));
+    match several {
+        true => format!(
+            "Marked: differs from the first design by more than {CLEAR:.0} standard deviations of the difference."
+        ),
+        false => format!(
+            "Marked: differs from the first design by more than {:.0} %. These are single starts; how far two packings of one design differ, --seeds tells.",
+            100.0 * UNTOLD
+        ),
+    }
+}
+
+/// Inputs that are not the same in all designs.
+fn input_lines(variants: &[Variant]) -> Vec<Line> {
+    let entries = |variant: &Variant| variant.run.file.entries.order.clone();
+    let paths = all_ids(variants.iter().flat_map(entries));
+    let typed = |variant: &Variant, path: &String| {
+        variant.run.file.entries.values.get(path).map_or("–".to_string(), |entry| entry.typed.clone())
+    };
+    let line = |path: String| {
+        let values: Vec<String> = variants.iter().map(|variant| typed(variant, &path)).collect();
+        let same = values.iter().all(|value| *value == values[0]);
+        let cell = |value: String| Cell {
+            class: if value == values[0] { "" } else { "differs" },
+            text: value,
+            change: String::new(),
+        };
+        let cells = values.iter().cloned().map(cell).collect();
+        (!same && !path.starts_with("project.")).then_some(Line { title: path, cells })
+    };
+    paths.into_iter().filter_map(line).collect()
+}
+
+fn charts(variants: &[Variant]) -> Vec<Chart> {
+    let seen: Vec<(char, &Simulated)> =
+        ('A'..).zip(variants).filter_map(|(letter, variant)| Some((letter, variant.run.simulated.as_ref()?))).collect();
+    let last = seen.iter().filter_map(|(_, seen)| seen.histories.time.last()).copied().fold(0.0, f64::max);
+    if last == 0.0 {
+        return Vec::new();
+    }
+    let time: Vec<f64> = (0..=MOMENTS).map(|moment| last * moment as f64 / MOMENTS as f64).collect();
+    let force = |seen: &Simulated| {
+        let force: Vec<f64> = seen.histories.force.iter().map(|force| force.norm()).collect();
+        smoothed(&force, SAMPLES_PER_WINDOW as usize)
+    };
+    let held = |seen: &Simulated| seen.histories.lost.iter().map(|lost| 1.0 - lost.iter().sum::<f64>()).collect();
+    let largest = seen.iter().map(|(_, seen)| seen.first().force_peak).fold(0.0, f64::max);
+    let (unit, factor) = if largest < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
+    vec![
+        chart("Force on the barrier", "force.svg", ("total force", unit, factor), &time, &seen, &force),
+        chart("Retained mass", "retained_mass.svg", ("share of the mass", "%", 100.0), &time, &seen, &held),
+    ]
+}
+
+fn chart(
+    title: &'static str,
+    file: &str,
+    (label, unit, factor): (&str, &str, f64),
+    time: &[f64],
+    seen: &[(char, &Simulated)],
+    values: &dyn Fn(&Simulated) -> Vec<f64>,
+) -> Chart {
+    let curves: Vec<Vec<f64>> =
+        seen.iter().map(|(_, seen)| resampled(&seen.histories.time, &values(seen), time)).collect();
+    let series = |(index, ((letter, _), values)): (usize, (&(char, &Simulated), _))| Series {
+        label: letter.to_string(),
+        values,
+        colour: index % 6,
+    };
+    let series = seen.iter().zip(curves.iter().map(Vec::as_slice)).enumerate().map(series).collect();
+    let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new() }.svg();
+    Chart { title, file: file.into(), svg, note: "First start of each design; time since its release.".into() }
+}
+
+/// The series at other times, by straight lines; its last value beyond its end.
+fn resampled(time: &[f64], values: &[f64], wanted: &[f64]) -> Vec<f64> {
+    let at = |moment: &f64| {
+        let after = time.partition_point(|time| time < moment);
+        match (after.checked_sub(1), time.get(after)) {
+            (Some(before), Some(next)) => {
+                let share = (moment - time[before]) / (next - time[before]);
+                values[before] + share * (values[after] - values[before])
+            }
+            (None, _) => values.first().copied().unwrap_or(0.0),
+            (Some(last), None) => values[last],
+        }
+    };
+    wanted.iter().map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_marked_only_beyond_scatter() {
+        let spread = |mean, deviation, starts| Spread { mean, deviation, starts };
+        assert!(differs(&spread(120.0, 0.0, 1), &spread(100.0, 0.0, 1)));
+        assert!(!differs(&spread(109.0, 0.0, 1), &spread(100.0, 0.0, 1)));
+        assert!(!differs(&spread(120.0, 10.0, 5), &spread(100.0, 10.0, 5)));
+        assert!(differs(&spread(120.0, 1.0, 5), &spread(100.0, 1.0, 5)));
+    }
+
+    #[test]
+    fn curves_meet_on_common_times() {
+        let curve = resampled(&[1.0, 2.0], &[10.0, 20.0], &[0.0, 1.5, 3.0]);
+        assert_eq!(curve, [10.0, 15.0, 20.0]);
+    }
+}
