@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use std::time::Instant;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
 use crate::checks::credibility::{Numerics, doubts};
@@ -113,6 +113,8 @@ pub struct Facts {
     /// How often the neighbour lists were made anew.
     pub renewals: u64,
     pub threads: usize,
+    /// When the run began, in seconds since 1970.
+    pub began: i64,
     /// From design to end of simulation (s).
     pub wall_clock: f64,
     /// Window over which total and wall forces are averaged (s).
@@ -146,7 +148,7 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
     let guideline = guideline(design);
     let seed = |index: usize| design.simulation.seed.wrapping_add(index as u64);
     let threads = rayon::current_num_threads();
-    let started = Instant::now();
+    let (started, began) = (Instant::now(), SystemTime::now());
     let runs = if starts < 2 {
         vec![simulate(design, &fidelity, &guideline, seed(0), watch)]
     } else {
@@ -157,6 +159,7 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
     let mut simulated = runs.remove(0);
     simulated.doubts = doubts;
     simulated.facts.threads = threads;
+    simulated.facts.began = began.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs() as i64);
     simulated.facts.wall_clock = started.elapsed().as_secs_f64();
     for other in runs {
         simulated.numerics = simulated.numerics.worst(&other.numerics);

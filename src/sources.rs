@@ -1,6 +1,10 @@
 //! Papers, guidelines and clauses that figures of the report come from.
 
 pub const VOLKWEIN_2014: &str = "Volkwein 2014, Flexible debris flow barriers: design and application, WSL";
+pub const ALBABA_2015: &str = "Albaba 2015, Discrete element modeling of the impact of granular debris flows on rigid and flexible structures, thesis, Grenoble";
+pub const CUNDALL_STRACK_1979: &str =
+    "Cundall & Strack 1979, A discrete numerical model for granular assemblies, Géotechnique 29";
+pub const EN_1990: &str = "EN 1990, annex D: design assisted by testing";
 pub const NO_LIMIT: &str = "no limit set; for information";
 pub const DESIGN_LIMIT: &str = "limit set in the design file";
 pub const ROPE_FACTOR: &str = "breaking load that the ends hold over the rope's partial factor (after EN 1993-1-11, from memory; both are in the design file)";

@@ -13,6 +13,8 @@ pub struct Observed {
     /// Largest total force of the smoothed signal (N) and its time (s).
     pub force_peak: f64,
     pub force_peak_time: f64,
+    /// The smoothed signal, sample by sample (N).
+    pub force: Vec<f64>,
     /// Mean total force over the last stretch of the run (N).
     pub force_residual: f64,
     /// Highest mean velocity of all grains along the channel (m/s), and its time (s).
@@ -73,7 +75,8 @@ pub struct Reading {
 impl Observed {
     pub fn read(histories: &Histories, design: &Design, guideline: &Guideline, reading: Reading) -> Self {
         let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
-        let (at_peak, force_peak) = peak(&smoothed(&force, reading.window));
+        let smooth = smoothed(&force, reading.window);
+        let (at_peak, force_peak) = peak(&smooth);
         let velocity: Vec<f64> = histories.velocity.iter().map(|velocity| velocity[0]).collect();
         let (at_fastest, velocity_peak) = peak(&velocity);
         let lost = histories.lost.last().copied().unwrap_or_default();
@@ -82,6 +85,7 @@ impl Observed {
         let width = design.channel.width;
         let mut observed = Self {
             force_peak,
+            force: smooth,
             force_peak_time: time(at_peak),
             force_residual: tail_mean(&force, reading.tail),
             velocity_peak,

@@ -10,7 +10,7 @@ use crate::pipeline::{Run, Simulated};
 use crate::report::findings::over_starts;
 use crate::report::numbers::{percent, with_scatter, with_unit};
 use crate::report::pictures::{Chart, PICTURE_STYLE};
-use crate::report::plots::line_chart::{LineChart, Series};
+use crate::report::plots::line_chart::{LineChart, Series, resampled};
 use crate::report::render::{PAGE_STYLE, Rendered, render_as};
 use crate::report::view::summary;
 use crate::report::write::ReportFile;
@@ -247,24 +247,8 @@ fn chart(
         colour: index % 6,
     };
     let series = seen.iter().zip(curves.iter().map(Vec::as_slice)).enumerate().map(series).collect();
-    let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new() }.svg();
+    let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new(), band: None }.svg();
     Chart { title, file: file.into(), svg, note: "First start of each design; time since its release.".into() }
-}
-
-/// The series at other times, by straight lines; its last value beyond its end.
-fn resampled(time: &[f64], values: &[f64], wanted: &[f64]) -> Vec<f64> {
-    let at = |moment: &f64| {
-        let after = time.partition_point(|time| time < moment);
-        match (after.checked_sub(1), time.get(after)) {
-            (Some(before), Some(next)) => {
-                let share = (moment - time[before]) / (next - time[before]);
-                values[before] + share * (values[after] - values[before])
-            }
-            (None, _) => values.first().copied().unwrap_or(0.0),
-            (Some(last), None) => values[last],
-        }
-    };
-    wanted.iter().map(at).collect()
 }
 
 #[cfg(test)]
@@ -278,11 +262,5 @@ mod tests {
         assert!(!differs(&spread(109.0, 0.0, 1), &spread(100.0, 0.0, 1)));
         assert!(!differs(&spread(120.0, 10.0, 5), &spread(100.0, 10.0, 5)));
         assert!(differs(&spread(120.0, 1.0, 5), &spread(100.0, 1.0, 5)));
-    }
-
-    #[test]
-    fn curves_meet_on_common_times() {
-        let curve = resampled(&[1.0, 2.0], &[10.0, 20.0], &[0.0, 1.5, 3.0]);
-        assert_eq!(curve, [10.0, 15.0, 20.0]);
     }
 }

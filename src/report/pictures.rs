@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::dem::ledger::Ledger;
 use crate::dem::recorders::histories::smoothed;
 use crate::dem::recorders::snapshots::{Moment, Snapshot};
 use crate::dem::tables::barrier::SegmentKind;
@@ -10,10 +12,12 @@ use crate::loads::pressure::Diagram;
 use crate::pipeline::{Run, Simulated};
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
-use crate::report::plots::line_chart::{Level, LineChart, Series};
+use crate::report::plots::line_chart::{Level, LineChart, Series, resampled};
 use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
+use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
+use crate::report::view::worst_first;
 
 #[derive(Debug, Serialize)]
 pub struct Chart {
@@ -48,10 +52,130 @@ pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     if !seen.histories.rope_mean.is_empty() {
         charts.push(rope_chart(seen));
     }
+    charts.extend(anchor_chart(run, seen));
+    charts.extend(wall_charts(run, seen));
     charts.push(velocity_chart(seen));
     charts.push(split_chart(seen));
     charts.push(coefficient_chart(run, seen));
+    charts.push(energy_chart(seen));
     charts
+}
+
+/// How much of each judged check is used.
+pub fn utilisation_chart(run: &Run) -> Option<Chart> {
+    let judged = worst_first(run).into_iter().filter(|outcome| outcome.verdict != CheckVerdict::Info);
+    let bar = |outcome: &Outcome| {
+        let used = outcome.utilisation?;
+        Some(Bar { label: outcome.title.clone(), used, class: outcome.verdict.word() })
+    };
+    let bars: Vec<Bar> = judged.filter_map(bar).take(MOST_BARS).collect();
+    let title = "Utilisation of the checks";
+    (!bars.is_empty()).then(|| Chart {
+        title,
+        file: file_name(title),
+        svg: utilisation(&bars),
+        note: "Demand over capacity; of guideline and simulation the larger.".into(),
+    })
+}
+
+/// Bars in the picture of utilisations.
+const MOST_BARS: usize = 14;
+
+/// Least and largest force over all starts, at the times of the first.
+fn force_band(seen: &Simulated) -> Option<[Vec<f64>; 2]> {
+    if seen.starts.len() < 2 {
+        return None;
+    }
+    let time = &seen.histories.time;
+    let mut band = [vec![f64::INFINITY; time.len()], vec![f64::NEG_INFINITY; time.len()]];
+    for start in &seen.starts {
+        let force = resampled(&start.observed.coefficients.time, &start.observed.force, time);
+        for (moment, force) in force.into_iter().enumerate() {
+            band[0][moment] = band[0][moment].min(force);
+            band[1][moment] = band[1][moment].max(force);
+        }
+    }
+    Some(band)
+}
+
+/// Loads of the anchors of a net.
+fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
+    let BarrierDesign::FlexibleNet(net) = &run.file.design.barrier else { return None };
+    let chart = LineChart {
+        title: "load of an anchor",
+        unit: "kN",
+        factor: 1e-3,
+        time: &seen.histories.time,
+        series: rope_series(&seen.histories.anchors),
+        levels: vec![Level { label: "resistance".into(), value: net.anchor_resistance }],
+        band: None,
+    };
+    let title = "Anchors";
+    let note = "The higher loaded anchor of each main rope, without partial factors.".into();
+    Some(Chart { title, file: file_name(title), svg: chart.svg(), note })
+}
+
+/// Force on the segments of a rigid wall, and its moment.
+fn wall_charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
+    let histories = &seen.histories;
+    if histories.segments.is_empty() {
+        return Vec::new();
+    }
+    let width = run.file.design.channel.width;
+    let window = crate::scene::build::SAMPLES_PER_WINDOW as usize;
+    let per_width = |row: &Vec<f64>| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
+    let segments: Vec<Vec<f64>> = histories.segments.iter().map(per_width).collect();
+    let moment = per_width(&histories.moment);
+    let chart = |title: &'static str, label, units: [&'static str; 2], series: Vec<Series>, note: &str| {
+        let largest = series.iter().flat_map(|series| series.values).copied().fold(0.0, f64::max);
+        let (unit, factor) = if largest < 2000.0 { (units[0], 1.0) } else { (units[1], 1e-3) };
+        let time = &histories.time;
+        let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new(), band: None }.svg();
+        Chart { title, file: file_name(title), svg, note: note.into() }
+    };
+    let segment = |(index, values)| Series { label: format!("segment {}", index + 1), values, colour: index % 6 };
+    let of_segments = segments.iter().map(Vec::as_slice).enumerate().map(segment).collect();
+    let of_moment = vec![Series { label: "moment".into(), values: &moment, colour: 0 }];
+    vec![
+        chart("Segments of the wall", "force per width", ["N/m", "kN/m"], of_segments, "Numbered from the bottom."),
+        chart(
+            "Moment about the toe",
+            "moment per width",
+            ["N m/m", "kN m/m"],
+            of_moment,
+            "Of the force normal to the wall.",
+        ),
+    ]
+}
+
+/// Where the energy is and where it went.
+fn energy_chart(seen: &Simulated) -> Chart {
+    let ledger = &seen.histories.ledger;
+    let start = ledger.first().copied().unwrap_or_default();
+    let of = |value: fn(&Ledger) -> f64| -> Vec<f64> { ledger.iter().map(value).collect() };
+    let released: Vec<f64> = ledger.iter().map(|now| start.potential - now.potential - now.carried_out).collect();
+    let (motion, lost) = (of(|now| now.kinetic), of(Ledger::dissipated));
+    let contacts = of(|now| now.lost_damping + now.lost_friction);
+    let largest = released.iter().chain(&motion).copied().fold(0.0, f64::max);
+    let (unit, factor) = if largest < 2000.0 { ("J", 1.0) } else { ("kJ", 1e-3) };
+    let series = |label: &str, values, colour| Series { label: label.into(), values, colour };
+    let chart = LineChart {
+        title: "energy",
+        unit,
+        factor,
+        time: &seen.histories.time,
+        series: vec![
+            series("released by falling", &released, 2),
+            series("motion", &motion, 0),
+            series("lost in all", &lost, 1),
+            series("lost in contacts", &contacts, 3),
+        ],
+        levels: Vec::new(),
+        band: None,
+    };
+    let title = "Energy account";
+    let note = "Lost in contacts: by impacts and by friction; the rest goes into dissipators and the damping of ropes. Energy that departed grains carry is taken off what falling has released.";
+    Chart { title, file: file_name(title), svg: chart.svg(), note: note.into() }
 }
 
 /// The slice along the middle at every moment kept.
@@ -167,6 +291,7 @@ fn split_chart(seen: &Simulated) -> Chart {
             series("F₂ guideline", &told.guideline_moving, 3),
         ],
         levels: Vec::new(),
+        band: None,
     };
     let note = "By grains at rest and by moving grains that touch the barrier; the guideline with the design's K and λ, the depths seen, and the mean velocity of all grains.";
     Chart {
@@ -200,6 +325,7 @@ fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
             Level { label: "K design".into(), value: factors.earth_pressure },
             Level { label: "λ design".into(), value: factors.dynamic_pressure },
         ],
+        band: None,
     };
     let note = format!(
         "λ with the velocity just upstream; left out where the depth is less than a grain, the flow has all but stopped, or the value is above {HIGHEST_COEFFICIENT:.0}."
@@ -223,8 +349,10 @@ fn force_chart(run: &Run, seen: &Simulated) -> Chart {
         levels: levels
             .map(|case| Level { label: case.id.replace('_', " "), value: case.force_per_width() * width })
             .collect(),
+        band: force_band(seen),
     };
-    let note = format!("Mean over {:.0} ms. Dashed: guideline.", 1e3 * seen.facts.smoothing);
+    let band = if seen.starts.len() > 1 { " Band: all starts." } else { "" };
+    let note = format!("Mean over {:.0} ms. Dashed: guideline.{band}", 1e3 * seen.facts.smoothing);
     Chart { title: "Force on the barrier", file: file_name("Force on the barrier"), svg: chart.svg(), note }
 }
 
@@ -241,6 +369,7 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
             Series { label: "at rest".into(), values: &histories.dead, colour: 1 },
         ],
         levels: vec![Level { label: "limit".into(), value: run.file.design.limits.retained_mass }],
+        band: None,
     };
     Chart {
         title: "Retained mass",
@@ -262,6 +391,7 @@ fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
         time: &seen.histories.time,
         series: rope_series(&seen.histories.strokes),
         levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
+        band: None,
     };
     Chart {
         title: "Dissipators",
@@ -279,6 +409,7 @@ fn rope_chart(seen: &Simulated) -> Chart {
         time: &seen.histories.time,
         series: rope_series(&seen.histories.rope_mean),
         levels: Vec::new(),
+        band: None,
     };
     Chart {
         title: "Main ropes",
@@ -297,6 +428,7 @@ fn velocity_chart(seen: &Simulated) -> Chart {
         time: &seen.histories.time,
         series: vec![Series { label: "along the channel".into(), values: &velocity, colour: 0 }],
         levels: Vec::new(),
+        band: None,
     };
     Chart {
         title: "Velocity of the flow",

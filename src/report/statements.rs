@@ -1,10 +1,26 @@
 //! What the report says is assumed, and what nobody has looked at, as far as it bears on a design.
 
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+
 use crate::design::{Arrival, BarrierDesign, BarrierModel, Bottom, Design};
 use crate::pipeline::Run;
+use crate::sources::{ALBABA_2015, CUNDALL_STRACK_1979, EN_1990, VOLKWEIN_2014};
+
+/// An assumption, and whether a design that rests on it is the safer for it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Assumption {
+    pub text: &'static str,
+    pub safe: &'static str,
+}
+
+const SAFE: &str = "yes";
+const UNSAFE: &str = "no";
+const EITHER: &str = "either way";
 
 /// What is assumed, as far as it bears on this design.
-pub fn assumptions(run: &Run) -> Vec<&'static str> {
+pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let design = &run.file.design;
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let default_arrival = match design.flow.arrival {
@@ -16,36 +32,44 @@ pub fn assumptions(run: &Run) -> Vec<&'static str> {
         (
             simulated,
             "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
+            EITHER,
         ),
-        (simulated, "The flow is dry: no water pressure, no cohesion, no breakage of grains."),
+        (simulated, "The flow is dry: no water pressure, no cohesion, no breakage of grains.", UNSAFE),
         (
             true,
             "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
+            EITHER,
         ),
         (
             net,
             "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
+            EITHER,
         ),
-        (net, "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone."),
+        (net, "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.", UNSAFE),
         (
             net && simulated,
             "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
+            EITHER,
         ),
         (
             net && simulated,
             "Strokes and tensions of dissipators in the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
+            UNSAFE,
         ),
         (
             default_arrival,
             "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed, where the design does not give them.",
+            SAFE,
         ),
         (
             net,
             "By the equations each main rope carries its strip as a uniform load across the channel, alone: neither net nor lateral ropes share it out.",
+            EITHER,
         ),
     ];
-    let kept = list.into_iter().filter(|(applies, _)| *applies).map(|(_, text)| text);
-    kept.chain(of_ropes(design).filter(|_| simulated)).collect()
+    let kept = list.into_iter().filter(|(applies, ..)| *applies).map(|(_, text, safe)| Assumption { text, safe });
+    let of_ropes = of_ropes(design).filter(|_| simulated);
+    kept.chain(of_ropes.map(|text| Assumption { text, safe: EITHER })).collect()
 }
 
 /// What the model of the barrier assumes of its ropes.
@@ -81,4 +105,19 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
         (loads.snow_pressure.is_none(), "snow"),
     ];
     list.into_iter().filter(|(applies, _)| *applies).map(|(_, text)| text).collect()
+}
+
+/// Where what was used comes from, each once.
+pub fn references(run: &Run) -> Vec<&'static str> {
+    let of_cases = run.guideline.cases.iter().map(|case| case.source);
+    let mut references = vec![VOLKWEIN_2014];
+    references.extend(of_cases);
+    if run.simulated.is_some() {
+        references.extend([ALBABA_2015, CUNDALL_STRACK_1979]);
+    }
+    if run.simulated.as_ref().is_some_and(|seen| seen.starts.len() > 1) {
+        references.push(EN_1990);
+    }
+    let mut seen = BTreeSet::new();
+    references.into_iter().filter(|reference| seen.insert(*reference)).collect()
 }

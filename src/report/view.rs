@@ -12,7 +12,7 @@ use crate::report::pictures::{self, Chart, PICTURE_STYLE, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::render::PAGE_STYLE;
 use crate::report::replay::Replay;
-use crate::report::statements::{assumptions, not_checked};
+use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::sources::VOLKWEIN_2014;
 
 #[derive(Debug, Serialize)]
@@ -22,6 +22,7 @@ pub struct View {
     pub verdict: &'static str,
     pub verdict_line: String,
     pub doubts: Vec<String>,
+    pub utilisation: Option<Chart>,
     pub checks: Vec<CheckRow>,
     pub simulated: bool,
     pub guideline: Vec<Row>,
@@ -55,11 +56,10 @@ pub struct View {
     pub picture_style: &'static str,
     pub page_style: &'static str,
     pub inputs: Vec<InputRow>,
-    pub assumptions: Vec<&'static str>,
+    pub assumptions: Vec<Assumption>,
+    pub references: Vec<&'static str>,
     pub not_checked: Vec<&'static str>,
     pub numerics: Vec<Row>,
-    pub version: &'static str,
-    pub sha256: String,
 }
 
 /// A name with its value and, where it helps, a remark.
@@ -94,26 +94,14 @@ pub struct InputRow {
 impl View {
     pub fn of(run: &Run) -> Self {
         let project = &run.file.design.project;
-        let row = |name: &str, value: &str| Row { name: name.into(), value: value.into(), remark: String::new() };
         let outcomes = worst_first(run);
         Self {
             title: format!("{}: {}", project.name, project.barrier),
-            project: [
-                row("Project", &project.name),
-                row("Barrier", &project.barrier),
-                row("Revision", &project.revision),
-                row("Author", &project.author),
-                row("Checker", &project.checker),
-                row("Date", &project.date),
-                row("Notes", &project.notes),
-                row("Design file", &run.file.name),
-            ]
-            .into_iter()
-            .filter(|row| !matches!(row.value.as_str(), "" | "-"))
-            .collect(),
+            project: title_block(run),
             verdict: run.verdict.word(),
             verdict_line: summary(run),
             doubts: run.doubts.clone(),
+            utilisation: pictures::utilisation_chart(run),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
             guideline: guideline_rows(run),
             simulated: run.simulated.is_some(),
@@ -141,22 +129,57 @@ impl View {
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),
             assumptions: assumptions(run),
+            references: references(run),
             not_checked: not_checked(&run.file.design),
             numerics: run.simulated.as_ref().map_or_else(Vec::new, super::findings::numerics_rows),
-            version: env!("CARGO_PKG_VERSION"),
-            sha256: run.file.sha256.clone(),
         }
     }
 
     /// Every picture as a file that stands alone: name and text.
     pub fn pictures(&self) -> Vec<(String, String)> {
-        let pictures = self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation);
+        let pictures =
+            self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation).chain(&self.utilisation);
         pictures.map(|chart| (chart.file.clone(), chart.alone())).collect()
     }
 }
 
+/// What the report is of, and what made it.
+fn title_block(run: &Run) -> Vec<Row> {
+    let project = &run.file.design.project;
+    let row = |name: &str, value: &str| Row { name: name.into(), value: value.into(), remark: String::new() };
+    let seen = run.simulated.as_ref();
+    let seeds = seen.map_or(String::new(), |seen| {
+        seen.starts.iter().map(|start| start.seed.to_string()).collect::<Vec<_>>().join(", ")
+    });
+    let simulated = seen.and_then(|seen| moment(seen.facts.began)).unwrap_or_default();
+    let rows = [
+        row("Project", &project.name),
+        row("Barrier", &project.barrier),
+        row("Revision", &project.revision),
+        row("Author", &project.author),
+        row("Checker", &project.checker),
+        row("Date", &project.date),
+        row("Notes", &project.notes),
+        row("Design file", &run.file.name),
+        row("SHA-256 of the design file", &run.file.sha256),
+        row("Simulated", &simulated),
+        row("Seeds", &seeds),
+        row(
+            "Program",
+            &format!("barrier-check {}, commit {}", env!("CARGO_PKG_VERSION"), env!("BARRIER_CHECK_COMMIT")),
+        ),
+    ];
+    rows.into_iter().filter(|row| !matches!(row.value.as_str(), "" | "-")).collect()
+}
+
+/// A moment in seconds since 1970, as date and time.
+fn moment(seconds: i64) -> Option<String> {
+    let moment = time::OffsetDateTime::from_unix_timestamp(seconds).ok()?;
+    moment.format(time::macros::format_description!("[year]-[month]-[day] [hour]:[minute] UTC")).ok()
+}
+
 /// Outcomes by their verdict, then by how much is used.
-fn worst_first(run: &Run) -> Vec<&Outcome> {
+pub fn worst_first(run: &Run) -> Vec<&Outcome> {
     let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
     outcomes.sort_by(|a, b| {
         let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::report::plots::escape;
+
 /// One curve.
 pub struct Series<'a> {
     pub label: String,
@@ -24,6 +26,8 @@ pub struct LineChart<'a> {
     pub time: &'a [f64],
     pub series: Vec<Series<'a>>,
     pub levels: Vec<Level>,
+    /// Least and largest value over several starts, drawn behind the curves.
+    pub band: Option<[Vec<f64>; 2]>,
 }
 
 const WIDTH: f64 = 720.0;
@@ -61,6 +65,9 @@ impl LineChart<'_> {
         let mut out = String::new();
         let _ = write!(out, r#"<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}">"#, escape(self.title));
         self.draw_axes(&frame, &mut out);
+        if let Some(band) = &self.band {
+            self.draw_band(band, &frame, &mut out);
+        }
         let mut labels = Vec::new();
         for level in &self.levels {
             let y = frame.y(level.value * self.factor);
@@ -81,9 +88,24 @@ impl LineChart<'_> {
         out
     }
 
+    /// The area between two curves, at as many moments as a curve has columns.
+    fn draw_band(&self, [low, high]: &[Vec<f64>; 2], frame: &Frame, out: &mut String) {
+        let count = self.time.len().min(low.len()).min(high.len());
+        let moments: Vec<usize> = (0..count).step_by(count.div_ceil(COLUMNS).max(1)).collect();
+        let place = |values: &[f64], moment: usize| {
+            format!("{:.1},{:.1}", frame.x(self.time[moment]), frame.y(values[moment] * self.factor))
+        };
+        let there = moments.iter().map(|moment| place(high, *moment));
+        let back = moments.iter().rev().map(|moment| place(low, *moment));
+        let points: Vec<String> = there.chain(back).collect();
+        let _ = write!(out, r#"<polygon class="band" points="{}"/>"#, points.join(" "));
+    }
+
     fn frame(&self) -> Frame {
         let values = self.series.iter().flat_map(|series| series.values.iter().map(|value| value * self.factor));
+        let band = self.band.iter().flatten().flatten().map(|value| value * self.factor);
         let (low, high) = values
+            .chain(band)
             .chain(self.levels.iter().map(|level| level.value * self.factor))
             .filter(|value| value.is_finite())
             .fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
@@ -160,6 +182,22 @@ impl LineChart<'_> {
     }
 }
 
+/// The series at other times, by straight lines; its last value beyond its end.
+pub fn resampled(time: &[f64], values: &[f64], wanted: &[f64]) -> Vec<f64> {
+    let at = |moment: &f64| {
+        let after = time.partition_point(|time| time < moment);
+        match (after.checked_sub(1), time.get(after)) {
+            (Some(before), Some(next)) => {
+                let share = (moment - time[before]) / (next - time[before]);
+                values[before] + share * (values[after] - values[before])
+            }
+            (None, _) => values.first().copied().unwrap_or(0.0),
+            (Some(last), None) => values[last],
+        }
+    };
+    wanted.iter().map(at).collect()
+}
+
 /// Labels at the right edge, pushed apart where they would overlap.
 fn draw_labels(mut labels: Vec<(f64, String, String)>, out: &mut String) {
     labels.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -197,10 +235,6 @@ fn short(value: f64) -> String {
     if text.is_empty() || text == "-0" { "0".to_string() } else { text.to_string() }
 }
 
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -211,8 +245,15 @@ mod tests {
         let mut values = vec![0.0; 10_000];
         values[7_777] = 5.0;
         let series = Series { label: "a".into(), values: &values, colour: 0 };
-        let chart =
-            LineChart { title: "t", unit: "N", factor: 1.0, time: &time, series: vec![series], levels: Vec::new() };
+        let chart = LineChart {
+            title: "t",
+            unit: "N",
+            factor: 1.0,
+            time: &time,
+            series: vec![series],
+            levels: Vec::new(),
+            band: None,
+        };
         let frame = chart.frame();
         let top = format!("{:.1}", frame.y(5.0));
         assert!(chart.stretches(&chart.series[0], &frame)[0].contains(&top));
@@ -223,8 +264,15 @@ mod tests {
         let values = [1.0, 2.0, f64::NAN, f64::NAN, 3.0, 4.0];
         let series = Series { label: "a".into(), values: &values, colour: 0 };
         let time = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        let chart =
-            LineChart { title: "t", unit: "N", factor: 1.0, time: &time, series: vec![series], levels: Vec::new() };
+        let chart = LineChart {
+            title: "t",
+            unit: "N",
+            factor: 1.0,
+            time: &time,
+            series: vec![series],
+            levels: Vec::new(),
+            band: None,
+        };
         assert_eq!(chart.stretches(&chart.series[0], &chart.frame()).len(), 2);
     }
 
@@ -233,5 +281,11 @@ mod tests {
         assert_eq!(nice_step(6.0), 1.0);
         assert_eq!(nice_step(2990.0), 500.0);
         assert_eq!(nice_step(0.7), 0.2);
+    }
+
+    #[test]
+    fn curves_meet_on_common_times() {
+        let curve = resampled(&[1.0, 2.0], &[10.0, 20.0], &[0.0, 1.5, 3.0]);
+        assert_eq!(curve, [10.0, 15.0, 20.0]);
     }
 }

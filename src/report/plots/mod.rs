@@ -5,3 +5,9 @@ pub mod line_chart;
 pub mod pressure;
 pub mod profile;
 pub mod side_view;
+pub mod utilisation;
+
+/// Text as it may stand in SVG.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

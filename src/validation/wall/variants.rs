@@ -118,7 +118,7 @@ fn restitution() -> Result<Vec<Finding>, Broken> {
 fn fluctuation() -> Result<Vec<Finding>, Broken> {
     // Extremes scatter by a third from start to start: of the three sizes judged there are as many starts as tell an
     // exponent to about a quarter.
-    let sizes = [(0.75, 1..=8), (1.0, 6..=8), (1.3, 1..=8), (1.7, 1..=4), (2.2, 1..=4)];
+    let sizes = [(0.75, 1..=16), (1.0, 6..=16), (1.3, 1..=16), (1.7, 1..=4), (2.2, 1..=4)];
     let starts = |(coarser, seeds): (f64, std::ops::RangeInclusive<u64>)| {
         seeds.map(move |seed| Variant { coarser, ..Variant::calibration(seed) })
     };
