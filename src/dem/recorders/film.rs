@@ -134,28 +134,3 @@ fn ropes(barrier: &Barrier) -> Vec<([u32; 2], SegmentKind)> {
 fn single(vector: &Vec3) -> [f32; 3] {
     [vector.x as f32, vector.y as f32, vector.z as f32]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dem::tables::grains::GrainShape;
-    use crate::validation::scenes::{cloud, free_model};
-
-    #[test]
-    fn frames_are_thinned_evenly() {
-        let grains = cloud(3, 1);
-        let mut simulation = Simulation::new(free_model(grains.clone(), GrainShape::Clump), 1e-4, 0.01, 1e3);
-        let mut film = Film::default();
-        for sample in 0..1000 {
-            simulation.time = f64::from(sample);
-            film.take(&simulation, &grains);
-        }
-        film.finish(&simulation, &grains);
-        let times: Vec<f64> = film.frames.iter().map(|frame| frame.time).collect();
-        assert!(times.len() > MOST_FRAMES / 2 && times.len() <= MOST_FRAMES + 1);
-        let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        assert!(gaps[..gaps.len() - 1].iter().all(|gap| *gap == gaps[0]));
-        assert_eq!(times.last(), Some(&999.0));
-        assert_eq!(film.looks.len(), 3);
-    }
-}

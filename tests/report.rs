@@ -1,0 +1,219 @@
+//! The report of a recorded run: its words by snapshot, its page in a browser.
+//!
+//! `fixtures/tiny.bin` is the recording of `fixtures/tiny.yaml`. When the format of recordings changes, make it anew:
+//! `cargo run --release -- tests/fixtures/tiny.yaml --seeds 2 --threads 1 --out /tmp/tiny && cp /tmp/tiny/recording.bin tests/fixtures/tiny.bin`
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::Instant;
+
+use barrier_check::dem::recorders::film::Film;
+use barrier_check::dem::simulation::Simulation;
+use barrier_check::dem::tables::grains::GrainShape;
+use barrier_check::validation::scenes::{cloud, free_model};
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_barrier-check")).args(arguments).output().expect("the program starts")
+}
+
+/// A folder with the recording and the report made from it.
+fn reported(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::copy("tests/fixtures/tiny.bin", folder.join("recording.bin")).expect("the fixture");
+    let started = Instant::now();
+    let output = program(&["report", &folder.display().to_string()]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(started.elapsed().as_secs_f64() < 1.0, "a report takes more than a second");
+    folder
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).expect(name)
+}
+
+/// What changes from build to build, and what is no word, taken out.
+fn words(text: &str) -> String {
+    let mut words = String::new();
+    let mut rest = text;
+    // Pictures, programs, styles and the packed film.
+    let bulky = [("<svg", "</svg>"), ("<script", "</script>"), ("<style", "</style>")];
+    while let Some((start, open, close)) =
+        bulky.iter().filter_map(|(open, close)| Some((rest.find(open)?, *open, *close))).min_by_key(|found| found.0)
+    {
+        let end = rest[start..].find(close).map_or(rest.len(), |end| start + end + close.len());
+        words.push_str(&rest[..start]);
+        words.push_str(&format!("[{}]", &open[1..]));
+        rest = &rest[end..];
+    }
+    words.push_str(rest);
+    let commit = words.find("commit ").map(|at| at + "commit ".len());
+    let is_commit = |letter: char| letter.is_ascii_hexdigit() || "-dirtyunkow".contains(letter);
+    if let Some(at) = commit {
+        let end = words[at..].find(|letter| !is_commit(letter)).map_or(words.len(), |end| at + end);
+        words.replace_range(at..end, "[commit]");
+    }
+    words
+}
+
+#[test]
+fn the_words_of_the_report_are_as_they_were() {
+    let folder = reported("words");
+    insta::assert_snapshot!("html", words(&read(&folder, "report.html")));
+    insta::assert_snapshot!("markdown", words(&read(&folder, "report.md")));
+}
+
+#[test]
+fn a_recording_that_is_none_is_refused() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("refused");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let good = std::fs::read("tests/fixtures/tiny.bin").expect("the fixture");
+    let middle = good.len() / 2;
+    let mut flipped = good.clone();
+    flipped[middle] ^= 1;
+    let mut newer = good.clone();
+    newer[8] = 99;
+    let cases: [(&[u8], &str); 5] = [
+        (&flipped, "checksum"),
+        (&good[..middle], "checksum"),
+        (&newer, "format 99"),
+        (b"PK\x03\x04 something else altogether", "not a recording"),
+        (b"", "not a recording"),
+    ];
+    for (bytes, told) in cases {
+        std::fs::write(folder.join("recording.bin"), bytes).expect("a file");
+        let output = program(&["report", &folder.display().to_string()]);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(told), "{error}");
+        assert!(!folder.join("report.html").exists());
+    }
+    let output = program(&["report", "/nowhere/at/all"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn recorded_runs_are_held_side_by_side() {
+    let [one, two, out] = ["side_one", "side_two", "side_out"].map(|name| match name {
+        "side_out" => Path::new(env!("CARGO_TARGET_TMPDIR")).join(name),
+        name => reported(name),
+    });
+    let paths = [&one, &two, &out].map(|path| path.display().to_string());
+    let output = program(&["compare", &paths[0], &paths[1], "--out", &paths[2]]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = read(&out, "compare.html");
+    // Alike in everything: nothing is marked, and no input differs.
+    assert!(!page.contains("class=\"number differs\"") && !page.contains("What differs in the designs"));
+    assert!(out.join("tiny/report.html").exists() && out.join("tiny_2/report.html").exists());
+    insta::assert_snapshot!("compared", words(&read(&out, "compare.md")));
+}
+
+#[test]
+fn files_for_paraview_hold_every_frame() {
+    let folder = reported("paraview");
+    let output = program(&["report", &folder.display().to_string(), "--vtk"]);
+    assert_eq!(output.status.code(), Some(0));
+    for series in ["grains", "barrier"] {
+        let collection = read(&folder.join("vtk"), &format!("{series}.pvd"));
+        let files: Vec<&str> = collection.split("file=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        assert!(files.len() > 60);
+        assert!(files.iter().all(|file| folder.join("vtk").join(file).exists()));
+    }
+}
+
+/// Script that looks at the page from inside, and writes down what it sees.
+const PROBE: &str = r##"<script>
+(async () => {
+  const seen = {};
+  const wait = time => new Promise(done => setTimeout(done, time));
+  await new Promise(done => addEventListener("load", done));
+  seen.load = performance.getEntriesByType("navigation")[0].loadEventStart;
+  const box = document.getElementById("replay"), canvas = box.querySelector("canvas");
+  for (let tries = 0; box.hidden && tries < 100; tries++) await wait(50);
+  seen.shown = !box.hidden;
+  const before = canvas.toDataURL();
+  box.querySelector("button").click();
+  await wait(600);
+  seen.plays = canvas.toDataURL() !== before;
+  seen.resources = performance.getEntriesByType("resource").length;
+  // As it prints.
+  const printed = [...document.styleSheets].flatMap(sheet => [...sheet.cssRules]).filter(rule => rule.media && rule.media.mediaText === "print");
+  const style = document.createElement("style");
+  style.textContent = printed.flatMap(rule => [...rule.cssRules].map(inner => inner.cssText)).join("\n");
+  document.head.append(style);
+  seen.print = printed.length;
+  const right = document.body.getBoundingClientRect().right + 1;
+  seen.cut = [...document.querySelectorAll("table, svg, figure")].filter(part => part.getBoundingClientRect().right > right).length;
+  seen.which = [...document.querySelectorAll("table, svg, figure")].filter(part => part.getBoundingClientRect().right > right).map(part => part.textContent.trim().slice(0, 40));
+  seen.unnamed = [...document.querySelectorAll("svg:not([aria-hidden])")].filter(part => !part.getAttribute("aria-label")).length;
+  seen.headless = [...document.querySelectorAll("table")].filter(table => !table.querySelector("th")).length;
+  const out = document.createElement("pre");
+  out.id = "probe";
+  out.textContent = JSON.stringify(seen);
+  document.body.append(out);
+})();
+</script></body>"##;
+
+fn browser() -> Option<&'static str> {
+    let found = |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
+    ["chromium", "chromium-browser", "google-chrome"].into_iter().find(found)
+}
+
+#[test]
+fn the_page_stands_alone_in_a_browser() {
+    let Some(browser) = browser() else {
+        println!("skipped: no Chromium here, so the page was not looked at");
+        return;
+    };
+    let folder = reported("browser");
+    let page = read(&folder, "report.html");
+    assert!(page.len() < 4_000_000, "the page has {} bytes", page.len());
+    std::fs::write(folder.join("probed.html"), page.replace("</body>", PROBE)).expect("a page");
+    let look = |more: &[&str]| {
+        let address = format!("file://{}", folder.join("probed.html").display());
+        let fixed = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader"];
+        let output = Command::new(browser)
+            .args(fixed)
+            .args(["--enable-unsafe-swiftshader", "--enable-logging=stderr", "--host-resolver-rules=MAP * ~NOTFOUND"])
+            .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+            .args(more)
+            .arg(address)
+            .output()
+            .expect("the browser starts");
+        (String::from_utf8_lossy(&output.stdout).into_owned(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    // As wide as the text of an A4 page.
+    let (page, log) = look(&["--window-size=673,900", "--virtual-time-budget=20000", "--dump-dom"]);
+    let complaints: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
+    assert!(complaints.is_empty(), "{complaints:#?}");
+    let probe = page.split("<pre id=\"probe\">").nth(1).and_then(|rest| rest.split("</pre>").next());
+    let seen: serde_json::Value = serde_json::from_str(probe.expect("the probe's answer")).expect("JSON");
+    for (what, wanted) in
+        [("shown", 1), ("plays", 1), ("print", 1), ("resources", 0), ("cut", 0), ("unnamed", 0), ("headless", 0)]
+    {
+        let value = seen[what].as_i64().unwrap_or_else(|| i64::from(seen[what] == true));
+        assert_eq!(value, wanted, "{what}: {seen}");
+    }
+    assert!(seen["load"].as_f64().is_some_and(|load| load < 1000.0), "{seen}");
+    let pdf = folder.join("report.pdf");
+    look(&[&format!("--print-to-pdf={}", pdf.display())]);
+    assert!(std::fs::metadata(&pdf).is_ok_and(|file| file.len() > 50_000), "the page does not print");
+}
+
+#[test]
+fn frames_of_a_long_event_are_thinned_evenly() {
+    let grains = cloud(3, 1);
+    let mut simulation = Simulation::new(free_model(grains.clone(), GrainShape::Clump), 1e-4, 0.01, 1e3);
+    let mut film = Film::default();
+    for sample in 0..1000 {
+        simulation.time = f64::from(sample);
+        film.take(&simulation, &grains);
+    }
+    film.finish(&simulation, &grains);
+    let times: Vec<f64> = film.frames.iter().map(|frame| frame.time).collect();
+    assert!((65..=129).contains(&times.len()), "{} frames", times.len());
+    let gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert!(gaps[..gaps.len() - 1].iter().all(|gap| *gap == gaps[0]));
+    assert_eq!(times.last(), Some(&999.0));
+}
