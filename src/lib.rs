@@ -21,7 +21,7 @@
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
-//! | a time series | [`dem::recorders`] and a column in [`report::csv`] |
+//! | a time series | [`dem::recorders`] and a column in [`report::series`] |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
 //! | a scene of the bench | a line in `benches/throughput.rs`, its state in `benches/states` |
 //! | a row of the report | [`report::findings`] (simulation), [`report::loads`] (equations), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |

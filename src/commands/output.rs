@@ -9,6 +9,7 @@ use crate::pipeline::{Run, Verdict};
 use crate::report::json::ResultFile;
 use crate::report::recording;
 use crate::report::render::render;
+use crate::report::series;
 use crate::report::view::View;
 use crate::report::vtk;
 use crate::report::write::{ReportFile, write_all};
@@ -54,7 +55,8 @@ fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
         vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
     files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile::new(name, text)));
     if let Some(simulated) = &run.simulated {
-        files.push(ReportFile::new("histories.csv", crate::report::csv::text(&simulated.histories)));
+        files.push(ReportFile::new("histories.csv", series::csv(&simulated.histories)));
+        files.push(ReportFile::new("histories.parquet", series::parquet(&simulated.histories)?));
     }
     files.push(ReportFile::new("design.yaml", run.file.text.clone()));
     files.push(ReportFile::new(recording::FILE, recording::encode(run)?));

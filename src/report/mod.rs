@@ -1,7 +1,6 @@
 //! The report: HTML and Markdown for people, JSON and CSV for programs. Computes no engineering number.
 
 pub mod compare;
-pub mod csv;
 pub mod findings;
 pub mod json;
 pub mod loads;
@@ -11,6 +10,7 @@ pub mod plots;
 pub mod recording;
 pub mod render;
 pub mod replay;
+pub mod series;
 pub mod statements;
 pub mod validation;
 pub mod view;

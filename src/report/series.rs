@@ -1,6 +1,13 @@
-//! `histories.csv`: the time series, one row per sample, units in the header.
+//! `histories.csv` and `histories.parquet`: the time series, one row per sample, units in the names of the columns.
 
 use std::fmt::Write;
+use std::sync::Arc;
+
+use parquet::data_type::DoubleType;
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::parser::parse_message_type;
 
 use crate::dem::recorders::histories::Histories;
 
@@ -58,20 +65,42 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("dissipated_j".into(), histories.ledger.iter().map(|ledger| ledger.dissipated()).collect());
     add("total_j".into(), histories.ledger.iter().map(|ledger| ledger.total()).collect());
     columns.retain(|(_, values)| !values.is_empty());
+    for (_, values) in &mut columns {
+        values.resize(histories.time.len(), 0.0);
+    }
     columns
 }
 
-/// The file's text.
-pub fn text(histories: &Histories) -> String {
+/// The text of `histories.csv`.
+pub fn csv(histories: &Histories) -> String {
     let columns = columns(histories);
     let mut out = columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(",");
     out.push('\n');
     for row in 0..histories.time.len() {
         for (index, (_, values)) in columns.iter().enumerate() {
             let comma = if index > 0 { "," } else { "" };
-            let _ = write!(out, "{comma}{}", values.get(row).copied().unwrap_or(0.0));
+            let _ = write!(out, "{comma}{}", values[row]);
         }
         out.push('\n');
     }
     out
+}
+
+/// The bytes of `histories.parquet`: the same columns, each of doubles.
+pub fn parquet(histories: &Histories) -> Result<Vec<u8>, ParquetError> {
+    let columns = columns(histories);
+    let fields: String = columns.iter().map(|(name, _)| format!("REQUIRED DOUBLE {name};\n")).collect();
+    let schema = Arc::new(parse_message_type(&format!("message histories {{\n{fields}}}"))?);
+    let mut bytes = Vec::new();
+    let mut writer = SerializedFileWriter::new(&mut bytes, schema, Arc::new(WriterProperties::builder().build()))?;
+    let mut rows = writer.next_row_group()?;
+    for (_, values) in &columns {
+        if let Some(mut column) = rows.next_column()? {
+            column.typed::<DoubleType>().write_batch(values, None, None)?;
+            column.close()?;
+        }
+    }
+    rows.close()?;
+    writer.close()?;
+    Ok(bytes)
 }
