@@ -58,5 +58,6 @@ pub mod scene;
 pub mod sensitivity;
 pub mod sources;
 pub mod starts;
+pub mod studies;
 pub mod units;
 pub mod validation;

@@ -7,6 +7,7 @@ use barrier_check::commands::check::{Wishes, check, loads};
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
+use barrier_check::commands::study::study;
 use barrier_check::commands::validate::{Selection, validate};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -86,6 +87,14 @@ enum Command {
     },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
+    /// Runs scenes with each choice of the model changed alone: what it costs, what it changes
+    Study {
+        /// Study file in YAML, for example designs/studies/speed_accuracy.yaml
+        file: PathBuf,
+        /// Folder for the page and what is kept [default: out/studies/<name>]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Runs validation cases: scenes with known answers
     Validate(ValidateArguments),
 }
@@ -122,6 +131,7 @@ fn main() {
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
         Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.wishes()) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
+        Some(Command::Study { file, out }) => study(&file, out.as_deref()) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }

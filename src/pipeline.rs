@@ -210,7 +210,8 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict }
 }
 
-fn simulate(
+/// One start of one design, modelled as finely as `fidelity` says. Call inside the thread pool that shall do the work.
+pub fn simulate(
     design: &Design,
     fidelity: &Fidelity,
     guideline: &Guideline,

@@ -18,7 +18,7 @@ use crate::scene::event::{ProgressReport, Watch};
 const MOST_READ: u64 = 2 << 20;
 
 /// Whether Ctrl-C was pressed.
-static STOP: AtomicBool = AtomicBool::new(false);
+pub static STOP: AtomicBool = AtomicBool::new(false);
 
 /// How to run a design.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@ pub mod compare;
 pub mod output;
 pub mod report;
 pub mod schema;
+pub mod study;
 pub mod validate;
 
 /// How the program ends.

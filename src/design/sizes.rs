@@ -44,6 +44,18 @@ impl SizeCurve {
         }
     }
 
+    /// The same distribution of grains `factor` times as large.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Self::ByNumber { smallest, largest } => {
+                Self::ByNumber { smallest: smallest * factor, largest: largest * factor }
+            }
+            Self::ByMass(points) => {
+                Self::ByMass(points.iter().map(|&(share, diameter)| (share, diameter * factor)).collect())
+            }
+        }
+    }
+
     /// About how many grains a solid volume (m³) makes.
     pub fn count(&self, solid_volume: f64) -> f64 {
         const SLICES: usize = 1000;

@@ -20,7 +20,7 @@ pub struct Fidelity {
 }
 
 /// Steps of the lightest pair's critical step that each wish takes.
-fn step_share(wish: FidelityWish) -> (&'static str, f64) {
+pub fn step_share(wish: FidelityWish) -> (&'static str, f64) {
     match wish {
         FidelityWish::Fast => ("fast", 0.6),
         FidelityWish::Standard => ("standard", 0.4),

@@ -12,6 +12,7 @@ pub mod render;
 pub mod replay;
 pub mod series;
 pub mod statements;
+pub mod study;
 pub mod validation;
 pub mod view;
 pub mod vtk;

@@ -2,6 +2,7 @@
 
 pub mod elevation;
 pub mod line_chart;
+pub mod pareto;
 pub mod pressure;
 pub mod profile;
 pub mod side_view;

@@ -1,0 +1,112 @@
+//! `barrier-check study FILE`: many runs of a few scenes, kept so that only what changed runs again.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use sha2::Digest;
+
+use crate::commands::ExitCode;
+use crate::commands::check::{Failure, STOP, load};
+use crate::design::read::DesignFile;
+use crate::pipeline::RunError;
+use crate::report::study::{Scene, files};
+use crate::report::write::write_all;
+use crate::scene::event::Watch;
+use crate::starts::side_by_side;
+use crate::studies::knobs::Knob;
+use crate::studies::plan::Plan;
+use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
+
+/// Runs what is not kept yet, and writes the page below `out`.
+pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
+    match run(path, out) {
+        Ok(page) => {
+            println!("study: {}", page.display());
+            ExitCode::Pass
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::Undecided
+        }
+    }
+}
+
+fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let plan = Plan::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
+    let beside = path.parent().unwrap_or(Path::new("."));
+    let scenes = plan.scenes.iter().map(|scene| load(&beside.join(scene)).map_err(|problems| problems.to_string()));
+    let scenes = scenes.collect::<Result<Vec<DesignFile>, String>>()?;
+    let folder = out.map_or_else(|| Path::new("out").join("studies").join(&plan.name), PathBuf::from);
+    let kept = folder.join("kept");
+    std::fs::create_dir_all(&kept)?;
+    let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
+    write_all(&folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
+    Ok(folder.join("study.html"))
+}
+
+/// Every task with its result, kept or made; nothing where the scene cannot be prepared with that setting.
+fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<(Task, Option<Point>)>, Failure> {
+    let program = sha2::Sha256::digest(std::fs::read(std::env::current_exe()?)?);
+    let file_of = |task: &Task| kept.join(format!("{}.json", key(task, &scenes[task.scene], &program)));
+    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    let bar = ProgressBar::new(tasks.len() as u64);
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len}  {msg}  {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let found = AtomicUsize::new(0);
+    let threads = rayon::current_num_threads();
+    let results = side_by_side(threads, tasks.len(), |index| -> Result<Option<Point>, String> {
+        let task = &tasks[index];
+        let file = file_of(task);
+        if let Some(point) = std::fs::read(&file).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()) {
+            found.fetch_add(1, Ordering::Relaxed);
+            bar.inc(1);
+            return Ok(Some(point));
+        }
+        bar.set_message(format!("{}, {}", scenes[task.scene].name, task.setting.word()));
+        let watch = Watch { progress: &|_| (), stop: &STOP };
+        let point = match make(task, &scenes[task.scene].design, &watch) {
+            Ok(point) => point,
+            Err(RunError::Preparation(_)) => return Ok(None),
+            Err(error) => return Err(error.to_string()),
+        };
+        let text = serde_json::to_vec(&point).map_err(|error| error.to_string())?;
+        // First beside it, so that nobody reads half a result.
+        let half = file.with_extension("tmp");
+        std::fs::write(&half, text).and_then(|()| std::fs::rename(&half, &file)).map_err(|error| error.to_string())?;
+        bar.inc(1);
+        Ok(Some(point))
+    });
+    bar.finish_and_clear();
+    eprintln!("{} runs, {} of them kept from before", tasks.len(), found.load(Ordering::Relaxed));
+    let points = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+    Ok(tasks.iter().cloned().zip(points).collect())
+}
+
+/// What a result hangs on: program, design, setting, seed.
+fn key(task: &Task, scene: &DesignFile, program: &[u8]) -> String {
+    let mut hash = sha2::Sha256::new();
+    hash.update(program);
+    hash.update(&scene.text);
+    hash.update(format!("{:?} {}", task.setting, task.seed));
+    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn gather(plan: &Plan, files: &[DesignFile], points: Vec<(Task, Option<Point>)>) -> Vec<Scene> {
+    let defaults = |file: &DesignFile| -> Vec<(Knob, f64)> {
+        plan.knobs.keys().map(|knob| (*knob, knob.default_of(&file.design))).collect()
+    };
+    let mut scenes: Vec<Scene> = files
+        .iter()
+        .map(|file| Scene { name: file.name.clone(), defaults: defaults(file), runs: Vec::new() })
+        .collect();
+    for (task, point) in points {
+        let runs: &mut Vec<(Setting, Vec<Point>)> = &mut scenes[task.scene].runs;
+        match runs.iter_mut().find(|(setting, _)| *setting == task.setting) {
+            Some((_, points)) => points.extend(point),
+            None => runs.push((task.setting, point.into_iter().collect())),
+        }
+    }
+    scenes
+}

@@ -1,0 +1,112 @@
+//! The choices of the model that a study turns, each alone.
+
+use serde::{Deserialize, Serialize};
+
+use crate::design::{BarrierDesign, BarrierModel, Design};
+use crate::fidelity::{Fidelity, choose, step_share};
+
+/// A knob of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Knob {
+    /// Share of the critical time step.
+    Step,
+    /// Factor on the contact modulus of the grains.
+    Stiffness,
+    /// Factor on the size of the grains, whose mass in all stays.
+    CoarseGraining,
+    /// Length over width of the grains; 1 is a sphere.
+    Aspect,
+    /// Reach of the neighbour lists over the mean radius.
+    Skin,
+    /// Model of the barrier: 1 pinned ropes, 2 sliding ropes, 3 cylinders.
+    BarrierModel,
+    /// Length of the elements of main ropes (m), of the model of cylinders.
+    ElementLength,
+}
+
+impl Knob {
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Step => "time step over critical",
+            Self::Stiffness => "contact modulus, factor",
+            Self::CoarseGraining => "grain size, factor",
+            Self::Aspect => "length over width of grains",
+            Self::Skin => "reach of lists over radius",
+            Self::BarrierModel => "model of the barrier",
+            Self::ElementLength => "rope element (m)",
+        }
+    }
+
+    /// What the design itself has.
+    pub fn default_of(self, design: &Design) -> f64 {
+        match (self, &design.barrier) {
+            (Self::Step, _) => step_share(design.simulation.fidelity).1,
+            (Self::Stiffness | Self::CoarseGraining, _) => 1.0,
+            (Self::Aspect, _) => design.flow.aspect,
+            (Self::Skin, _) => choose(design).skin_share,
+            (Self::BarrierModel, _) => match design.simulation.barrier_model {
+                BarrierModel::PinnedRopes => 1.0,
+                BarrierModel::SlidingRopes => 2.0,
+                BarrierModel::Cylinders => 3.0,
+            },
+            (Self::ElementLength, BarrierDesign::FlexibleNet(net)) => net.main_ropes.element_length,
+            (Self::ElementLength, BarrierDesign::RigidWall(_)) => f64::NAN,
+        }
+    }
+
+    /// Whether the scene has this knob at all.
+    pub fn turns(self, design: &Design) -> bool {
+        match self {
+            Self::BarrierModel => matches!(design.barrier, BarrierDesign::FlexibleNet(_)),
+            Self::ElementLength => {
+                matches!(design.barrier, BarrierDesign::FlexibleNet(_))
+                    && design.simulation.barrier_model == BarrierModel::Cylinders
+            }
+            _ => true,
+        }
+    }
+
+    /// The design and how finely it is modelled with the knob at `value`.
+    pub fn set(self, design: &mut Design, value: f64) -> Fidelity {
+        match self {
+            Self::Step | Self::Skin => {}
+            Self::Stiffness => design.flow.modulus *= value,
+            Self::CoarseGraining => design.flow.sizes = design.flow.sizes.scaled(value),
+            Self::Aspect => design.flow.aspect = value,
+            Self::BarrierModel => design.simulation.barrier_model = model_of(value),
+            Self::ElementLength => {
+                if let BarrierDesign::FlexibleNet(net) = &mut design.barrier {
+                    net.main_ropes.element_length = value;
+                }
+            }
+        }
+        let mut fidelity = choose(design);
+        match self {
+            Self::Step => fidelity.time_step *= value / step_share(design.simulation.fidelity).1,
+            Self::Skin => fidelity.skin_share = value,
+            _ => {}
+        }
+        fidelity
+    }
+
+    /// A value as a person reads it.
+    pub fn word(self, value: f64) -> String {
+        match self {
+            Self::BarrierModel => match model_of(value) {
+                BarrierModel::PinnedRopes => "pinned ropes".into(),
+                BarrierModel::SlidingRopes => "sliding ropes".into(),
+                BarrierModel::Cylinders => "cylinders".into(),
+            },
+            _ => format!("{value}"),
+        }
+    }
+}
+
+fn model_of(value: f64) -> BarrierModel {
+    match value {
+        value if value < 1.5 => BarrierModel::PinnedRopes,
+        value if value < 2.5 => BarrierModel::SlidingRopes,
+        _ => BarrierModel::Cylinders,
+    }
+}
