@@ -16,6 +16,7 @@ use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::{Guideline, guideline};
 use crate::design::Design;
 use crate::design::read::DesignFile;
+use crate::fidelity::ladder::{RUNGS, Step};
 use crate::fidelity::{Fidelity, choose};
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Event, Watch, run as run_event};
@@ -55,6 +56,8 @@ pub struct Run {
     pub outcomes: Vec<Outcome>,
     pub doubts: Vec<String>,
     pub verdict: Verdict,
+    /// The rungs of the ladder that ran, where the design left the choice to the program; the last is what is reported.
+    pub climb: Vec<Step>,
 }
 
 /// What the simulation shows: the first start in full, of every start what was observed.
@@ -169,9 +172,54 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
 }
 
 /// What a recorded simulation says, as at first.
-pub fn restore(file: DesignFile, simulated: Option<Simulated>, varied: Vec<Swing>) -> Run {
+pub fn restore(mut file: DesignFile, simulated: Option<Simulated>, varied: Vec<Swing>, climb: Vec<Step>) -> Run {
+    if let Some(step) = climb.last() {
+        file.design = RUNGS[step.rung].of(&file.design);
+    }
     let guideline = guideline(&file.design);
-    Run { varied, ..finish(file, guideline, simulated) }
+    Run { varied, climb, ..finish(file, guideline, simulated) }
+}
+
+/// Runs one design on one rung of the ladder after the other, until no verdict can flip. `starts` is the least number of packings
+/// of those rungs that have several. The file's design becomes that of the last rung.
+pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
+    let asked = file.design.clone();
+    let mut steps: Vec<Step> = Vec::new();
+    let fitting: Vec<usize> = (0..RUNGS.len()).filter(|rung| RUNGS[*rung].suits(&asked)).collect();
+    for (place, &number) in fitting.iter().enumerate() {
+        let rung = &RUNGS[number];
+        let started = Instant::now();
+        let file = DesignFile { design: rung.of(&asked), ..file.clone() };
+        let mut now = match rung.starts {
+            0 => by_equations(file),
+            1 => run(file, 1, watch)?,
+            several => run(file, several.max(starts), watch)?,
+        };
+        let last = place + 1 == fitting.len();
+        let mut open = rung.open(&now.outcomes);
+        if !now.doubts.is_empty() {
+            open.insert(0, "the run itself, which cannot be relied on".to_string());
+        }
+        steps.push(Step {
+            rung: number,
+            wall_clock: started.elapsed().as_secs_f64(),
+            said: now.verdict.word().to_string(),
+            governing: governing(&now.outcomes),
+            open,
+        });
+        if last || steps.last().is_some_and(|step| step.open.is_empty()) {
+            now.climb = steps;
+            return Ok(now);
+        }
+    }
+    unreachable!("the rung of the grains suits every design")
+}
+
+/// The check that uses most of what it has, with how much.
+fn governing(outcomes: &[Outcome]) -> String {
+    let used = outcomes.iter().filter_map(|outcome| Some((outcome.utilisation?, outcome)));
+    let most = used.max_by(|a, b| a.0.total_cmp(&b.0));
+    most.map_or(String::new(), |(used, outcome)| format!("{} ({:.0} %)", outcome.title, 100.0 * used))
 }
 
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.
@@ -207,7 +255,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
     doubts.extend(unheld(&file.design));
     let verdict = verdict(&outcomes, &doubts);
-    Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict }
+    Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
 
 /// One start of one design, modelled as finely as `fidelity` says. Call inside the thread pool that shall do the work.

@@ -24,6 +24,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
 fn against_plateau(net: &FlexibleNet, design: &Design, capacity: Resistance) -> Option<Outcome> {
     let plateau = net.dissipators?.plateau;
     let name = CheckName::new("anchor_plateau", "Anchors against the plateau of their dissipators", "N", ANCHOR_FACTOR);
-    let demand = Demand { guideline: Some(design.factors.load * plateau), simulation: None };
+    let demand = Demand { guideline: Some(design.factors.load * plateau), ..Demand::default() };
     Some(Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation))
 }

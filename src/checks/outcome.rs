@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     fn verdict(value: f64) -> CheckVerdict {
-        let demand = Demand { guideline: Some(1.0), simulation: Some(value) };
+        let demand = Demand { guideline: Some(1.0), simulation: Some(value), cap: None };
         Outcome::at_most(
             CheckName::new("x", "x", "N", "x"),
             demand,
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(verdict(101.0), CheckVerdict::Fail);
         assert_eq!(verdict(f64::NAN), CheckVerdict::Fail);
         assert_eq!(verdict(-f64::NAN), CheckVerdict::Fail);
-        let demand = Demand { guideline: Some(1.0), simulation: None };
+        let demand = Demand { guideline: Some(1.0), ..Demand::default() };
         let none = Resistance { characteristic: -5.0, factor: 1.0 };
         assert_eq!(Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, none, 1.0).verdict, CheckVerdict::Fail);
     }
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn a_least_share_is_used_up_by_what_is_missing() {
         let outcome = |value, least| {
-            let demand = Demand { guideline: None, simulation: Some(value) };
+            let demand = Demand { simulation: Some(value), ..Demand::default() };
             Outcome::at_least(CheckName::new("x", "x", "-", "x"), demand, least)
         };
         assert!((outcome(0.95, 0.9).utilisation.unwrap() - 0.5).abs() < 1e-12);

@@ -11,6 +11,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let with_own = |demand: Demand, own: f64| Demand {
         guideline: demand.guideline.map(|value| value + own),
         simulation: demand.simulation.map(|value| value + own),
+        cap: None,
     };
     let [holds_back, pull] = input.sliding();
     let [holds_up, tilt] = input.overturning();

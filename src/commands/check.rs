@@ -9,8 +9,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::commands::ExitCode;
 use crate::commands::output::hand_over;
+use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, read_design};
-use crate::pipeline::{Run, RunError, by_equations, run, vary};
+use crate::pipeline::{Run, RunError, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::scene::event::{ProgressReport, Watch};
 
@@ -111,7 +112,10 @@ pub fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wishes.threads.unwrap_or(0)).build()?;
     let watch = Watch { progress: &show, stop: &STOP };
     let result = pool.install(|| {
-        let mut result = run(file, wishes.starts, &watch)?;
+        let mut result = match file.design.simulation.fidelity {
+            FidelityWish::Auto => climb(file, wishes.starts, &watch)?,
+            _ => run(file, wishes.starts, &watch)?,
+        };
         if wishes.vary {
             vary(&mut result, &watch)?;
         }

@@ -13,6 +13,9 @@ use crate::starts::Spread;
 pub struct Demand {
     pub guideline: Option<f64>,
     pub simulation: Option<f64>,
+    /// What the simulation's demand cannot exceed while a dissipator that caps it has stroke left; absent where none does, and
+    /// where one is used up.
+    pub cap: Option<f64>,
 }
 
 impl Demand {
@@ -23,7 +26,9 @@ impl Demand {
 
     /// Both multiplied by a partial factor.
     pub fn times(&self, factor: f64) -> Self {
-        Self { guideline: self.guideline.map(|v| v * factor), simulation: self.simulation.map(|v| v * factor) }
+        let [guideline, simulation, cap] =
+            [self.guideline, self.simulation, self.cap].map(|value| value.map(|value| value * factor));
+        Self { guideline, simulation, cap }
     }
 }
 
@@ -71,31 +76,32 @@ impl Demands {
         };
         let most = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.upper());
         let least = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.lower());
-        let simulated = |simulation: Option<f64>| Demand { guideline: None, simulation };
+        let simulated = |simulation: Option<f64>| Demand { simulation, ..Demand::default() };
         // The factor goes on the simulation alone: the guideline's ropes have it already.
         let by_rope =
             |by_guideline: &[f64], quantity: &dyn Fn(&Observed) -> &Vec<f64>, factor: f64, cap: f64| -> Vec<Demand> {
                 let of = |rope: usize| {
                     let largest = observed.iter().map(|seen| quantity(seen)[rope]).fold(0.0, larger);
-                    let capped = |value: f64| {
-                        if value > cap && largest <= cap * CAP_TOLERANCE { largest.max(cap) } else { value }
-                    };
+                    let within = largest <= cap * CAP_TOLERANCE;
+                    let capped = |value: f64| if value > cap && within { largest.max(cap) } else { value };
                     Demand {
                         guideline: by_guideline.get(rope).copied(),
                         simulation: most(&|seen| quantity(seen)[rope]).map(|value| factor * capped(value)),
+                        cap: (within && cap.is_finite() && !observed.is_empty()).then_some(factor * largest.max(cap)),
                     }
                 };
                 let ropes = observed.first().map_or(by_guideline.len(), |seen| quantity(seen).len());
                 (0..ropes).map(of).collect()
             };
         let total_force =
-            Demand { guideline: Some(guideline.largest_force), simulation: most(&|seen| seen.force_peak) };
+            Demand { guideline: Some(guideline.largest_force), simulation: most(&|seen| seen.force_peak), cap: None };
         let wall_force = Demand {
             guideline: Some(guideline.largest_force / guideline.width),
             simulation: most(&|seen| seen.force_peak / guideline.width),
+            cap: None,
         };
         let wall_moment =
-            Demand { guideline: Some(guideline.largest_moment), simulation: most(&|seen| seen.moment_peak) };
+            Demand { guideline: Some(guideline.largest_moment), simulation: most(&|seen| seen.moment_peak), cap: None };
         Self {
             wall_force: wall_force.times(load_factor),
             wall_moment: wall_moment.times(load_factor),
@@ -106,11 +112,13 @@ impl Demands {
                 guideline: highest(&tensions),
                 // Capped at the plateau, and so judged by the largest of the starts.
                 simulation: observed.iter().map(|seen| highest(&seen.brake_force_peak).unwrap_or(0.0)).reduce(larger),
+                cap: None,
             },
-            brake_stroke: by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0, stroke),
+            brake_stroke: uncapped(by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0, stroke)),
             bed_force: Demand {
                 guideline: guideline.bed_force,
                 simulation: most(&|seen| seen.bed_force_peak).map(|force| load_factor * force),
+                cap: None,
             },
             net_tension: simulated(most(&|seen| seen.net_tension_peak)).times(load_factor),
             lateral_tension: simulated(most(&|seen| seen.lateral_tension_peak)).times(load_factor),
@@ -135,6 +143,11 @@ impl Demands {
         let by_rope = [&mut self.rope_tension, &mut self.anchor_force, &mut self.brake_stroke];
         single.into_iter().chain(by_rope.into_iter().flatten()).for_each(|demand| demand.guideline = None);
     }
+}
+
+/// A stroke that ends at its stop is used up: that caps nothing.
+fn uncapped(demands: Vec<Demand>) -> Vec<Demand> {
+    demands.into_iter().map(|demand| Demand { cap: None, ..demand }).collect()
 }
 
 /// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.

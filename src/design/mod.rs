@@ -290,6 +290,8 @@ pub enum FidelityWish {
     Fast,
     Standard,
     Fine,
+    /// As fine as the verdict needs.
+    Auto,
 }
 
 /// How the net hangs on its main ropes.

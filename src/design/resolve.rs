@@ -207,6 +207,7 @@ fn simulation(e: &Entries) -> Option<SimulationWishes> {
         "fast" => FidelityWish::Fast,
         "standard" => FidelityWish::Standard,
         "fine" => FidelityWish::Fine,
+        "auto" => FidelityWish::Auto,
         _ => return None,
     };
     let barrier_model = match e.text("simulation.barrier_model")? {

@@ -345,7 +345,12 @@ const POINT_LOAD: &[Key] = &[
 ];
 
 const SIMULATION: &[Key] = &[
-    Key::default("fidelity", Kind::Choice(&["fast", "standard", "fine"]), "standard", "how small a time step"),
+    Key::default(
+        "fidelity",
+        Kind::Choice(&["fast", "standard", "fine", "auto"]),
+        "standard",
+        "how small a time step; auto: from the equations up, model and number of starts as fine as the verdict needs",
+    ),
     Key::default(
         "barrier_model",
         Kind::Choice(&["pinned_ropes", "sliding_ropes", "cylinders"]),

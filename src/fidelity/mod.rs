@@ -1,5 +1,7 @@
 //! How finely to model, and why.
 
+pub mod ladder;
+
 use crate::dem::contact::law::contact_stiffness;
 use crate::dem::contact::restitution::{LONGEST_PHASE, damping_ratio_for};
 use crate::dem::time::stable_step::critical_step_of_pair;
@@ -23,7 +25,8 @@ pub struct Fidelity {
 pub fn step_share(wish: FidelityWish) -> (&'static str, f64) {
     match wish {
         FidelityWish::Fast => ("fast", 0.6),
-        FidelityWish::Standard => ("standard", 0.4),
+        // Who asks for none in particular is on a rung of the ladder, or wants no simulation.
+        FidelityWish::Standard | FidelityWish::Auto => ("standard", 0.4),
         FidelityWish::Fine => ("fine", 0.2),
     }
 }

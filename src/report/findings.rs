@@ -1,9 +1,12 @@
 //! Rows of the report that tell what the simulation showed and how far it can be relied on.
 
+use serde::Serialize;
+
 use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, STEP_LIMIT};
 use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
 use crate::design::Design;
+use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, Simulated};
 use crate::report::numbers::with_unit;
 use crate::report::view::Row;
@@ -204,6 +207,55 @@ pub fn numerics_rows(run: &Simulated) -> Vec<Row> {
             format!("{} steps on {} threads, {} neighbour lists", facts.steps, facts.threads, facts.renewals),
         ),
     ]
+}
+
+/// The rungs of the ladder that ran.
+pub fn climb_rows(run: &Run) -> Vec<ClimbRow> {
+    let row = |step: &Step| {
+        let rung = &RUNGS[step.rung];
+        ClimbRow {
+            name: rung.name,
+            what: rung.what,
+            wall_clock: format!("{:.1} s", step.wall_clock),
+            said: step.said.clone(),
+            governing: step.governing.clone(),
+            open: match step.open.as_slice() {
+                [] => "nothing: no verdict can flip".to_string(),
+                open => open.join("; "),
+            },
+        }
+    };
+    run.climb.iter().map(row).collect()
+}
+
+/// Why no finer rung ran.
+pub fn why_enough(run: &Run) -> String {
+    let Some(last) = run.climb.last() else { return String::new() };
+    let rung = &RUNGS[last.rung];
+    match last.open.is_empty() {
+        false => format!(
+            "\"{}\" is the finest rung there is for this design; what is open on it is too close to its limit for this program to tell.",
+            rung.name
+        ),
+        true => format!(
+            "Enough is \"{}\": even with forces {:.0} %, strokes {:.0} % and shares {:.0} points off, which is as far as this rung is known to be, no verdict would change, or one check fails for certain.",
+            rung.name,
+            100.0 * rung.band.force,
+            100.0 * rung.band.stroke,
+            100.0 * rung.band.share
+        ),
+    }
+}
+
+/// A rung in the report.
+#[derive(Clone, Debug, Serialize)]
+pub struct ClimbRow {
+    pub name: &'static str,
+    pub what: &'static str,
+    pub wall_clock: String,
+    pub said: String,
+    pub governing: String,
+    pub open: String,
 }
 
 fn seed_row(run: &Simulated) -> Row {

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::from_loads::Guideline;
+use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, Simulated};
 use crate::report::findings::over_starts;
 
@@ -24,10 +25,24 @@ pub struct ResultFile {
     /// What the first start showed; absent where the equations alone were asked for.
     pub simulation: Option<SimulationPart>,
     pub numerics: Option<NumericsPart>,
+    /// The rungs of the ladder that ran, where the design says `fidelity: auto`; the last is what is reported.
+    pub rungs: Vec<RungPart>,
     /// Observables over all starts.
     pub starts: Vec<SpreadPart>,
     /// Version of the program.
     pub program_version: String,
+}
+
+/// A rung of the ladder that ran.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct RungPart {
+    /// equations, coarse, grains, starts or fine
+    pub name: String,
+    pub wall_clock_s: f64,
+    /// pass, fail or undecided
+    pub verdict: String,
+    /// Checks that a finer model may decide otherwise.
+    pub open: Vec<String>,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
@@ -174,6 +189,7 @@ impl ResultFile {
             guideline: guideline_part(&run.guideline),
             simulation: run.simulated.as_ref().map(simulation_part),
             numerics: run.simulated.as_ref().map(numerics_part),
+            rungs: run.climb.iter().map(rung_part).collect(),
             starts: run.simulated.as_ref().map_or_else(Vec::new, spread_parts),
             program_version: env!("CARGO_PKG_VERSION").to_string(),
         }
@@ -255,6 +271,15 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
         deposit_depth_m: seen.deposit_depth,
         k_effective: seen.k_effective,
         lambda_effective: seen.lambda_effective,
+    }
+}
+
+fn rung_part(step: &Step) -> RungPart {
+    RungPart {
+        name: RUNGS[step.rung].name.to_string(),
+        wall_clock_s: step.wall_clock,
+        verdict: step.said.clone(),
+        open: step.open.clone(),
     }
 }
 

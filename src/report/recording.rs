@@ -9,6 +9,7 @@ use crate::checks::credibility::Numerics;
 use crate::dem::recorders::histories::Histories;
 use crate::design::read::read_design;
 use crate::fidelity::choose;
+use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Facts, Run, Simulated, Start, restore};
 use crate::problem::Problems;
 use crate::sensitivity::Swing;
@@ -18,7 +19,7 @@ pub const FILE: &str = "recording.bin";
 
 const MAGIC: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 const HEAD: usize = MAGIC.len() + 8;
 
 /// Why a recording cannot be read.
@@ -41,6 +42,7 @@ struct Recording<Seen, Varied> {
     design: Vec<u8>,
     simulated: Option<Seen>,
     varied: Varied,
+    climb: Vec<Step>,
 }
 
 #[derive(Deserialize)]
@@ -76,6 +78,7 @@ pub fn encode(run: &Run) -> Result<Vec<u8>, postcard::Error> {
         design: run.file.text.clone(),
         simulated: run.simulated.as_ref().map(SeenRef::of),
         varied: run.varied.as_slice(),
+        climb: run.climb.clone(),
     })?;
     let mut bytes = Vec::with_capacity(HEAD + body.len());
     bytes.extend_from_slice(MAGIC);
@@ -101,10 +104,16 @@ pub fn decode(bytes: &[u8]) -> Result<Run, RecordingError> {
     let recording: Recording<Seen, Vec<Swing>> = postcard::from_bytes(body).map_err(|_| RecordingError::Damaged)?;
     let name = format!("{}.yaml", recording.design_name);
     let file = read_design(&name, &recording.design).map_err(RecordingError::Design)?;
-    let fidelity = choose(&file.design);
+    if recording.climb.iter().any(|step| step.rung >= RUNGS.len()) {
+        return Err(RecordingError::Damaged);
+    }
+    let fidelity = match recording.climb.last() {
+        Some(step) => choose(&RUNGS[step.rung].of(&file.design)),
+        None => choose(&file.design),
+    };
     let simulated = recording.simulated.map(|seen| {
         let Seen { histories, facts, numerics, starts, doubts } = seen;
         Simulated { fidelity, histories, facts, numerics, starts, doubts }
     });
-    Ok(restore(file, simulated, recording.varied))
+    Ok(restore(file, simulated, recording.varied, recording.climb))
 }

@@ -6,6 +6,7 @@ use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
 use crate::pipeline::{Run, Simulated, Verdict};
+use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, percent, with_scatter, with_unit};
 use crate::report::pictures::{self, Chart, PICTURE_STYLE, REPLAY_SCRIPT};
@@ -60,6 +61,9 @@ pub struct View {
     pub references: Vec<&'static str>,
     pub not_checked: Vec<&'static str>,
     pub numerics: Vec<Row>,
+    /// The rungs that ran, where the program chose how fine to model, and why it stopped.
+    pub climb: Vec<ClimbRow>,
+    pub why_enough: String,
 }
 
 /// A name with its value and, where it helps, a remark.
@@ -129,6 +133,8 @@ impl View {
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),
             assumptions: assumptions(run),
+            climb: climb_rows(run),
+            why_enough: why_enough(run),
             references: references(run),
             not_checked: not_checked(&run.file.design),
             numerics: run.simulated.as_ref().map_or_else(Vec::new, super::findings::numerics_rows),

@@ -30,8 +30,11 @@ pub struct Point {
     pub wall_clock: f64,
 }
 
+/// Reads an observable.
+type Read = fn(&Point) -> f64;
+
 /// Observables that errors are told of.
-pub const OBSERVABLES: [(&str, fn(&Point) -> f64); 6] = [
+pub const OBSERVABLES: [(&str, Read); 6] = [
     ("largest force", |point| point.force_peak),
     ("force at rest", |point| point.force_residual),
     ("moment", |point| point.moment_peak),
@@ -193,14 +196,14 @@ pub fn tell(runs: &[(Setting, Vec<Point>)]) -> Vec<Told> {
 
 /// Scatter of one start of a scene as it is, over the mean, of every observable that it has.
 pub fn floor(points: &[Point]) -> Vec<(&'static str, f64)> {
-    let scatter = |(name, read): &(&'static str, fn(&Point) -> f64)| {
+    let scatter = |(name, read): &(&'static str, Read)| {
         let spread = spread(points, *read);
         (spread.mean != 0.0).then_some((*name, spread.deviation / spread.mean))
     };
     OBSERVABLES.iter().filter_map(scatter).collect()
 }
 
-fn spread(points: &[Point], read: fn(&Point) -> f64) -> Spread {
+fn spread(points: &[Point], read: Read) -> Spread {
     Spread::of(&points.iter().map(read).collect::<Vec<_>>())
 }
 

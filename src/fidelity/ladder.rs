@@ -1,0 +1,258 @@
+//! The rungs from cheap to fine, and whether a rung's answer can still change on a finer one.
+//!
+//! After each rung every check is asked: with the demand as far off as this rung is known to be, can its verdict flip? A check that
+//! certainly fails decides the design, and so do all checks when each certainly holds; else the next rung runs. What a check needs
+//! and a rung cannot tell leaves it open.
+
+use serde::{Deserialize, Serialize};
+
+use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
+
+/// How far off a rung may be: what a finer one may say over what this one says, less one, upwards and downwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Of forces and moments.
+    pub force: f64,
+    /// Of strokes.
+    pub stroke: f64,
+    /// Of shares, of the whole: mass held, height left.
+    pub share: f64,
+}
+
+/// A rung of the ladder.
+#[derive(Clone, Copy, Debug)]
+pub struct Rung {
+    pub name: &'static str,
+    pub what: &'static str,
+    /// Packings; 0 where nothing is simulated.
+    pub starts: u32,
+    pub band: Band,
+    apply: fn(&mut Design),
+}
+
+/// Factor on the size of the grains of the coarse rung.
+pub const COARSE: f64 = 1.25;
+
+/// From cheap to fine. The bands of rungs with one start cover what five starts add by their scatter (2.3 standard deviations of 8 to
+/// 20 %, from a start that may be the mildest of them) and the error of the model that `designs/studies/speed_accuracy.yaml`
+/// measures; that of several starts is the latter alone; that of the equations what the simulations of the examples say over the
+/// guideline.
+pub const RUNGS: [Rung; 5] = [
+    Rung {
+        name: "equations",
+        what: "the guideline alone",
+        starts: 0,
+        band: Band { force: 2.0, stroke: 4.0, share: 1.0 },
+        apply: |_| {},
+    },
+    Rung {
+        name: "coarse",
+        what: "spheres a quarter larger than the grains, ropes pinned, long steps, one start",
+        starts: 1,
+        band: Band { force: 1.2, stroke: 3.0, share: 0.05 },
+        apply: coarsen,
+    },
+    Rung {
+        name: "grains",
+        what: "grains as they are, ropes that slide, one start",
+        starts: 1,
+        band: Band { force: 0.8, stroke: 1.5, share: 0.02 },
+        apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
+    },
+    Rung {
+        name: "starts",
+        what: "the same with five starts, their scatter in the demand",
+        starts: 5,
+        band: Band { force: 0.1, stroke: 0.2, share: 0.01 },
+        apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
+    },
+    Rung {
+        name: "fine",
+        what: "half the step, ropes and rings of cylinders that bend, five starts",
+        starts: 5,
+        band: Band { force: 0.0, stroke: 0.0, share: 0.0 },
+        apply: |design| set(design, FidelityWish::Fine, BarrierModel::Cylinders),
+    },
+];
+
+fn set(design: &mut Design, fidelity: FidelityWish, model: BarrierModel) {
+    design.simulation.fidelity = fidelity;
+    design.simulation.barrier_model = model;
+}
+
+fn coarsen(design: &mut Design) {
+    set(design, FidelityWish::Fast, BarrierModel::PinnedRopes);
+    design.flow.aspect = 1.0;
+    design.flow.sizes = design.flow.sizes.scaled(COARSE);
+}
+
+impl Rung {
+    /// The design as this rung models it.
+    pub fn of(&self, design: &Design) -> Design {
+        let mut design = design.clone();
+        (self.apply)(&mut design);
+        design
+    }
+
+    /// Whether this rung makes sense for a design: grains that are coarser than the mesh lets through tell nothing of what it holds.
+    pub fn suits(&self, design: &Design) -> bool {
+        match &design.barrier {
+            // If only the finest tenth could pass, coarse grains hide little.
+            BarrierDesign::FlexibleNet(net) if self.name == "coarse" => {
+                design.flow.sizes.quantile(0.1) > net.mesh_opening
+            }
+            // Slack is a matter of ropes that only pull.
+            BarrierDesign::FlexibleNet(net) if self.name == "fine" => net.net_slack == 0.0,
+            _ => true,
+        }
+    }
+
+    /// What of `outcomes` is open still on this rung; nothing where one check fails for certain.
+    pub fn open(&self, outcomes: &[Outcome]) -> Vec<String> {
+        let answers: Vec<(&Outcome, Answer)> = outcomes.iter().map(|outcome| (outcome, self.answer(outcome))).collect();
+        if answers.iter().any(|(_, answer)| *answer == Answer::Fails) {
+            return Vec::new();
+        }
+        let open = answers.into_iter().filter(|(_, answer)| *answer == Answer::Open);
+        open.map(|(outcome, _)| outcome.title.clone()).collect()
+    }
+
+    fn answer(&self, outcome: &Outcome) -> Answer {
+        let (Some(capacity), Some(used)) = (outcome.capacity, outcome.utilisation) else {
+            // Nothing is judged, or it is by a rule of its own, whose failure on a coarse model is not certain.
+            return if outcome.verdict == CheckVerdict::Fail { Answer::Open } else { self.unless_blind(outcome) };
+        };
+        if outcome.resistance.is_none() {
+            return self.answer_at_least(capacity, used);
+        }
+        let band = if outcome.unit == "m" { self.band.stroke } else { self.band.force };
+        let used_by = |demand: Option<f64>| demand.map(|demand| demand / capacity);
+        let (guideline, simulation) = (used_by(outcome.demand.guideline), used_by(outcome.demand.simulation));
+        if guideline.is_some_and(|used| used > 1.0) || capacity <= 0.0 {
+            return Answer::Fails;
+        }
+        // Above its cap a load goes only when a stroke is used up, and strokes are checked too.
+        let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap / capacity);
+        match (simulation, self.starts) {
+            (Some(used), _) if used / (1.0 + band) > 1.0 => Answer::Fails,
+            (Some(used), _) if (used * (1.0 + band)).min(cap.max(used)) <= 1.0 => Answer::Holds,
+            // Without a simulation the guideline stands for what one would say.
+            (None, 0) if guideline.is_some_and(|used| used * (1.0 + band) <= 1.0) => Answer::Holds,
+            // What only the guideline tells is told once and for all.
+            (None, 1..) if guideline.is_some() => Answer::Holds,
+            _ => Answer::Open,
+        }
+    }
+
+    /// A least share: `used` is what is missing of what may be missing.
+    fn answer_at_least(&self, least: f64, used: f64) -> Answer {
+        let shift = self.band.share / (1.0 - least).max(1e-9);
+        match used {
+            used if used + shift <= 1.0 => Answer::Holds,
+            used if used - shift > 1.0 => Answer::Fails,
+            _ => Answer::Open,
+        }
+    }
+
+    /// A check that the equations say nothing of is open for them.
+    fn unless_blind(&self, outcome: &Outcome) -> Answer {
+        let blind = self.starts == 0 && outcome.capacity.is_some() && outcome.demand.guideline.is_none();
+        if blind { Answer::Open } else { Answer::Holds }
+    }
+}
+
+/// What a rung says of a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Answer {
+    Holds,
+    Fails,
+    /// A finer model may say otherwise.
+    Open,
+}
+
+/// A rung that ran, for the report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// Place in [`RUNGS`].
+    pub rung: usize,
+    /// s
+    pub wall_clock: f64,
+    /// The verdict as this rung has it.
+    pub said: String,
+    /// Largest utilisation, and of what.
+    pub governing: String,
+    /// Checks that a finer model may decide otherwise.
+    pub open: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::outcome::{CheckName, Resistance};
+    use crate::demand::Demand;
+
+    fn force(guideline: Option<f64>, simulation: Option<f64>) -> Outcome {
+        let resistance = Resistance { characteristic: 100.0, factor: 1.0 };
+        Outcome::at_most(
+            CheckName::new("x", "x", "N", "x"),
+            Demand { guideline, simulation, cap: None },
+            resistance,
+            1.0,
+        )
+    }
+
+    fn rung(name: &str) -> &'static Rung {
+        RUNGS.iter().find(|rung| rung.name == name).unwrap()
+    }
+
+    #[test]
+    fn clear_cases_are_decided_low_and_marginal_ones_climb() {
+        let equations = rung("equations");
+        assert_eq!(equations.answer(&force(Some(30.0), None)), Answer::Holds);
+        assert_eq!(equations.answer(&force(Some(90.0), None)), Answer::Open);
+        assert_eq!(equations.answer(&force(Some(101.0), None)), Answer::Fails);
+        assert_eq!(equations.answer(&force(None, None)), Answer::Open);
+        let grains = rung("grains");
+        assert_eq!(grains.answer(&force(Some(90.0), Some(50.0))), Answer::Holds);
+        // What a dissipator caps cannot climb beyond.
+        let capped =
+            Outcome { demand: Demand { cap: Some(90.0), ..force(None, Some(90.0)).demand }, ..force(None, Some(90.0)) };
+        assert_eq!(grains.answer(&capped), Answer::Holds);
+        assert_eq!(grains.answer(&force(Some(10.0), Some(95.0))), Answer::Open);
+        assert_eq!(grains.answer(&force(Some(10.0), Some(105.0))), Answer::Open);
+        assert_eq!(grains.answer(&force(Some(10.0), Some(190.0))), Answer::Fails);
+        assert_eq!(grains.answer(&force(None, Some(f64::NAN))), Answer::Open);
+        let fine = rung("fine");
+        assert_eq!(fine.answer(&force(None, Some(99.9))), Answer::Holds);
+        assert_eq!(fine.answer(&force(None, Some(100.1))), Answer::Fails);
+    }
+
+    #[test]
+    fn one_certain_failure_decides() {
+        let grains = rung("grains");
+        assert!(grains.open(&[force(None, Some(95.0)), force(None, Some(300.0))]).is_empty());
+        assert_eq!(grains.open(&[force(None, Some(95.0)), force(None, Some(30.0))]).len(), 1);
+    }
+
+    #[test]
+    fn shares_have_a_band_of_their_own() {
+        let held = |share| {
+            let demand = Demand { simulation: Some(share), ..Demand::default() };
+            Outcome::at_least(CheckName::new("x", "x", "-", "x"), demand, 0.9)
+        };
+        let grains = rung("grains");
+        assert_eq!(grains.answer(&held(0.99)), Answer::Holds);
+        assert_eq!(grains.answer(&held(0.91)), Answer::Open);
+        assert_eq!(grains.answer(&held(0.80)), Answer::Fails);
+        assert_eq!(rung("equations").answer(&Outcome { utilisation: None, ..held(0.0) }), Answer::Open);
+    }
+
+    #[test]
+    fn every_band_is_narrower_than_the_one_before() {
+        for pair in RUNGS.windows(2) {
+            let [before, after] = [pair[0].band, pair[1].band];
+            assert!(after.force < before.force && after.stroke < before.stroke && after.share < before.share);
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! `fidelity: auto`: clear cases are decided on a low rung, a marginal one climbs.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the small fixture with words of it replaced; returns exit code, the names of the rungs that ran, and the report.
+fn run(name: &str, changes: &[(&str, &str)]) -> (Option<i32>, Vec<String>, String) {
+    let mut text = std::fs::read_to_string("tests/fixtures/tiny.yaml").expect("the fixture");
+    for (from, to) in [("fidelity: standard", "fidelity: auto")].iter().chain(changes) {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ladder_{name}"));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let design = folder.join("design_of_it.yaml");
+    std::fs::write(&design, text).expect("a design");
+    let out = folder.join("out");
+    let output = Command::new(env!("CARGO_BIN_EXE_barrier-check"))
+        .args([&design, Path::new("--out"), &out])
+        .output()
+        .expect("the program starts");
+    let result = std::fs::read_to_string(out.join("result.json")).expect("a result");
+    let result: serde_json::Value = serde_json::from_str(&result).expect("JSON");
+    let rungs = result["rungs"].as_array().expect("rungs");
+    let names = rungs.iter().map(|rung| rung["name"].as_str().expect("a name").to_string()).collect();
+    // What is recorded says the same again.
+    let report = std::fs::read_to_string(out.join("report.md")).expect("a report");
+    let again = Command::new(env!("CARGO_BIN_EXE_barrier-check")).arg("report").arg(&out).output().expect("again");
+    assert_eq!(again.status.code(), output.status.code());
+    assert_eq!(std::fs::read_to_string(out.join("report.md")).expect("a report"), report);
+    (output.status.code(), names, report)
+}
+
+#[test]
+fn a_clear_failure_needs_no_simulation() {
+    let (code, rungs, report) = run("fail", &[("resistance: 110 kN", "resistance: 20 kN")]);
+    assert_eq!((code, rungs), (Some(1), vec!["equations".to_string()]));
+    assert!(report.contains("How fine the model had to be"));
+}
+
+#[test]
+fn a_clear_pass_needs_one_start() {
+    let (code, rungs, report) = run("pass", &[]);
+    assert_eq!((code, rungs), (Some(0), vec!["equations".to_string(), "grains".to_string()]));
+    assert!(report.contains("Enough is"));
+}
+
+#[test]
+fn a_marginal_design_climbs() {
+    // On one start the net uses 93 % of what it holds.
+    let (code, rungs, _) = run("marginal", &[("breaking_load: 69.8 kN", "breaking_load: 30 kN")]);
+    assert!(rungs.len() >= 3 && rungs[2] == "starts", "{rungs:?}");
+    assert!(matches!(code, Some(0 | 1)));
+}
