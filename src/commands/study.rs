@@ -10,13 +10,15 @@ use crate::commands::ExitCode;
 use crate::commands::check::{Failure, STOP, load};
 use crate::design::read::DesignFile;
 use crate::pipeline::RunError;
+use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
 use crate::report::write::write_all;
 use crate::scene::event::Watch;
 use crate::starts::side_by_side;
 use crate::studies::knobs::Knob;
-use crate::studies::plan::Plan;
+use crate::studies::plan::{Plan, StabilityPlan, Study};
 use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
+use crate::studies::stability::{SCENES, SHARP, map};
 
 /// Runs what is not kept yet, and writes the page below `out`.
 pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
@@ -34,16 +36,39 @@ pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
 
 fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    let plan = Plan::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
+    let study = Study::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
+    let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join("studies").join(name), PathBuf::from);
+    let plan = match study {
+        Study::SpeedAccuracy(plan) => plan,
+        Study::Stability(plan) => return stability_map(&plan, &folder_of(&plan.name)),
+    };
     let beside = path.parent().unwrap_or(Path::new("."));
     let scenes = plan.scenes.iter().map(|scene| load(&beside.join(scene)).map_err(|problems| problems.to_string()));
     let scenes = scenes.collect::<Result<Vec<DesignFile>, String>>()?;
-    let folder = out.map_or_else(|| Path::new("out").join("studies").join(&plan.name), PathBuf::from);
+    let folder = folder_of(&plan.name);
     let kept = folder.join("kept");
     std::fs::create_dir_all(&kept)?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
     write_all(&folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
     Ok(folder.join("study.html"))
+}
+
+/// Maps every scene, side by side, and writes the page.
+fn stability_map(plan: &StabilityPlan, folder: &Path) -> Result<PathBuf, Failure> {
+    let threads = rayon::current_num_threads();
+    let mapped = side_by_side(threads, SCENES.len(), |index| map(&SCENES[index], &plan.shares, plan.steps));
+    write_all(folder, &map_files(&plan.name, &mapped).map_err(|error| error.to_string())?)?;
+    for scene in &mapped {
+        let verdict = match (scene.linear, scene.safe(), scene.sharpness() >= SHARP) {
+            (false, ..) => "not of the scene as built",
+            (_, false, _) => "NOT SAFE",
+            (_, true, false) => "safe, not sharp",
+            (_, true, true) => "safe and sharp",
+        };
+        let caught = if scene.all_caught() { "all caught" } else { "NOT ALL CAUGHT" };
+        println!("{:<22} estimate over true limit {:.2}: {verdict}; {caught}", scene.name, scene.sharpness());
+    }
+    Ok(folder.join("stability.html"))
 }
 
 /// Every task with its result, kept or made; nothing where the scene cannot be prepared with that setting.

@@ -82,6 +82,8 @@ pub struct Simulation {
     pub neighbours: Neighbours,
     /// Time step (s).
     pub time_step: f64,
+    /// Whether the step is held against what is connected, and cut; only a study of what happens else leaves it be.
+    pub audited: bool,
     /// Viscous slowing of all grains (1/s), for preparation only.
     pub drag: f64,
     /// Steps made.
@@ -113,6 +115,7 @@ impl Simulation {
             neighbours: Neighbours::new(skin),
             time_step,
             drag: 0.0,
+            audited: true,
             steps: 0,
             time: 0.0,
             sums: StepSums::default(),
@@ -214,7 +217,7 @@ impl Simulation {
             self.check_finite()?;
             self.renew();
         }
-        if (self.steps + 1).is_multiple_of(STEPS_PER_AUDIT) {
+        if self.audited && (self.steps + 1).is_multiple_of(STEPS_PER_AUDIT) {
             self.audit()?;
         }
         Ok(())
@@ -289,6 +292,16 @@ impl Simulation {
             return Err(Unstable::Step { time: self.time, step: self.time_step });
         }
         Ok(())
+    }
+
+    /// Step over critical step of all that is connected now, grains and barrier in one.
+    pub fn step_over_critical(&mut self) -> f64 {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
+            self.renew();
+        }
+        let mut links = self.linked(self.law()).contacts();
+        links.extend(self.linked(self.barrier_law()).within_barrier());
+        step_ratio(&links, &self.grains, self.model.barrier.as_ref(), self.time_step).value
     }
 
     fn note_ratio(&mut self, ratio: StepRatio) {

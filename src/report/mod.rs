@@ -11,6 +11,7 @@ pub mod recording;
 pub mod render;
 pub mod replay;
 pub mod series;
+pub mod stability_map;
 pub mod statements;
 pub mod study;
 pub mod validation;

@@ -3,3 +3,4 @@
 pub mod knobs;
 pub mod plan;
 pub mod speed_accuracy;
+pub mod stability;

@@ -7,6 +7,56 @@ use serde::Deserialize;
 
 use crate::studies::knobs::Knob;
 
+/// What a study is of.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Study {
+    SpeedAccuracy(Plan),
+    Stability(StabilityPlan),
+}
+
+impl Study {
+    /// Reads the file's text; tells all that is wrong with it.
+    pub fn read(text: &str) -> Result<Self, Vec<String>> {
+        let study: Self = serde_yaml::from_str(text).map_err(|error| vec![error.to_string()])?;
+        let wrong = match &study {
+            Self::SpeedAccuracy(plan) => plan.wrong(),
+            Self::Stability(plan) => plan.wrong(),
+        };
+        if wrong.is_empty() { Ok(study) } else { Err(wrong) }
+    }
+}
+
+/// The map of where steps break.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StabilityPlan {
+    /// What the study is called.
+    pub name: String,
+    /// Shares of the estimated limit, rising.
+    pub shares: Vec<f64>,
+    /// Steps of each run.
+    pub steps: usize,
+}
+
+impl StabilityPlan {
+    fn wrong(&self) -> Vec<String> {
+        let mut wrong = Vec::new();
+        if !(100..=10_000_000).contains(&self.steps) {
+            wrong.push(format!("steps: found {}, allowed 100 to 10000000", self.steps));
+        }
+        let rising = self.shares.windows(2).all(|pair| pair[0] < pair[1]);
+        if self.shares.is_empty()
+            || self.shares.len() > 50
+            || !rising
+            || self.shares.iter().any(|share| !(0.01..=10.0).contains(share))
+        {
+            wrong.push(format!("shares: found {:?}, allowed 1 to 50 rising values of 0.01 to 10", self.shares));
+        }
+        wrong
+    }
+}
+
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
@@ -29,9 +79,8 @@ const MOST_STARTS: u32 = 100;
 const MOST_VALUES: usize = 20;
 
 impl Plan {
-    /// Reads the file's text; tells all that is wrong with it.
-    pub fn read(text: &str) -> Result<Self, Vec<String>> {
-        let plan: Self = serde_yaml::from_str(text).map_err(|error| vec![error.to_string()])?;
+    fn wrong(&self) -> Vec<String> {
+        let plan = self;
         let mut wrong = Vec::new();
         if plan.scenes.is_empty() {
             wrong.push("scenes: one at least".to_string());
@@ -52,7 +101,7 @@ impl Plan {
                 wrong.push(format!("{knob:?}: found {value}, allowed: above 0"));
             }
         }
-        if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
+        wrong
     }
 }
 
@@ -63,9 +112,12 @@ mod tests {
     #[test]
     fn a_slip_is_told() {
         let text = include_str!("../../designs/studies/speed_accuracy.yaml");
-        assert!(Plan::read(text).is_ok());
-        let wrong = Plan::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
+        assert!(Study::read(text).is_ok());
+        let wrong = Study::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
         assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
-        assert!(Plan::read(&text.replace("step:", "stepp:")).is_err());
+        assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
+        let map = include_str!("../../designs/studies/stability.yaml");
+        assert!(Study::read(map).is_ok());
+        assert!(Study::read(&map.replace("[0.1, ", "[5, ")).is_err());
     }
 }

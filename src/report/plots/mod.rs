@@ -9,6 +9,6 @@ pub mod side_view;
 pub mod utilisation;
 
 /// Text as it may stand in SVG.
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

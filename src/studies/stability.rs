@@ -1,0 +1,456 @@
+//! Where steps break: small scenes of every kind of contact and element, each stepped at shares of the limit that the program
+//! estimates, with the audit that would cut the step switched off.
+
+use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
+
+use crate::checks::credibility::{ENERGY_LIMIT, Numerics, doubts};
+use crate::dem::Vec3;
+use crate::dem::elements::cylinder::Cylinder;
+use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::model::Model;
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
+use crate::dem::tables::surfaces::SurfaceRole;
+use crate::validation::scenes::{MODULUS, ball, closed_box, free_model, material, plane};
+
+/// How a run went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fate {
+    /// The energy account closes to the limit of credibility.
+    Stable,
+    /// It does not, but nothing grows without end.
+    Drifting,
+    /// Energy grows beyond twice what there was, or the run breaks down.
+    Unstable,
+    /// A grain goes through a rope.
+    Tunnelling,
+}
+
+impl Fate {
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Drifting => "drifting",
+            Self::Unstable => "unstable",
+            Self::Tunnelling => "tunnelling",
+        }
+    }
+}
+
+/// One run at a share of the estimated limit.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    pub share: f64,
+    pub fate: Fate,
+    /// Energy unaccounted for over the energy there was.
+    pub imbalance: f64,
+    /// What the program's own guards say; empty if they see nothing.
+    pub noticed: Vec<String>,
+}
+
+/// What a scene is, and how to build it.
+pub struct Scene {
+    pub name: &'static str,
+    pub what: &'static str,
+    /// Whether the limit is that of the scene as it is built; else things meet later.
+    pub linear: bool,
+    build: fn() -> Model,
+}
+
+/// A scene with its limits and all its trials.
+#[derive(Clone, Debug)]
+pub struct Mapped {
+    pub name: &'static str,
+    pub what: &'static str,
+    pub linear: bool,
+    /// Critical step that the program estimates (s).
+    pub estimated: f64,
+    /// Largest share of it at which a run is not yet unstable.
+    pub true_share: f64,
+    pub trials: Vec<Trial>,
+}
+
+impl Mapped {
+    /// The estimate is never above the true limit.
+    pub fn safe(&self) -> bool {
+        self.true_share >= 1.0
+    }
+
+    /// Estimate over true limit.
+    pub fn sharpness(&self) -> f64 {
+        1.0 / self.true_share
+    }
+
+    /// Every run that went wrong was noticed, or stepped so that the audit would have cut the step.
+    pub fn all_caught(&self) -> bool {
+        let wrong = |trial: &&Trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling);
+        self.trials.iter().filter(wrong).all(|trial| !trial.noticed.is_empty())
+    }
+}
+
+pub const SCENES: [Scene; 13] = [
+    Scene {
+        name: "row of balls", what: "eight balls pressed together between walls, ε = 1", linear: true, build: row
+    },
+    Scene {
+        name: "block of balls",
+        what: "64 balls pressed together in a box, friction, ε = 0.3",
+        linear: true,
+        build: || block(GrainShape::Sphere, 0.3),
+    },
+    Scene {
+        name: "block of clumps",
+        what: "64 clumps pressed together in a box, friction, ε = 0.3",
+        linear: true,
+        build: || block(GrainShape::Clump, 0.3),
+    },
+    Scene {
+        name: "strong dashpots",
+        what: "64 balls in a box, ε = 0.1",
+        linear: true,
+        build: || block(GrainShape::Sphere, 0.1),
+    },
+    Scene {
+        name: "wedged grain",
+        what: "a ball pressed between two planes at 40° and a third",
+        linear: true,
+        build: wedge,
+    },
+    Scene { name: "rope", what: "taut rope of 70 mm segments", linear: true, build: || rope(0.07, 1.0, 1) },
+    Scene { name: "short elements", what: "taut rope of 10 mm segments", linear: true, build: || rope(0.01, 1.0, 1) },
+    Scene {
+        name: "stiff rope",
+        what: "taut rope of 70 mm segments, 100 times as stiff",
+        linear: true,
+        build: || rope(0.07, 100.0, 1),
+    },
+    Scene {
+        name: "parallel ropes",
+        what: "three ropes between the same nodes",
+        linear: true,
+        build: || rope(0.07, 1.0, 3),
+    },
+    Scene {
+        name: "bending rope",
+        what: "cylinders of 70 mm, clamped at one end",
+        linear: true,
+        build: || cylinders(0.07),
+    },
+    Scene {
+        name: "grain on a rope",
+        what: "a grain of 0.45 m pressed on a taut rope of 16 mm",
+        linear: true,
+        build: || grain_on_rope(0.0),
+    },
+    Scene {
+        name: "used-up dissipator",
+        what: "a dissipator of 46 MN/m beyond its stop, held by a rope",
+        linear: true,
+        build: stop,
+    },
+    Scene {
+        name: "fast grain, thin rope",
+        what: "a grain of 0.1 m at 30 m/s against a taut rope of 10 mm",
+        linear: false,
+        build: || grain_on_rope(30.0),
+    },
+];
+
+/// Estimate over true limit from which on the estimate counts as sharp.
+pub const SHARP: f64 = 0.6;
+
+/// Steps between two looks at the energy.
+const STEPS_PER_LOOK: usize = 20;
+/// Growth of the energy that counts as unstable.
+const GROWTH: f64 = 1.0;
+/// Halvings of the bracket round the true limit.
+const HALVINGS: usize = 7;
+
+/// Maps a scene: `shares` of its estimated limit, `steps` steps each.
+pub fn map(scene: &Scene, shares: &[f64], steps: usize) -> Mapped {
+    let estimated = limit(scene, steps);
+    let trials: Vec<Trial> = shares.iter().map(|share| trial(scene, *share, estimated, steps)).collect();
+    // Between the last share that goes well and the first that does not.
+    let bad = |trial: &&Trial| trial.fate == Fate::Unstable;
+    let first_bad = trials.iter().find(bad).map(|trial| trial.share);
+    let last_good = trials.iter().take_while(|trial| !bad(trial)).map(|trial| trial.share).fold(0.0, f64::max);
+    let mut bracket = [last_good, first_bad.unwrap_or(f64::INFINITY)];
+    if bracket[1].is_finite() {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (bracket[0] + bracket[1]);
+            let unstable = trial(scene, middle, estimated, steps).fate == Fate::Unstable;
+            bracket[usize::from(unstable)] = middle;
+        }
+    }
+    let Scene { name, what, linear, .. } = *scene;
+    Mapped { name, what, linear, estimated, true_share: bracket[0], trials }
+}
+
+/// Critical step that the program estimates (s): the least over a run in short steps, as the audit of a run sees it.
+fn limit(scene: &Scene, steps: usize) -> f64 {
+    const STEP: f64 = 1e-6;
+    let mut simulation = Simulation::new((scene.build)(), STEP, 0.01, 1e6);
+    let first = STEP / simulation.step_over_critical();
+    simulation = Simulation::new((scene.build)(), 0.1 * first, 0.01, 1e6);
+    simulation.audited = false;
+    let mut least = first;
+    for step in 0..steps {
+        if simulation.step().is_err() {
+            break;
+        }
+        if step % STEPS_PER_LOOK == 0 {
+            least = least.min(simulation.time_step / simulation.step_over_critical());
+        }
+    }
+    least
+}
+
+fn trial(scene: &Scene, share: f64, estimated: f64, steps: usize) -> Trial {
+    let mut simulation = Simulation::new((scene.build)(), share * estimated, 0.01, 1e6);
+    simulation.audited = false;
+    let mut numerics = Numerics { step_ratio: share, ..Numerics::default() };
+    let mut imbalance: f64 = 0.0;
+    let mut start = None;
+    for step in 0..steps {
+        let look = step % STEPS_PER_LOOK == 0;
+        let done = if look { simulation.step_and_account() } else { simulation.step() };
+        if let Err(unstable) = done {
+            numerics.broke_down = Some(unstable.to_string());
+            break;
+        }
+        if look {
+            let ledger = simulation.ledger;
+            let (first, scale) = *start.get_or_insert_with(|| {
+                let there = ledger.kinetic.abs() + ledger.stored_contacts + ledger.stored_barrier;
+                (ledger.total(), there.max(f64::MIN_POSITIVE))
+            });
+            let now = (ledger.total() - first) / scale;
+            imbalance = if now.abs() > imbalance.abs() || now.is_nan() { now } else { imbalance };
+            if imbalance.is_nan() || imbalance.abs() > 1e6 {
+                break;
+            }
+        }
+    }
+    numerics.energy_error = imbalance;
+    numerics.overlap = simulation.extremes.overlap_ratio;
+    numerics.crossings = simulation.extremes.crossings;
+    let fate = if numerics.crossings > 0 {
+        Fate::Tunnelling
+    } else if numerics.broke_down.is_some() || imbalance.is_nan() || imbalance.abs() > GROWTH {
+        Fate::Unstable
+    } else if imbalance.abs() > ENERGY_LIMIT {
+        Fate::Drifting
+    } else {
+        Fate::Stable
+    };
+    let mut noticed = doubts(&numerics);
+    if share > 1.0 {
+        noticed.push("the audit would have cut the step".into());
+    }
+    Trial { share, fate, imbalance, noticed }
+}
+
+/// Overlap over radius with which things are pressed together.
+const PRESSED: f64 = 0.01;
+const RADIUS: f64 = 0.05;
+const DENSITY: f64 = 2600.0;
+
+/// A small push that differs from body to body (m/s).
+fn nudge(number: usize) -> Vec3 {
+    let turn = 2.4 * number as f64;
+    Vec3::new(turn.cos(), turn.sin(), (1.7 * turn).cos()) * 1e-3
+}
+
+fn row() -> Model {
+    let spacing = 2.0 * RADIUS * (1.0 - PRESSED);
+    let count = 8;
+    let ball_at = |number: usize| {
+        let mut grain = ball(number as u32, Vec3::x() * (spacing * (number as f64 + 0.5)), RADIUS, DENSITY);
+        grain.velocity = Vec3::x() * nudge(number).x;
+        grain
+    };
+    let mut model = free_model((0..count).map(ball_at).collect(), GrainShape::Sphere);
+    model.material = material(1.0, 0.0);
+    let far = spacing * count as f64;
+    model.surfaces = vec![
+        plane(SurfaceRole::Side, Vec3::zeros(), Vec3::x(), 0.0),
+        plane(SurfaceRole::Side, Vec3::x() * far, -Vec3::x(), 0.0),
+    ];
+    model
+}
+
+fn block(shape: GrainShape, restitution: f64) -> Model {
+    let side = 4;
+    let spacing = 2.0 * RADIUS * (1.0 - PRESSED);
+    let grain = |number: usize| {
+        let cell = [number % side, number / side % side, number / side / side].map(|index| index as f64 + 0.5);
+        let place = Vec3::from(cell) * spacing;
+        let body = match shape {
+            GrainShape::Sphere => GrainBody::sphere(RADIUS, DENSITY),
+            // As wide as the cell in its longest direction.
+            GrainShape::Clump => GrainBody::clump(2.0 * RADIUS * 0.82, 1.5, DENSITY),
+        };
+        let axis = [Vec3::x(), Vec3::y(), Vec3::z()][number % 3];
+        let mut grain = Grain::at(number as u32, place, axis, body);
+        grain.velocity = nudge(number);
+        grain
+    };
+    let mut model = free_model((0..side * side * side).map(grain).collect(), shape);
+    model.material = material(restitution, 0.5);
+    model.surfaces = closed_box(Vec3::repeat(spacing * side as f64));
+    model
+}
+
+fn wedge() -> Model {
+    let mut grain = ball(0, Vec3::zeros(), RADIUS, DENSITY);
+    grain.velocity = nudge(1);
+    let mut model = free_model(vec![grain], GrainShape::Sphere);
+    model.material = material(1.0, 0.0);
+    let half = 20_f64.to_radians();
+    let near = RADIUS * (1.0 - PRESSED);
+    let normals = [Vec3::new(half.sin(), 0.0, half.cos()), Vec3::new(half.sin(), 0.0, -half.cos()), -Vec3::x()];
+    model.surfaces = normals.map(|normal| plane(SurfaceRole::Side, normal * -near, normal, 0.0)).to_vec();
+    model
+}
+
+/// Steel over the full circle (kg/m³), and the ropes' modulus (Pa).
+const STEEL: f64 = 7850.0;
+const ROPE_MODULUS: f64 = 4e9;
+
+fn node(position: Vec3, mass: f64, fixed: bool, number: usize) -> Node {
+    let velocity = if fixed { Vec3::zeros() } else { nudge(number) };
+    Node { position, velocity, pace: velocity, mass, fixed, radius: 0.0, lines: Vec::new() }
+}
+
+/// A rope of 2.1 m along y, stretched by a hundredth, `ropes` of them between the same nodes.
+fn taut(element: f64, stiffer: f64, ropes: usize, radius: f64) -> Barrier {
+    let parts = (2.1 / element).round() as usize;
+    let part = 2.1 / parts as f64;
+    let area = std::f64::consts::PI * radius * radius;
+    let mass = STEEL * area * part * ropes as f64;
+    let mut barrier = Barrier { friction: 0.4, contact_modulus: ROPE_MODULUS, ..Barrier::default() };
+    for number in 0..=parts {
+        let fixed = number == 0 || number == parts;
+        barrier.nodes.push(node(Vec3::y() * (part * number as f64), mass, fixed, number));
+    }
+    let rest_length = part / 1.01;
+    let stiffness = stiffer * ROPE_MODULUS * area / rest_length;
+    for number in 0..parts as u32 {
+        for _ in 0..ropes {
+            barrier.segments.push(Segment {
+                nodes: [number, number + 1],
+                kind: SegmentKind::Main(0),
+                rest_length,
+                stiffness,
+                damping: 0.1 * (stiffness * 0.5 * mass).sqrt(),
+                radius,
+            });
+        }
+    }
+    barrier.connect();
+    barrier
+}
+
+/// A grain far away, which every model has one of.
+fn far_ball() -> Grain {
+    ball(0, Vec3::repeat(1e3), RADIUS, DENSITY)
+}
+
+fn with_barrier(barrier: Barrier, grain: Grain) -> Model {
+    let mut model = free_model(vec![grain], GrainShape::Sphere);
+    model.barrier = Some(barrier);
+    model
+}
+
+fn rope(element: f64, stiffer: f64, ropes: usize) -> Model {
+    with_barrier(taut(element, stiffer, ropes, 0.016), far_ball())
+}
+
+fn cylinders(element: f64) -> Model {
+    let section = crate::dem::elements::cylinder::Section::round(0.016, ROPE_MODULUS, 0.3);
+    let parts = (0.7 / element).round() as usize;
+    let mass = STEEL * std::f64::consts::PI * 0.016 * 0.016 * element;
+    let mut barrier = Barrier { contact_modulus: ROPE_MODULUS, ..Barrier::default() };
+    for number in 0..=parts {
+        let fixed = number == 0;
+        barrier.nodes.push(node(Vec3::x() * (element * number as f64), mass, fixed, number));
+        barrier.frames.push(Frame {
+            orientation: UnitQuaternion::identity(),
+            spin: Vec3::zeros(),
+            inertia: mass * (element * element / 12.0 + 0.016 * 0.016 / 4.0),
+            held: fixed,
+        });
+    }
+    for number in 0..parts {
+        let ends = [number, number + 1];
+        let places = ends.map(|end| &barrier.nodes[end].position);
+        let frames = ends.map(|end| &barrier.frames[end]);
+        barrier.cylinders.push(Cylinder::between(
+            ends.map(|end| end as u32),
+            SegmentKind::Main(0),
+            section,
+            places,
+            frames,
+        ));
+    }
+    barrier.connect();
+    with_barrier(barrier, far_ball())
+}
+
+/// A grain on the middle of a taut rope: pressed on it, or on its way to it at `speed` (m/s).
+fn grain_on_rope(speed: f64) -> Model {
+    let (grain_radius, rope_radius) = if speed > 0.0 { (0.05, 0.005) } else { (0.225, 0.008) };
+    let barrier = taut(0.07, 1.0, 1, rope_radius);
+    let reach = grain_radius + rope_radius;
+    let away = if speed > 0.0 { reach * 1.05 } else { reach - 0.2 * rope_radius };
+    let mut grain = ball(0, Vec3::new(-away, 1.05, 0.0), grain_radius, DENSITY);
+    grain.velocity = Vec3::x() * speed;
+    let mut model = with_barrier(barrier, grain);
+    model.material.modulus = MODULUS;
+    model
+}
+
+fn stop() -> Model {
+    let mut barrier = Barrier { contact_modulus: ROPE_MODULUS, ..Barrier::default() };
+    // Beyond its stop by 7 mm, held by a rope of a hundredth of its stiffness.
+    let place = |y: f64, fixed: bool, number: usize| node(Vec3::y() * y, 0.5, fixed, number);
+    barrier.nodes = vec![place(0.0, true, 0), place(2.567, false, 1), place(3.567, true, 2)];
+    let (tension, stiffness) = (46e6 * 0.007, 46e4);
+    barrier.segments.push(Segment {
+        nodes: [1, 2],
+        kind: SegmentKind::Main(0),
+        rest_length: 1.0 - tension / stiffness,
+        stiffness,
+        damping: 0.0,
+        radius: 0.016,
+    });
+    barrier.dissipators = vec![Dissipator {
+        nodes: [0, 1],
+        rope: 0,
+        rest_length: 0.06,
+        radius: 0.016,
+        stiffness: 46e6,
+        plateau: 250e3,
+        stroke: 2.5,
+        used: 2.5,
+    }];
+    barrier.connect();
+    with_barrier(barrier, far_ball())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_estimate_of_a_row_is_that_of_the_closed_form() {
+        // Balls between walls: ω² = 4 k/m at the most, the walls being twice as stiff a touch more.
+        let mapped = map(&SCENES[0], &[0.5, 1.5], 2000);
+        assert!(mapped.safe() && mapped.sharpness() > 0.6, "{mapped:?}");
+        assert_eq!(mapped.trials[0].fate, Fate::Stable);
+        assert_eq!(mapped.trials[1].fate, Fate::Unstable);
+        assert!(mapped.all_caught());
+    }
+}
