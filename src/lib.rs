@@ -25,6 +25,11 @@
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
 //! | a scene of the bench | a line in `benches/throughput.rs`, its state in `benches/states` |
 //! | a row of the report | [`report::findings`] (simulation), [`report::loads`] (equations), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
+//! | a rung of the ladder | [`fidelity::ladder::RUNGS`] |
+//! | a knob to study | a variant and its lines in [`studies::knobs`] |
+//! | a scene of the stability map | a function and a line in [`studies::stability::SCENES`] |
+//! | something recorded | a field of what [`report::recording`] writes; raise its `FORMAT` and make `tests/fixtures/tiny.bin` anew |
+//! | what the replay shows | [`dem::recorders::film`], its packing in [`report::replay`], its drawing in `templates/replay.js` |
 //! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
 //!
 //! # Invariants
