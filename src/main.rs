@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process;
 
-use barrier_check::commands::check::{Wishes, check, loads};
+use barrier_check::commands::check::{Wishes, check, dry_run, loads};
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
@@ -26,6 +26,9 @@ struct CheckArguments {
     /// Design file in YAML, for example designs/small_net.yaml
     #[arg(required = true)]
     design: Option<PathBuf>,
+    /// Tells how many grains, steps, minutes and megabytes the run would take, and runs nothing
+    #[arg(long)]
+    dry_run: bool,
     /// Folder for the report [default: out/<name of the design file>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -136,8 +139,12 @@ fn main() {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, out, how } = arguments.check;
-            check(&design.unwrap_or_default(), out.as_deref(), how.wishes()) as i32
+            let CheckArguments { design, dry_run: only_tell, out, how } = arguments.check;
+            let design = design.unwrap_or_default();
+            match only_tell {
+                true => dry_run(&design, how.wishes()) as i32,
+                false => check(&design, out.as_deref(), how.wishes()) as i32,
+            }
         }
     };
     process::exit(code);

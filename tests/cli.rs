@@ -234,3 +234,29 @@ fn schemas_are_valid_json_and_know_the_contract() {
         assert!(schema["properties"][key].is_object(), "{of} has no {key}");
     }
 }
+
+#[test]
+fn one_two_and_seven_threads_give_the_same_numbers() {
+    let numbers = |threads: &str| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("threads_{threads}"));
+        let out = folder.display().to_string();
+        run(&["tests/fixtures/tiny.yaml", "--threads", threads, "--seeds", "2", "--out", &out]);
+        let result = result(&folder);
+        let csv = std::fs::read(folder.join("histories.csv")).expect("histories");
+        (result["simulation"].clone(), result["starts"].clone(), result["checks"].clone(), csv)
+    };
+    let one = numbers("1");
+    assert!(one == numbers("2") && one == numbers("7"), "the result depends on the number of threads");
+}
+
+#[test]
+fn a_dry_run_tells_and_runs_nothing() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("dry");
+    let _ = std::fs::remove_dir_all(&folder);
+    let out = folder.display().to_string();
+    let told = run(&["designs/site_a.yaml", "--dry-run", "--out", &out]);
+    let text = String::from_utf8_lossy(&told.stdout).into_owned();
+    assert_eq!(told.status.code(), Some(0), "{text}");
+    assert!(text.contains("grains            2646 of 5291 spheres") && text.contains("memory"), "{text}");
+    assert!(!folder.exists());
+}

@@ -11,8 +11,10 @@ use crate::commands::ExitCode;
 use crate::commands::output::hand_over;
 use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, read_design};
+use crate::fidelity::choose;
 use crate::pipeline::{Run, RunError, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
+use crate::scene::estimate::{Estimate, estimate};
 use crate::scene::event::{ProgressReport, Watch};
 
 /// Bytes read of a file at the most; the document refuses anything near.
@@ -37,6 +39,44 @@ pub struct Wishes {
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given.
 pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes) -> ExitCode {
     report_on(path, out, "", wishes.vtk, |file| simulate(file, wishes))
+}
+
+/// Tells what a run of the design would take, without running it.
+pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
+    let file = match load(path) {
+        Ok(file) => file,
+        Err(problems) => {
+            eprint!("{problems}");
+            return ExitCode::Undecided;
+        }
+    };
+    let fidelity = choose(&file.design);
+    let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate(&file.design, &fidelity);
+    let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    let starts = f64::from(wishes.starts);
+    println!("grains            {grains:.0} of {spheres:.0} spheres");
+    println!("barrier           {elements:.0} elements");
+    println!("event             about {simulated:.1} s in {steps:.0} steps of {:.2e} s", fidelity.time_step);
+    println!("time              about {} on one core, to a factor of two", duration(seconds * starts));
+    if cores > 1 {
+        println!("                  about {} on {cores} cores", duration(seconds * starts / (0.8 * cores as f64)));
+    }
+    println!("memory            about {:.0} MB for each start", bytes / 1e6);
+    match estimate(&file.design, &fidelity).too_much() {
+        Some(reason) => {
+            eprintln!("error: this design is not run: {reason}");
+            ExitCode::Undecided
+        }
+        None => ExitCode::Pass,
+    }
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 90.0 => format!("{seconds:.0} s"),
+        seconds if seconds < 5400.0 => format!("{:.0} minutes", seconds / 60.0),
+        seconds => format!("{:.1} hours", seconds / 3600.0),
+    }
 }
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
@@ -100,6 +140,9 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
 pub fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
+    if let Some(reason) = estimate(&file.design, &choose(&file.design)).too_much() {
+        return Err(format!("this design is not run: {reason}").into());
+    }
     // Set once; that it cannot be set again for the next of several designs is no matter.
     let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
     let bar = Mutex::new(progress_bar());

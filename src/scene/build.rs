@@ -113,7 +113,7 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
 }
 
 /// Time of the last grain's arrival, and some falls from the barrier's height to come to rest.
-fn expected_time(design: &Design) -> f64 {
+pub fn expected_time(design: &Design) -> f64 {
     let rest = 4.0 * (barrier_height(design) / GRAVITY).sqrt();
     rest + match design.flow.arrival {
         Arrival::Surge { length, velocity, .. } => length / velocity,

@@ -1,0 +1,106 @@
+//! What a run will take, before it is made: grains, steps, time, memory.
+
+use crate::design::{BarrierDesign, BarrierModel, Design};
+use crate::fidelity::Fidelity;
+use crate::scene::build::expected_time;
+use crate::scene::net::build::build as build_net;
+
+/// Estimate of one start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    pub grains: f64,
+    pub spheres: f64,
+    /// Segments, cylinders and dissipators of the barrier.
+    pub elements: f64,
+    /// Of the event, the settling included (s).
+    pub simulated: f64,
+    pub steps: f64,
+    /// On one core (s).
+    pub seconds: f64,
+    /// Of memory.
+    pub bytes: f64,
+}
+
+/// Time of a sphere in a step on one core (s): bench, between flow (12 to 14 ns) and dense bed (21 to 24 ns), with lists, recorders
+/// and the share of time that a flow is dense.
+const SPHERE: f64 = 22e-9;
+/// Time of an element in a step of the barrier (s): bench.
+const SEGMENT: f64 = 14e-9;
+const CYLINDER: f64 = 27e-9;
+/// Steps of the barrier in one of the grains' with cylinders: 4 in `site_a`.
+const PARTS: f64 = 4.0;
+/// Memory of a sphere with its lists, of a grain and of an element in the film's frames (bytes).
+const PER_SPHERE: f64 = 700.0;
+const PER_POSE: f64 = 128.0 * 44.0;
+const PER_ELEMENT: f64 = 128.0 * 10.0 + 600.0;
+/// What the program takes anyway.
+const BASE: f64 = 40e6;
+
+/// Longest estimate that is run, on one core (s), and most memory (bytes).
+pub const MOST_SECONDS: f64 = 48.0 * 3600.0;
+pub const MOST_BYTES: f64 = 16e9;
+
+/// Estimates a start of `design`, modelled as finely as `fidelity` says. To a factor of two: how dense the flow gets is not known.
+pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
+    let flow = &design.flow;
+    let grains = flow.sizes.count(flow.mass / flow.solid_density);
+    let spheres = grains * if flow.aspect > 1.0 { 2.0 } else { 1.0 };
+    let bends = design.simulation.barrier_model == BarrierModel::Cylinders;
+    let elements = match &design.barrier {
+        BarrierDesign::RigidWall(_) => 0.0,
+        BarrierDesign::FlexibleNet(net) => {
+            let barrier = build_net(net, &design.channel, design.simulation.barrier_model).barrier;
+            (barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len()) as f64
+        }
+    };
+    let simulated = expected_time(design).min(design.simulation.longest);
+    let steps = simulated / fidelity.time_step;
+    let of_elements = elements * if bends { PARTS * CYLINDER } else { SEGMENT };
+    Estimate {
+        grains,
+        spheres,
+        elements,
+        simulated,
+        steps,
+        seconds: steps * (spheres * SPHERE + of_elements),
+        bytes: BASE + spheres * PER_SPHERE + grains * PER_POSE + elements * PER_ELEMENT,
+    }
+}
+
+impl Estimate {
+    /// Why the design should not be run as it is, if so, with what to change.
+    pub fn too_much(&self) -> Option<String> {
+        let change = "larger grains (flow.grain_sizes), less flow (flow.mass or flow.volume), a softer flow.contact_modulus or simulation.fidelity: fast make it less";
+        if self.seconds > MOST_SECONDS {
+            let limit = MOST_SECONDS / 3600.0;
+            return Some(format!(
+                "it would take about {:.0} hours on one core, allowed are {limit:.0}; {change}",
+                self.seconds / 3600.0
+            ));
+        }
+        (self.bytes > MOST_BYTES).then(|| {
+            format!(
+                "it would take about {:.0} GB of memory, allowed are {:.0}; {change}",
+                self.bytes / 1e9,
+                MOST_BYTES / 1e9
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::read::read_design;
+    use crate::fidelity::choose;
+
+    #[test]
+    fn the_estimate_knows_the_grains_and_refuses_what_is_too_much() {
+        let mut design = read_design("x", include_bytes!("../../designs/site_a.yaml")).unwrap().design;
+        let first = estimate(&design, &choose(&design));
+        assert!((first.grains - 2646.0).abs() < 10.0 && first.spheres == 2.0 * first.grains, "{first:?}");
+        assert_eq!(first.too_much(), None);
+        design.flow.sizes = design.flow.sizes.scaled(0.05);
+        assert!(estimate(&design, &choose(&design)).too_much().is_some());
+    }
+}
