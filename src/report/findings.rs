@@ -9,6 +9,7 @@ use crate::design::Design;
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, Simulated};
 use crate::report::numbers::with_unit;
+use crate::report::validation::Kept;
 use crate::report::view::Row;
 use crate::starts::{Spread, k_n};
 use crate::units::GRAVITY;
@@ -196,6 +197,7 @@ pub fn numerics_rows(run: &Simulated) -> Vec<Row> {
             "of the bulk density asked for at the start; less where the grains are large against the block",
         ),
         seed_row(run),
+        validation_row(),
         row(
             "Smoothing",
             format!("{:.0} ms", 1e3 * facts.smoothing),
@@ -256,6 +258,24 @@ pub struct ClimbRow {
     pub said: String,
     pub governing: String,
     pub open: String,
+}
+
+/// What the validation of the program came to.
+fn validation_row() -> Row {
+    let Some(kept) = Kept::of_this_version() else {
+        return row("Validation of this program", "unknown", "no outcome is kept with it");
+    };
+    let failed: Vec<String> =
+        kept.cases.iter().filter(|case| !case.held).map(|case| format!("{} ({})", case.id, case.title)).collect();
+    let remark = match failed.as_slice() {
+        [] => format!("all cases, run at commit {}", kept.commit),
+        failed => format!("at commit {}; not held: {}", kept.commit, failed.join("; ")),
+    };
+    row(
+        "Validation of this program",
+        format!("{} of {} cases hold", kept.cases.len() - failed.len(), kept.cases.len()),
+        remark,
+    )
 }
 
 fn seed_row(run: &Simulated) -> Row {

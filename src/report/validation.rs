@@ -1,6 +1,6 @@
 //! The report of validation cases.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tera::{Context, Tera};
 
 use crate::commands::validate::Ran;
@@ -83,6 +83,34 @@ fn number(value: f64) -> String {
     }
 }
 
+/// What a validation came to, as it is kept with the program.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Kept {
+    /// Of the program that was validated.
+    pub commit: String,
+    pub cases: Vec<KeptCase>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub struct KeptCase {
+    pub id: String,
+    pub title: String,
+    pub held: bool,
+}
+
+impl Kept {
+    /// Of the whole set, at the last commit at which it ran: a copy of the `outcome.json` that `barrier-check validate` writes.
+    pub fn of_this_version() -> Option<Self> {
+        serde_json::from_str(include_str!("../../templates/validation_outcome.json")).ok()
+    }
+
+    fn of(rows: &[Row]) -> Self {
+        let case =
+            |row: &Row| KeptCase { id: row.id.to_string(), title: row.title.to_string(), held: row.verdict == "pass" };
+        Self { commit: env!("BARRIER_CHECK_COMMIT").to_string(), cases: rows.iter().map(case).collect() }
+    }
+}
+
 /// How many cases hold.
 pub fn verdict_line(rows: &[Row]) -> String {
     let passed = rows.iter().filter(|row| row.verdict == "pass").count();
@@ -98,5 +126,6 @@ pub fn render(rows: &[Row]) -> Result<Vec<ReportFile>, tera::Error> {
     context.insert("verdict_line", &verdict_line(rows));
     context.insert("version", env!("CARGO_PKG_VERSION"));
     let file = |name| tera.render(name, &context).map(|text| ReportFile::new(name, text));
-    Ok(vec![file("validation.html")?, file("validation.md")?])
+    let kept = serde_json::to_string_pretty(&Kept::of(rows)).unwrap_or_default() + "\n";
+    Ok(vec![file("validation.html")?, file("validation.md")?, ReportFile::new("outcome.json", kept)])
 }
