@@ -29,6 +29,8 @@ pub struct CaseRow {
     pub working: String,
     pub remark: String,
     pub source: String,
+    /// Name of the picture's file beside the Markdown report.
+    pub file: String,
     pub svg: String,
 }
 
@@ -90,6 +92,7 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
         working: working(run, case),
         remark: remark(run, case),
         source: format!("{}; {}", case.source, case.certainty.word()),
+        file: format!("case_{}.svg", case.id),
         svg: pressure_diagram(&case.diagram, highest, tallest),
     };
     run.guideline.cases.iter().map(row).collect()

@@ -31,9 +31,14 @@ pub struct Chart {
 impl Chart {
     /// The picture as a file that stands alone.
     pub fn alone(&self) -> String {
-        let styled = self.svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1);
-        styled.replacen('>', &format!("><style>{PICTURE_STYLE}</style>"), 1) + "\n"
+        alone(&self.svg)
     }
+}
+
+/// A picture of the page as a file that stands alone.
+pub fn alone(svg: &str) -> String {
+    let styled = svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1);
+    styled.replacen('>', &format!("><style>{PICTURE_STYLE}</style>"), 1) + "\n"
 }
 
 pub const PICTURE_STYLE: &str = include_str!("../../templates/pictures.css");

@@ -145,7 +145,8 @@ impl View {
     pub fn pictures(&self) -> Vec<(String, String)> {
         let pictures =
             self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation).chain(&self.utilisation);
-        pictures.map(|chart| (chart.file.clone(), chart.alone())).collect()
+        let cases = self.cases.iter().map(|case| (case.file.clone(), pictures::alone(&case.svg)));
+        pictures.map(|chart| (chart.file.clone(), chart.alone())).chain(cases).collect()
     }
 }
 
