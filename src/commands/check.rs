@@ -62,6 +62,11 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
         println!("                  about {} on {cores} cores", duration(seconds * starts / (0.8 * cores as f64)));
     }
     println!("memory            about {:.0} MB for each start", bytes / 1e6);
+    if file.design.simulation.fidelity == FidelityWish::Auto {
+        println!(
+            "fidelity: auto    this is one start; a marginal design takes up to eleven, five of them of the finest model"
+        );
+    }
     match estimate(&file.design, &fidelity).too_much() {
         Some(reason) => {
             eprintln!("error: this design is not run: {reason}");
@@ -107,10 +112,17 @@ fn report_on(
         eprintln!("error: {} is a file; --out needs a folder", folder.display());
         return ExitCode::Undecided;
     }
+    // Before the run, so that nobody waits for what cannot be kept.
+    if let Err(error) = std::fs::create_dir_all(&folder) {
+        eprintln!("error: the report could not be written to {}: {error}", folder.display());
+        return ExitCode::Undecided;
+    }
     let result = match work(file) {
         Ok(run) => run,
         Err(error) => {
             eprintln!("error: {error}");
+            // Goes only if it is empty.
+            let _ = std::fs::remove_dir(&folder);
             tell_of_earlier_run(&folder);
             return ExitCode::Undecided;
         }

@@ -74,6 +74,11 @@ fn summarise(view: &View, folder: &Path) {
         say(format!("{:<5} {:>6}  {}", check.verdict.to_uppercase(), check.utilisation, check.title));
     }
     say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
+    for more in [&view.margin, &view.why_enough] {
+        if !more.is_empty() {
+            say(format!("  {more}"));
+        }
+    }
     for doubt in &view.doubts {
         say(format!("  {doubt}"));
     }

@@ -99,7 +99,10 @@ fn head(variant: &Variant, letter: char) -> Head {
     Head {
         letter,
         name: variant.run.file.name.clone(),
-        title: format!("{}: {}", project.name, project.barrier),
+        title: match &variant.run.simulated {
+            Some(_) => format!("{}: {}", project.name, project.barrier),
+            None => format!("{}: {} (equations alone)", project.name, project.barrier),
+        },
         folder: variant.folder.clone(),
         verdict: variant.run.verdict.word(),
         verdict_line: summary(&variant.run),
@@ -126,7 +129,11 @@ fn check_lines(variants: &[Variant]) -> Vec<Line> {
 
 fn check_cell(outcome: &Option<Outcome>) -> Cell {
     let Some(outcome) = outcome else { return Cell { text: "–".into(), ..Cell::default() } };
-    let demand = outcome.demand.simulation.or(outcome.demand.guideline);
+    // A least share is judged by the simulation alone, all else by the larger of both.
+    let demand = match outcome.resistance {
+        Some(_) => outcome.demand.largest(),
+        None => outcome.demand.simulation.or(outcome.demand.guideline),
+    };
     let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit));
     Cell { text, class: outcome.verdict.word(), change: percent(outcome.utilisation) }
 }

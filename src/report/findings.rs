@@ -240,7 +240,7 @@ pub fn why_enough(run: &Run) -> String {
             rung.name
         ),
         true => format!(
-            "Enough is \"{}\": even with forces {:.0} %, strokes {:.0} % and shares {:.0} points off, which is as far as this rung is known to be, no verdict would change, or one check fails for certain.",
+            "Enough is \"{}\": a finer model may differ from it by {:.0} % in forces, {:.0} % in strokes and {:.0} points in shares, and even so the verdict stands.",
             rung.name,
             100.0 * rung.band.force,
             100.0 * rung.band.stroke,

@@ -99,7 +99,10 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
         (true, "scour, abutments and foundations"),
         (true, "corrosion, abrasion and maintenance"),
         (net, "the rings; punching of the mesh by a single stone"),
-        (bolts, "the bolts or anchors that hold the lowest rope to the bed"),
+        (
+            bolts,
+            "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_resistance would have them checked)",
+        ),
         (loads.point_load.is_none(), "impact of single boulders larger than the design grains, and of wood"),
         (loads.drained.is_none(), "drainage of the deposit"),
         (loads.snow_pressure.is_none(), "snow"),

@@ -242,7 +242,7 @@ pub fn summary(run: &Run) -> String {
             let unjudged = run.outcomes.iter().filter(unjudged).count();
             let alone = match &run.simulated {
                 None => format!(" by the equations alone; {unjudged} more need the simulation"),
-                Some(simulated) if simulated.starts.len() == 1 => {
+                Some(simulated) if simulated.starts.len() == 1 && run.climb.is_empty() => {
                     "; one start, so its scatter is not known (--seeds)".to_string()
                 }
                 Some(_) => String::new(),

@@ -41,7 +41,7 @@ pub struct StabilityPlan {
 
 impl StabilityPlan {
     fn wrong(&self) -> Vec<String> {
-        let mut wrong = Vec::new();
+        let mut wrong = wrong_name(&self.name);
         if !(100..=10_000_000).contains(&self.steps) {
             wrong.push(format!("steps: found {}, allowed 100 to 10000000", self.steps));
         }
@@ -74,6 +74,13 @@ pub struct Plan {
     pub reference: BTreeMap<Knob, f64>,
 }
 
+/// The name becomes that of a folder.
+fn wrong_name(name: &str) -> Vec<String> {
+    let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+    let good = !name.is_empty() && name.len() <= 60 && name.chars().all(fits);
+    if good { Vec::new() } else { vec![format!("name: found {name:?}, allowed 1 to 60 letters, digits, _ and -")] }
+}
+
 /// Most starts and values, so that a slip of the hand does not run for days.
 const MOST_STARTS: u32 = 100;
 const MOST_VALUES: usize = 20;
@@ -81,7 +88,7 @@ const MOST_VALUES: usize = 20;
 impl Plan {
     fn wrong(&self) -> Vec<String> {
         let plan = self;
-        let mut wrong = Vec::new();
+        let mut wrong = wrong_name(&self.name);
         if plan.scenes.is_empty() {
             wrong.push("scenes: one at least".to_string());
         }
@@ -119,5 +126,6 @@ mod tests {
         let map = include_str!("../../designs/studies/stability.yaml");
         assert!(Study::read(map).is_ok());
         assert!(Study::read(&map.replace("[0.1, ", "[5, ")).is_err());
+        assert!(Study::read(&map.replace("name: stability", "name: ../../outside")).is_err());
     }
 }
