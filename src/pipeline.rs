@@ -16,9 +16,10 @@ use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::{Guideline, guideline};
 use crate::design::Design;
 use crate::design::read::DesignFile;
-use crate::fidelity::ladder::{RUNGS, Step};
+use crate::fidelity::ladder::{RUNGS, Rung, Step};
 use crate::fidelity::{Fidelity, choose};
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
+use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Watch, run as run_event};
 use crate::scene::flow::packing::PackingError;
 use crate::sensitivity::simulated::{swings, variants};
@@ -135,6 +136,8 @@ pub enum RunError {
     Interrupted,
     #[error("the flow could not be prepared: {0}")]
     Preparation(#[from] PackingError),
+    #[error("this design is not run: {0}")]
+    TooMuch(String),
 }
 
 /// By equations alone: loads, ropes, checks.
@@ -155,7 +158,14 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
     let runs = if starts < 2 {
         vec![simulate(design, &fidelity, &guideline, seed(0), watch)]
     } else {
-        side_by_side(threads, starts as usize, |index| simulate(design, &fidelity, &guideline, seed(index), watch))
+        side_by_side(threads, starts as usize, |index| {
+            let mut simulated = simulate(design, &fidelity, &guideline, seed(index), watch)?;
+            // The first start is told in full; of the others what was observed.
+            if index > 0 {
+                simulated.histories = Histories::default();
+            }
+            Ok(simulated)
+        })
     };
     let mut runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
     let doubts = runs.iter().flat_map(|run| doubts_of(run, runs.len())).collect();
@@ -184,35 +194,40 @@ pub fn restore(mut file: DesignFile, simulated: Option<Simulated>, varied: Vec<S
 /// of those rungs that have several. The file's design becomes that of the last rung.
 pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
     let asked = file.design.clone();
-    let mut steps: Vec<Step> = Vec::new();
-    let fitting: Vec<usize> = (0..RUNGS.len()).filter(|rung| RUNGS[*rung].suits(&asked)).collect();
-    for (place, &number) in fitting.iter().enumerate() {
+    let fits = |rung: &Rung| {
+        let design = rung.of(&asked);
+        rung.suits(&asked) && (!rung.may_be_left_out || estimate(&design, &choose(&design)).too_much().is_none())
+    };
+    let fitting: Vec<usize> = (0..RUNGS.len()).filter(|number| fits(&RUNGS[*number])).collect();
+    let mut now = by_equations(file.clone());
+    for number in fitting {
         let rung = &RUNGS[number];
         let started = Instant::now();
         let file = DesignFile { design: rung.of(&asked), ..file.clone() };
-        let mut now = match rung.starts {
+        let climbed = std::mem::take(&mut now.climb);
+        now = match rung.starts {
             0 => by_equations(file),
             1 => run(file, 1, watch)?,
             several => run(file, several.max(starts), watch)?,
         };
-        let last = place + 1 == fitting.len();
+        now.climb = climbed;
         let mut open = rung.open(&now.outcomes);
         if !now.doubts.is_empty() {
             open.insert(0, "the run itself, which cannot be relied on".to_string());
         }
-        steps.push(Step {
+        let decided = open.is_empty();
+        now.climb.push(Step {
             rung: number,
             wall_clock: started.elapsed().as_secs_f64(),
             said: now.verdict.word().to_string(),
             governing: governing(&now.outcomes),
             open,
         });
-        if last || steps.last().is_some_and(|step| step.open.is_empty()) {
-            now.climb = steps;
-            return Ok(now);
+        if decided {
+            break;
         }
     }
-    unreachable!("the rung of the grains suits every design")
+    Ok(now)
 }
 
 /// The check that uses most of what it has, with how much.
@@ -266,6 +281,9 @@ pub fn simulate(
     seed: u64,
     watch: &Watch,
 ) -> Result<Simulated, RunError> {
+    if let Some(reason) = estimate(design, fidelity).too_much() {
+        return Err(RunError::TooMuch(reason));
+    }
     crew::gather(|| {
         let started = Instant::now();
         let scene = build(design, fidelity, seed)?;

@@ -51,7 +51,8 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
         }
     };
     let fidelity = choose(&file.design);
-    let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate(&file.design, &fidelity);
+    let estimate = estimate(&file.design, &fidelity);
+    let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate;
     let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let starts = f64::from(wishes.starts);
     println!("grains            {grains:.0} of {spheres:.0} spheres");
@@ -67,7 +68,7 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
             "fidelity: auto    this is one start; a marginal design takes up to eleven, five of them of the finest model"
         );
     }
-    match estimate(&file.design, &fidelity).too_much() {
+    match estimate.too_much() {
         Some(reason) => {
             eprintln!("error: this design is not run: {reason}");
             ExitCode::Undecided
@@ -112,6 +113,7 @@ fn report_on(
         eprintln!("error: {} is a file; --out needs a folder", folder.display());
         return ExitCode::Undecided;
     }
+    let there_before = folder.exists();
     // Before the run, so that nobody waits for what cannot be kept.
     if let Err(error) = std::fs::create_dir_all(&folder) {
         eprintln!("error: the report could not be written to {}: {error}", folder.display());
@@ -121,8 +123,9 @@ fn report_on(
         Ok(run) => run,
         Err(error) => {
             eprintln!("error: {error}");
-            // Goes only if it is empty.
-            let _ = std::fs::remove_dir(&folder);
+            if !there_before {
+                let _ = std::fs::remove_dir(&folder);
+            }
             tell_of_earlier_run(&folder);
             return ExitCode::Undecided;
         }
@@ -152,9 +155,6 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
 pub fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
-    if let Some(reason) = estimate(&file.design, &choose(&file.design)).too_much() {
-        return Err(format!("this design is not run: {reason}").into());
-    }
     // Set once; that it cannot be set again for the next of several designs is no matter.
     let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
     let bar = Mutex::new(progress_bar());

@@ -1,5 +1,6 @@
 //! What a run will take, before it is made: grains, steps, time, memory.
 
+use crate::dem::recorders::film::bytes_of;
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::Fidelity;
 use crate::scene::build::expected_time;
@@ -29,9 +30,8 @@ const SEGMENT: f64 = 14e-9;
 const CYLINDER: f64 = 27e-9;
 /// Steps of the barrier in one of the grains' with cylinders: 4 in `site_a`.
 const PARTS: f64 = 4.0;
-/// Memory of a sphere with its lists, of a grain and of an element in the film's frames (bytes).
+/// Memory of a sphere with its lists (bench: 441 to 660), and of an element with its places in the film (bytes).
 const PER_SPHERE: f64 = 700.0;
-const PER_POSE: f64 = 128.0 * 44.0;
 const PER_ELEMENT: f64 = 128.0 * 10.0 + 600.0;
 /// What the program takes anyway.
 const BASE: f64 = 40e6;
@@ -63,7 +63,7 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
         simulated,
         steps,
         seconds: steps * (spheres * SPHERE + of_elements),
-        bytes: BASE + spheres * PER_SPHERE + grains * PER_POSE + elements * PER_ELEMENT,
+        bytes: BASE + spheres * PER_SPHERE + bytes_of(grains as usize) as f64 + elements * PER_ELEMENT,
     }
 }
 

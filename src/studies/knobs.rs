@@ -67,8 +67,8 @@ impl Knob {
         }
     }
 
-    /// The design and how finely it is modelled with the knob at `value`.
-    pub fn set(self, design: &mut Design, value: f64) -> Fidelity {
+    /// Puts the knob to `value` in the design, where it is one of the design's.
+    fn change(self, design: &mut Design, value: f64) {
         match self {
             Self::Step | Self::Skin => {}
             Self::Stiffness => design.flow.modulus *= value,
@@ -81,13 +81,15 @@ impl Knob {
                 }
             }
         }
-        let mut fidelity = choose(design);
+    }
+
+    /// Puts the knob to `value` in how finely the design is modelled, where it is one of that.
+    fn refine(self, fidelity: &mut Fidelity, design: &Design, value: f64) {
         match self {
             Self::Step => fidelity.time_step *= value / step_share(design.simulation.fidelity).1,
             Self::Skin => fidelity.skin_share = value,
             _ => {}
         }
-        fidelity
     }
 
     /// A value as a person reads it.
@@ -103,10 +105,37 @@ impl Knob {
     }
 }
 
+/// The design and how finely it is modelled with all the knobs put to their values.
+pub fn turn(design: &Design, knobs: &[(Knob, f64)]) -> (Design, Fidelity) {
+    let mut design = design.clone();
+    knobs.iter().for_each(|(knob, value)| knob.change(&mut design, *value));
+    let mut fidelity = choose(&design);
+    knobs.iter().for_each(|(knob, value)| knob.refine(&mut fidelity, &design, *value));
+    (design, fidelity)
+}
+
 fn model_of(value: f64) -> BarrierModel {
     match value {
         value if value < 1.5 => BarrierModel::PinnedRopes,
         value if value < 2.5 => BarrierModel::SlidingRopes,
         _ => BarrierModel::Cylinders,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::read::read_design;
+
+    #[test]
+    fn knobs_turn_together_in_any_order() {
+        let design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let both = [(Knob::Step, 0.1), (Knob::Stiffness, 4.0)];
+        let (stiff, fine) = turn(&design, &both);
+        assert_eq!(turn(&design, &[both[1], both[0]]), (stiff.clone(), fine.clone()));
+        assert_eq!(stiff.flow.modulus, 4.0 * design.flow.modulus);
+        // A quarter of the share, and half of the critical step: both are read to two digits.
+        let ratio = choose(&design).time_step / fine.time_step;
+        assert!((ratio / 8.0 - 1.0).abs() < 0.1, "{ratio}");
     }
 }

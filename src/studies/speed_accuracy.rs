@@ -8,7 +8,7 @@ use crate::design::read::DesignFile;
 use crate::pipeline::{RunError, Simulated, simulate};
 use crate::scene::event::Watch;
 use crate::starts::Spread;
-use crate::studies::knobs::Knob;
+use crate::studies::knobs::{Knob, turn};
 use crate::studies::plan::Plan;
 
 /// What one run says and costs. All that is kept of it.
@@ -119,22 +119,11 @@ pub fn tasks(plan: &Plan, scenes: &[DesignFile]) -> Vec<Task> {
 
 /// Makes one run.
 pub fn make(task: &Task, design: &Design, watch: &Watch) -> Result<Point, RunError> {
-    let mut design = design.clone();
-    let mut fidelity = crate::fidelity::choose(&design);
-    match &task.setting {
-        Setting::AsItIs => {}
-        Setting::Turned(knob, value) => fidelity = knob.set(&mut design, *value),
-        Setting::Reference(values) => {
-            for (knob, value) in values {
-                let turned = knob.set(&mut design, *value);
-                match knob {
-                    Knob::Step => fidelity.time_step = turned.time_step,
-                    Knob::Skin => fidelity.skin_share = turned.skin_share,
-                    _ => fidelity = turned,
-                }
-            }
-        }
-    }
+    let (design, fidelity) = match &task.setting {
+        Setting::AsItIs => turn(design, &[]),
+        Setting::Turned(knob, value) => turn(design, &[(*knob, *value)]),
+        Setting::Reference(values) => turn(design, values),
+    };
     Ok(Point::of(&simulate(&design, &fidelity, &guideline(&design), task.seed, watch)?))
 }
 
@@ -153,7 +142,7 @@ pub struct Told {
 }
 
 impl Told {
-    /// Largest error over the observables, each less its standard error: what is certainly off.
+    /// Largest error over the observables.
     pub fn error(&self) -> f64 {
         self.errors.iter().map(|(_, error, _)| error.abs()).fold(0.0, f64::max)
     }

@@ -10,6 +10,20 @@ use crate::dem::tables::surfaces::SurfaceRole;
 
 /// Frames kept at the most; when there are as many, every other one goes, and from then on half as many are taken.
 const MOST_FRAMES: usize = 128;
+/// Of scenes so large that they would take more than this (bytes), fewer are kept, but so many in any case.
+const MOST_BYTES: usize = 256 << 20;
+const FEWEST_FRAMES: usize = 24;
+
+/// Frames kept of so many grains at the most; an even number.
+fn most_frames(grains: usize) -> usize {
+    let fitting = MOST_BYTES / (grains * size_of::<Option<Pose>>()).max(1);
+    fitting.clamp(FEWEST_FRAMES, MOST_FRAMES) / 2 * 2
+}
+
+/// Bytes that the film of so many grains takes at the most.
+pub fn bytes_of(grains: usize) -> usize {
+    most_frames(grains) * grains * size_of::<Option<Pose>>()
+}
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Film {
@@ -60,7 +74,7 @@ impl Film {
         if self.frames.is_empty() {
             self.introduce(simulation, grains);
         }
-        if self.frames.len() == MOST_FRAMES {
+        if self.frames.len() >= most_frames(self.looks.len()) {
             let mut place = 0;
             self.frames.retain(|_| {
                 place += 1;
