@@ -354,3 +354,63 @@ fn ropes_that_are_not_touched_take_no_part() {
         assert_relative_eq!(push_at(x), beside, max_relative = 1e-9);
     }
 }
+
+/// What a dissipator has paid out lies in the way of grains: one that flies against its middle comes back.
+#[test]
+fn grains_meet_what_a_dissipator_has_paid_out() {
+    let mut barrier = Barrier::default();
+    barrier.contact_modulus = 4e9;
+    barrier.nodes = vec![node(Vec3::zeros(), 1.0, true), node(Vec3::y() * 2.0, 1.0, true)];
+    barrier.dissipators = vec![Dissipator {
+        nodes: [0, 1],
+        rope: 0,
+        rest_length: 0.07,
+        radius: 0.016,
+        stiffness: 46e6,
+        plateau: 250e3,
+        stroke: 2.5,
+        used: 1.9,
+    }];
+    barrier.connect();
+    let mut grain = ball(0, Vec3::new(-0.1, 1.0, 0.0), 0.05, 2600.0);
+    grain.velocity = Vec3::x() * 2.0;
+    let model = Model { barrier: Some(barrier), ..free_model(vec![grain], GrainShape::Sphere) };
+    let mut simulation = Simulation::new(model, 1e-5, 0.02, 1e3);
+    for _ in 0..10_000 {
+        simulation.step().expect("stable");
+    }
+    assert!(simulation.grains.grain(0).velocity.x < 0.0, "the grain went through");
+    assert_eq!(simulation.extremes.crossings, 0);
+}
+
+/// The loss of a rope that slides belongs to the barrier's own step: the account closes as well where the barrier takes several in
+/// one of the grains'.
+#[test]
+fn the_account_of_a_sliding_rope_closes_in_any_number_of_steps() {
+    let imbalance = |parts: u32| {
+        let mut barrier = Barrier::default();
+        barrier.nodes = vec![
+            node(Vec3::zeros(), 1.0, true),
+            node(Vec3::new(1.0, 0.0, 0.0), 50.0, false),
+            node(Vec3::new(2.5, 0.0, 0.0), 80.0, false),
+            node(Vec3::new(4.0, 0.0, 0.0), 1.0, true),
+        ];
+        barrier.segments = vec![segment([0, 1], 1.0, 0.0), segment([1, 2], 1.5, 0.0), segment([2, 3], 1.5, 0.0)];
+        barrier.chains = vec![Chain { segments: vec![0, 1, 2], friction: 0.1, shortest: 0.2 }];
+        let mut simulation = simulate(barrier, Vec3::new(0.0, 0.0, -9.81), 2e-4 * f64::from(parts));
+        simulation.barrier_parts = parts;
+        simulation.step_and_account().expect("stable");
+        let start = simulation.ledger;
+        let mut worst: f64 = 0.0;
+        for _ in 0..8000 / parts {
+            simulation.step_and_account().expect("stable");
+            worst = worst.max(simulation.ledger.relative_error(&start).abs());
+        }
+        assert!(simulation.ledger.lost_friction > 0.01 * start.potential.abs().max(1.0), "nothing slid");
+        worst
+    };
+    for parts in [1, 4] {
+        let found = imbalance(parts);
+        assert!(found < 0.004, "{parts} steps in one: {found}");
+    }
+}

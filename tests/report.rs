@@ -1,7 +1,7 @@
 //! The report of a recorded run: its words by snapshot, its page in a browser.
 //!
 //! `fixtures/tiny.bin` is the recording of `fixtures/tiny.yaml`. When the format of recordings changes, make it anew:
-//! `cargo run --release -- tests/fixtures/tiny.yaml --seeds 2 --threads 1 --out /tmp/tiny && cp /tmp/tiny/recording.bin tests/fixtures/tiny.bin`
+//! `cargo run --release -- tests/fixtures/tiny.yaml --seeds 2 --threads 1 --out out/tiny && cp out/tiny/recording.bin tests/fixtures/tiny.bin`
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -18,7 +18,7 @@ use crate::starts::side_by_side;
 use crate::studies::knobs::Knob;
 use crate::studies::plan::{Plan, StabilityPlan, Study};
 use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
-use crate::studies::stability::{SCENES, SHARP, map};
+use crate::studies::stability::{SCENES, map};
 
 /// Runs what is not kept yet, and writes the page below `out`.
 pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
@@ -59,14 +59,8 @@ fn stability_map(plan: &StabilityPlan, folder: &Path) -> Result<PathBuf, Failure
     let mapped = side_by_side(threads, SCENES.len(), |index| map(&SCENES[index], &plan.shares, plan.steps));
     write_all(folder, &map_files(&plan.name, &mapped).map_err(|error| error.to_string())?)?;
     for scene in &mapped {
-        let verdict = match (scene.linear, scene.safe(), scene.sharpness() >= SHARP) {
-            (false, ..) => "not of the scene as built",
-            (_, false, _) => "NOT SAFE",
-            (_, true, false) => "safe, not sharp",
-            (_, true, true) => "safe and sharp",
-        };
         let caught = if scene.all_caught() { "all caught" } else { "NOT ALL CAUGHT" };
-        println!("{:<22} estimate over true limit {:.2}: {verdict}; {caught}", scene.name, scene.sharpness());
+        println!("{:<22} estimate over true limit {:.2}: {}; {caught}", scene.name, scene.sharpness(), scene.word());
     }
     Ok(folder.join("stability.html"))
 }

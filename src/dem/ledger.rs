@@ -95,3 +95,17 @@ impl Ledger {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn energy_from_dashpots_is_energy_from_nowhere() {
+        let start = Ledger { kinetic: 100.0, ..Ledger::default() };
+        let lost = Ledger { kinetic: 90.0, lost_damping: 10.0, ..Ledger::default() };
+        let gained = Ledger { kinetic: 105.0, lost_damping: -5.0, ..Ledger::default() };
+        assert_eq!(lost.relative_error(&start), 0.0);
+        assert_eq!(gained.relative_error(&start), 0.05);
+    }
+}

@@ -266,12 +266,11 @@ impl Simulation {
     /// Holds the time step against what is connected now, and cuts it where it is too long.
     fn audit(&mut self) -> Result<(), Unstable> {
         let barrier = self.model.barrier.as_ref();
-        let mut links = self.linked(self.law()).contacts();
-        let within = self.linked(self.barrier_law()).within_barrier();
         let ratio = if self.barrier_parts == 1 {
-            links.extend(within);
-            step_ratio(&links, &self.grains, barrier, self.time_step)
+            self.whole_ratio()
         } else {
+            let links = self.linked(self.law()).contacts();
+            let within = self.linked(self.barrier_law()).within_barrier();
             let mut own = step_ratio(&within, &self.grains, barrier, self.barrier_law().time_step);
             let grains = step_ratio(&links, &self.grains, barrier, self.time_step);
             if own.value > 1.0 && own.value.is_finite() {
@@ -299,9 +298,14 @@ impl Simulation {
         if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
             self.renew();
         }
+        self.whole_ratio().value
+    }
+
+    /// Step over critical step of grains and barrier in one.
+    fn whole_ratio(&self) -> StepRatio {
         let mut links = self.linked(self.law()).contacts();
         links.extend(self.linked(self.barrier_law()).within_barrier());
-        step_ratio(&links, &self.grains, self.model.barrier.as_ref(), self.time_step).value
+        step_ratio(&links, &self.grains, self.model.barrier.as_ref(), self.time_step)
     }
 
     fn note_ratio(&mut self, ratio: StepRatio) {

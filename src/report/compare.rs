@@ -9,9 +9,9 @@ use crate::dem::recorders::histories::smoothed;
 use crate::pipeline::{Run, Simulated};
 use crate::report::findings::over_starts;
 use crate::report::numbers::{percent, with_scatter, with_unit};
-use crate::report::pictures::{Chart, PICTURE_STYLE};
+use crate::report::pictures::Chart;
 use crate::report::plots::line_chart::{LineChart, Series, resampled};
-use crate::report::render::{PAGE_STYLE, Rendered, render_as};
+use crate::report::render::{Rendered, render_as};
 use crate::report::view::summary;
 use crate::report::write::ReportFile;
 use crate::scene::build::SAMPLES_PER_WINDOW;
@@ -44,9 +44,6 @@ struct Page {
     charts: Vec<Chart>,
     /// When a difference is marked.
     marking: String,
-    version: &'static str,
-    page_style: &'static str,
-    picture_style: &'static str,
 }
 
 #[derive(Debug, Serialize)]
@@ -84,9 +81,6 @@ pub fn files(variants: &[Variant]) -> Result<Vec<ReportFile>, tera::Error> {
         inputs: input_lines(variants),
         charts: charts(variants),
         marking: marking(variants),
-        version: env!("CARGO_PKG_VERSION"),
-        page_style: PAGE_STYLE,
-        picture_style: PICTURE_STYLE,
     };
     let Rendered { html, markdown } = render_as("page", &page, [HTML, MARKDOWN])?;
     let mut files = vec![ReportFile::new("compare.html", html), ReportFile::new("compare.md", markdown)];

@@ -8,6 +8,11 @@ pub fn percent(share: Option<f64>) -> String {
     }
 }
 
+/// Text as a field of a CSV file.
+pub fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
 /// A value with the unit a person would use.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {

@@ -29,6 +29,11 @@ pub struct Chart {
 }
 
 impl Chart {
+    /// A picture whose file is called as its title is.
+    fn of(title: &'static str, svg: String, note: impl Into<String>) -> Self {
+        Self { title, file: file_name(title), svg, note: note.into() }
+    }
+
     /// The picture as a file that stands alone.
     pub fn alone(&self) -> String {
         alone(&self.svg)
@@ -74,13 +79,8 @@ pub fn utilisation_chart(run: &Run) -> Option<Chart> {
         Some(Bar { label: outcome.title.clone(), used, class: outcome.verdict.word() })
     };
     let bars: Vec<Bar> = judged.filter_map(bar).take(MOST_BARS).collect();
-    let title = "Utilisation of the checks";
-    (!bars.is_empty()).then(|| Chart {
-        title,
-        file: file_name(title),
-        svg: utilisation(&bars),
-        note: "Demand over capacity; of guideline and simulation the larger.".into(),
-    })
+    let note = "Demand over capacity; of guideline and simulation the larger.";
+    (!bars.is_empty()).then(|| Chart::of("Utilisation of the checks", utilisation(&bars), note))
 }
 
 /// Bars in the picture of utilisations.
@@ -115,9 +115,8 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         levels: vec![Level { label: "resistance".into(), value: net.anchor_resistance }],
         band: None,
     };
-    let title = "Anchors";
-    let note = "The higher loaded anchor of each main rope, without partial factors.".into();
-    Some(Chart { title, file: file_name(title), svg: chart.svg(), note })
+    let note = "The higher loaded anchor of each main rope, without partial factors.";
+    Some(Chart::of("Anchors", chart.svg(), note))
 }
 
 /// Force on the segments of a rigid wall, and its moment.
@@ -136,7 +135,7 @@ fn wall_charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
         let (unit, factor) = if largest < 2000.0 { (units[0], 1.0) } else { (units[1], 1e-3) };
         let time = &histories.time;
         let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new(), band: None }.svg();
-        Chart { title, file: file_name(title), svg, note: note.into() }
+        Chart::of(title, svg, note)
     };
     let segment = |(index, values)| Series { label: format!("segment {}", index + 1), values, colour: index % 6 };
     let of_segments = segments.iter().map(Vec::as_slice).enumerate().map(segment).collect();
@@ -178,9 +177,8 @@ fn energy_chart(seen: &Simulated) -> Chart {
         levels: Vec::new(),
         band: None,
     };
-    let title = "Energy account";
     let note = "Lost in contacts: by impacts and by friction; the rest goes into dissipators and the damping of ropes. Energy that departed grains carry is taken off what falling has released.";
-    Chart { title, file: file_name(title), svg: chart.svg(), note: note.into() }
+    Chart::of("Energy account", chart.svg(), note)
 }
 
 /// The slice along the middle at every moment kept.
@@ -239,7 +237,7 @@ pub fn profiles(run: &Run, seen: &Simulated) -> Vec<Chart> {
             with_unit(velocity, "m/s")
         );
         let svg = profile(&snapshot.touches, run.guideline.width, input.barrier_height, &diagram);
-        Some(Chart { title, file: file_name(title), svg, note })
+        Some(Chart::of(title, svg, note))
     };
     seen.histories.snapshots.iter().filter_map(chart).collect()
 }
@@ -299,12 +297,7 @@ fn split_chart(seen: &Simulated) -> Chart {
         band: None,
     };
     let note = "By grains at rest and by moving grains that touch the barrier; the guideline with the design's K and λ, the depths seen, and the mean velocity of all grains.";
-    Chart {
-        title: "Deposit and moving flow",
-        file: file_name("Deposit and moving flow"),
-        svg: chart.svg(),
-        note: note.into(),
-    }
+    Chart::of("Deposit and moving flow", chart.svg(), note)
 }
 
 /// K and λ beyond this are cut off in the chart.
@@ -335,7 +328,7 @@ fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
     let note = format!(
         "λ with the velocity just upstream; left out where the depth is less than a grain, the flow has all but stopped, or the value is above {HIGHEST_COEFFICIENT:.0}."
     );
-    Chart { title: "K and λ over time", file: file_name("K and λ over time"), svg: chart.svg(), note }
+    Chart::of("K and λ over time", chart.svg(), note)
 }
 
 fn force_chart(run: &Run, seen: &Simulated) -> Chart {
@@ -358,7 +351,7 @@ fn force_chart(run: &Run, seen: &Simulated) -> Chart {
     };
     let band = if seen.starts.len() > 1 { " Band: all starts." } else { "" };
     let note = format!("Mean over {:.0} ms. Dashed: guideline.{band}", 1e3 * seen.facts.smoothing);
-    Chart { title: "Force on the barrier", file: file_name("Force on the barrier"), svg: chart.svg(), note }
+    Chart::of("Force on the barrier", chart.svg(), note)
 }
 
 fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
@@ -376,12 +369,7 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
         levels: vec![Level { label: "limit".into(), value: run.file.design.limits.retained_mass }],
         band: None,
     };
-    Chart {
-        title: "Retained mass",
-        file: file_name("Retained mass"),
-        svg: chart.svg(),
-        note: "At rest: slower than 5 % of the highest mean velocity.".into(),
-    }
+    Chart::of("Retained mass", chart.svg(), "At rest: slower than 5 % of the highest mean velocity.")
 }
 
 fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
@@ -398,12 +386,7 @@ fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
         levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
         band: None,
     };
-    Chart {
-        title: "Dissipators",
-        file: file_name("Dissipators"),
-        svg: chart.svg(),
-        note: "The longer of the two strokes of each main rope.".into(),
-    }
+    Chart::of("Dissipators", chart.svg(), "The longer of the two strokes of each main rope.")
 }
 
 fn rope_chart(seen: &Simulated) -> Chart {
@@ -416,12 +399,7 @@ fn rope_chart(seen: &Simulated) -> Chart {
         levels: Vec::new(),
         band: None,
     };
-    Chart {
-        title: "Main ropes",
-        file: file_name("Main ropes"),
-        svg: chart.svg(),
-        note: "Mean along each rope, numbered from the bottom.".into(),
-    }
+    Chart::of("Main ropes", chart.svg(), "Mean along each rope, numbered from the bottom.")
 }
 
 fn velocity_chart(seen: &Simulated) -> Chart {
@@ -435,12 +413,7 @@ fn velocity_chart(seen: &Simulated) -> Chart {
         levels: Vec::new(),
         band: None,
     };
-    Chart {
-        title: "Velocity of the flow",
-        file: file_name("Velocity of the flow"),
-        svg: chart.svg(),
-        note: "Mean over all grains that have not left the model.".into(),
-    }
+    Chart::of("Velocity of the flow", chart.svg(), "Mean over all grains that have not left the model.")
 }
 
 fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {

@@ -3,12 +3,11 @@
 use serde::Serialize;
 use tera::{Context, Kwargs, State, Tera};
 
+use crate::report::pictures::PICTURE_STYLE;
 use crate::report::view::View;
 
 const HTML: &str = include_str!("../../templates/report.html");
 const MARKDOWN: &str = include_str!("../../templates/report.md");
-/// How every page looks.
-pub const PAGE_STYLE: &str = include_str!("../../templates/page.css");
 
 /// The two readable forms of a report.
 pub struct Rendered {
@@ -28,8 +27,27 @@ pub fn render_as(name: &str, view: &impl Serialize, [html, markdown]: [&str; 2])
     tera.register_filter("md", |text: &str, _: Kwargs, _: &State| plain(text));
     tera.add_raw_templates(vec![("page.html", html), ("page.md", markdown)])?;
     let mut context = Context::new();
+    context.insert("program", &Program::THIS);
     context.insert(name.to_string(), view);
     Ok(Rendered { html: tera.render("page.html", &context)?, markdown: tera.render("page.md", &context)? })
+}
+
+/// What every page tells of the program, and looks like.
+#[derive(Serialize)]
+struct Program {
+    version: &'static str,
+    commit: &'static str,
+    page_style: &'static str,
+    picture_style: &'static str,
+}
+
+impl Program {
+    const THIS: Self = Self {
+        version: env!("CARGO_PKG_VERSION"),
+        commit: env!("BARRIER_CHECK_COMMIT"),
+        page_style: include_str!("../../templates/page.css"),
+        picture_style: PICTURE_STYLE,
+    };
 }
 
 /// Text that Markdown shows as it was written: no markup, no table cell, no line ends where it is.

@@ -4,11 +4,12 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::report::pictures::{Chart, PICTURE_STYLE};
+use crate::report::numbers::quoted;
+use crate::report::pictures::Chart;
 use crate::report::plots::escape;
-use crate::report::render::{PAGE_STYLE, Rendered, render_as};
+use crate::report::render::{Rendered, render_as};
 use crate::report::write::ReportFile;
-use crate::studies::stability::{Fate, Mapped, SHARP};
+use crate::studies::stability::{Fate, Mapped};
 
 const HTML: &str = include_str!("../../templates/stability.html");
 const MARKDOWN: &str = include_str!("../../templates/stability.md");
@@ -16,10 +17,6 @@ const MARKDOWN: &str = include_str!("../../templates/stability.md");
 #[derive(Serialize)]
 struct Page {
     name: String,
-    version: &'static str,
-    commit: &'static str,
-    page_style: &'static str,
-    picture_style: &'static str,
     chart: Chart,
     rows: Vec<Row>,
 }
@@ -40,10 +37,6 @@ struct Row {
 pub fn files(name: &str, mapped: &[Mapped]) -> Result<Vec<ReportFile>, tera::Error> {
     let page = Page {
         name: name.into(),
-        version: env!("CARGO_PKG_VERSION"),
-        commit: env!("BARRIER_CHECK_COMMIT"),
-        page_style: PAGE_STYLE,
-        picture_style: PICTURE_STYLE,
         chart: Chart {
             title: "What becomes of a run",
             file: "stability.svg".into(),
@@ -72,12 +65,7 @@ fn row(mapped: &Mapped) -> Row {
         } else {
             "–".into()
         },
-        verdict: match (mapped.linear, mapped.safe(), mapped.sharpness() >= SHARP) {
-            (false, ..) => "not of the scene as built",
-            (_, false, _) => "NOT SAFE",
-            (_, true, false) => "safe, not sharp",
-            (_, true, true) => "safe and sharp",
-        },
+        verdict: mapped.word(),
         caught: if mapped.all_caught() { "yes" } else { "NO" },
         how: wrong.map_or("nothing went wrong".to_string(), |trial| {
             format!("{} at {}: {}", trial.fate.word(), trial.share, trial.noticed.join("; "))
@@ -128,7 +116,7 @@ fn table(mapped: &[Mapped]) -> String {
             let _ = writeln!(
                 text,
                 "{},{},{},{:e},{noticed}",
-                scene.name.replace(',', ""),
+                quoted(scene.name),
                 trial.share,
                 trial.fate.word(),
                 trial.imbalance

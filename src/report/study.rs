@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::report::pictures::{Chart, PICTURE_STYLE};
+use crate::report::numbers::quoted;
+use crate::report::pictures::Chart;
 use crate::report::plots::pareto::{Line, Pareto};
-use crate::report::render::{PAGE_STYLE, Rendered, render_as};
+use crate::report::render::{Rendered, render_as};
 use crate::report::write::ReportFile;
 use crate::studies::knobs::Knob;
 use crate::studies::speed_accuracy::{OBSERVABLES, Point, Setting, Told, floor, tell};
@@ -25,10 +26,6 @@ pub struct Scene {
 #[derive(Serialize)]
 struct Page {
     name: String,
-    version: &'static str,
-    commit: &'static str,
-    page_style: &'static str,
-    picture_style: &'static str,
     observables: Vec<&'static str>,
     scenes: Vec<ScenePart>,
 }
@@ -56,10 +53,6 @@ struct RowPart {
 pub fn files(name: &str, scenes: &[Scene]) -> Result<Vec<ReportFile>, tera::Error> {
     let page = Page {
         name: name.into(),
-        version: env!("CARGO_PKG_VERSION"),
-        commit: env!("BARRIER_CHECK_COMMIT"),
-        page_style: PAGE_STYLE,
-        picture_style: PICTURE_STYLE,
         observables: OBSERVABLES.iter().map(|(name, _)| *name).collect(),
         scenes: scenes.iter().map(scene_part).collect(),
     };
@@ -178,8 +171,8 @@ fn table(scenes: &[Scene]) -> String {
     for scene in scenes {
         for told in tell(&scene.runs) {
             let Told { starts, reliable, cost, wall_clock, .. } = told;
-            let setting = told.setting.word();
-            let _ = write!(text, "{},{setting},{starts},{reliable},{cost:.4},{wall_clock:.3}", scene.name);
+            let (name, setting) = (quoted(&scene.name), quoted(&told.setting.word()));
+            let _ = write!(text, "{name},{setting},{starts},{reliable},{cost:.4},{wall_clock:.3}");
             for (name, _) in OBSERVABLES {
                 match told.errors.iter().find(|(of, ..)| *of == name) {
                     Some((_, error, doubt)) => {

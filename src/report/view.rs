@@ -9,9 +9,8 @@ use crate::pipeline::{Run, Simulated, Verdict};
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, percent, with_scatter, with_unit};
-use crate::report::pictures::{self, Chart, PICTURE_STYLE, REPLAY_SCRIPT};
+use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
-use crate::report::render::PAGE_STYLE;
 use crate::report::replay::Replay;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::sources::VOLKWEIN_2014;
@@ -53,9 +52,6 @@ pub struct View {
     pub replay: Option<Replay>,
     /// Program of the page that shows it.
     pub replay_script: &'static str,
-    /// Style of all pictures.
-    pub picture_style: &'static str,
-    pub page_style: &'static str,
     pub inputs: Vec<InputRow>,
     pub assumptions: Vec<Assumption>,
     pub references: Vec<&'static str>,
@@ -128,8 +124,6 @@ impl View {
             classes: class_names(),
             replay: run.simulated.as_ref().and_then(|seen| pictures::replay(run, seen)),
             replay_script: REPLAY_SCRIPT,
-            picture_style: PICTURE_STYLE,
-            page_style: PAGE_STYLE,
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),
             assumptions: assumptions(run),

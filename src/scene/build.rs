@@ -219,3 +219,20 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         mass: design.flow.mass,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::FidelityWish;
+    use crate::design::read::read_design;
+    use crate::fidelity::choose;
+
+    /// Settling is audited as the event is: the longest steps start too.
+    #[test]
+    fn a_block_settles_in_the_longest_steps() {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        design.simulation.fidelity = FidelityWish::Fast;
+        design.flow.sizes = design.flow.sizes.scaled(1.5);
+        assert!(build(&design, &choose(&design), 1).is_ok());
+    }
+}

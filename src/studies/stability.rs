@@ -83,6 +83,16 @@ impl Mapped {
         1.0 / self.true_share
     }
 
+    /// What the estimate is worth.
+    pub fn word(&self) -> &'static str {
+        match (self.linear, self.safe(), self.sharpness() >= SHARP) {
+            (false, ..) => "not of the scene as built",
+            (_, false, _) => "NOT SAFE",
+            (_, true, false) => "safe, not sharp",
+            (_, true, true) => "safe and sharp",
+        }
+    }
+
     /// Every run that went wrong was noticed, or stepped so that the audit would have cut the step.
     pub fn all_caught(&self) -> bool {
         let wrong = |trial: &&Trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling);
@@ -159,7 +169,7 @@ pub const SCENES: [Scene; 13] = [
 ];
 
 /// Estimate over true limit from which on the estimate counts as sharp.
-pub const SHARP: f64 = 0.6;
+const SHARP: f64 = 0.6;
 
 /// Steps between two looks at the energy.
 const STEPS_PER_LOOK: usize = 20;

@@ -239,21 +239,17 @@ fn short(value: f64) -> String {
 mod tests {
     use super::*;
 
+    fn of_one<'a>(time: &'a [f64], values: &'a [f64]) -> LineChart<'a> {
+        let series = vec![Series { label: "a".into(), values, colour: 0 }];
+        LineChart { title: "t", unit: "N", factor: 1.0, time, series, levels: Vec::new(), band: None }
+    }
+
     #[test]
     fn peaks_survive_thinning() {
         let time: Vec<f64> = (0..10_000).map(f64::from).collect();
         let mut values = vec![0.0; 10_000];
         values[7_777] = 5.0;
-        let series = Series { label: "a".into(), values: &values, colour: 0 };
-        let chart = LineChart {
-            title: "t",
-            unit: "N",
-            factor: 1.0,
-            time: &time,
-            series: vec![series],
-            levels: Vec::new(),
-            band: None,
-        };
+        let chart = of_one(&time, &values);
         let frame = chart.frame();
         let top = format!("{:.1}", frame.y(5.0));
         assert!(chart.stretches(&chart.series[0], &frame)[0].contains(&top));
@@ -262,17 +258,8 @@ mod tests {
     #[test]
     fn a_curve_breaks_off_where_nothing_is_known() {
         let values = [1.0, 2.0, f64::NAN, f64::NAN, 3.0, 4.0];
-        let series = Series { label: "a".into(), values: &values, colour: 0 };
         let time = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        let chart = LineChart {
-            title: "t",
-            unit: "N",
-            factor: 1.0,
-            time: &time,
-            series: vec![series],
-            levels: Vec::new(),
-            band: None,
-        };
+        let chart = of_one(&time, &values);
         assert_eq!(chart.stretches(&chart.series[0], &chart.frame()).len(), 2);
     }
 

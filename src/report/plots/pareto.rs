@@ -29,86 +29,100 @@ const BOTTOM: f64 = 46.0;
 /// Errors below this are drawn at it.
 const LEAST_ERROR: f64 = 0.001;
 
+/// Logarithmic scales of one chart: costs and errors from end to end.
+struct Scales {
+    costs: [f64; 2],
+    worst: f64,
+}
+
+const END: f64 = WIDTH - RIGHT;
+const FOOT: f64 = HEIGHT - BOTTOM;
+
+impl Scales {
+    fn x(&self, cost: f64) -> f64 {
+        let [cheap, dear] = self.costs;
+        LEFT + (END - LEFT) * share(cost.max(cheap), cheap, dear)
+    }
+
+    fn y(&self, error: f64) -> f64 {
+        FOOT - (FOOT - TOP) * share(error.max(LEAST_ERROR), LEAST_ERROR, self.worst)
+    }
+}
+
+/// Where a value lies between two others on a logarithmic scale.
+fn share(value: f64, low: f64, high: f64) -> f64 {
+    (value / low).ln() / (high / low).ln()
+}
+
 impl Pareto {
     /// The chart as an SVG element; both axes are logarithmic.
     pub fn svg(&self) -> String {
+        let scales = self.scales();
+        let mut out =
+            format!(r#"<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}">"#, escape(&self.title));
+        draw_axes(&scales, &mut out);
+        self.draw_floor(&scales, &mut out);
+        for (number, line) in self.lines.iter().enumerate() {
+            draw_line(number, line, &scales, &mut out);
+        }
+        let (x, y) = (scales.x(self.default.0), scales.y(self.default.1));
+        let _ = write!(out, r#"<circle class="default" cx="{x:.1}" cy="{y:.1}" r="7"/>"#);
+        let _ = write!(out, r#"<text class="label" x="{}" y="{FOOT}">○ as it is</text></svg>"#, END + 10.0);
+        out
+    }
+
+    fn scales(&self) -> Scales {
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let costs = || points().map(|point| point.0).chain([self.default.0]).filter(|cost| *cost > 0.0);
         let (cheap, dear) = (costs().fold(f64::INFINITY, f64::min), costs().fold(0.0, f64::max));
-        let (cheap, dear) = (0.8 * cheap, 1.25 * dear);
-        let worst = points().map(|point| point.1).chain([self.default.1, self.floor]).fold(0.01, f64::max) * 1.3;
-        let share = |value: f64, low: f64, high: f64| (value / low).ln() / (high / low).ln();
-        let x = |cost: f64| LEFT + (WIDTH - LEFT - RIGHT) * share(cost.max(cheap), cheap, dear);
-        let y =
-            |error: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * share(error.max(LEAST_ERROR), LEAST_ERROR, worst);
-        let mut out =
-            format!(r#"<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{}">"#, escape(&self.title));
-        let (end, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
-        for cost in ticks(cheap, dear) {
-            let at = x(cost);
-            let _ = write!(out, r#"<line class="grid" x1="{at:.1}" x2="{at:.1}" y1="{TOP}" y2="{bottom}"/>"#);
-            let _ = write!(
-                out,
-                r#"<text class="tick" text-anchor="middle" x="{at:.1}" y="{}">{cost}</text>"#,
-                bottom + 16.0
-            );
-        }
-        for error in ticks(LEAST_ERROR, worst) {
-            let at = y(error);
-            let _ = write!(out, r#"<line class="grid" x1="{LEFT}" x2="{end}" y1="{at:.1}" y2="{at:.1}"/>"#);
-            let _ = write!(
-                out,
-                r#"<text class="tick" text-anchor="end" x="{}" y="{:.1}">{} %</text>"#,
-                LEFT - 6.0,
-                at + 4.0,
-                // Two digits below a percent.
-                (1e4 * error).round() / 100.0
-            );
-        }
-        let floor = y(self.floor);
-        let _ = write!(out, r#"<line class="level" x1="{LEFT}" x2="{end}" y1="{floor:.1}" y2="{floor:.1}"/>"#);
-        let _ =
-            write!(out, r#"<text class="tick" x="{}" y="{:.1}">scatter of one start</text>"#, LEFT + 4.0, floor - 4.0);
-        for (colour, line) in self.lines.iter().enumerate() {
-            let colour = colour % 6;
-            let path: Vec<String> =
-                line.points.iter().map(|(cost, error, _)| format!("{:.1},{:.1}", x(*cost), y(*error))).collect();
-            let _ = write!(out, r#"<polyline class="series c{colour}" points="{}"/>"#, path.join(" "));
-            for (cost, error, word) in &line.points {
-                let (at, up) = (x(*cost), y(*error));
-                let _ = write!(out, r#"<circle class="dot c{colour}" cx="{at:.1}" cy="{up:.1}" r="3"/>"#);
-                let _ = write!(
-                    out,
-                    r#"<text class="tick c{colour}" x="{:.1}" y="{:.1}">{}</text>"#,
-                    at + 5.0,
-                    up - 4.0,
-                    escape(word)
-                );
-            }
-            let _ = write!(
-                out,
-                r#"<text class="label c{colour}" x="{}" y="{:.1}">{}</text>"#,
-                end + 10.0,
-                TOP + 18.0 + 18.0 * colour as f64,
-                escape(&line.label)
-            );
-        }
-        let (at, up) = (x(self.default.0), y(self.default.1));
-        let _ = write!(out, r#"<circle class="default" cx="{at:.1}" cy="{up:.1}" r="7"/>"#);
-        let _ = write!(out, r#"<text class="label" x="{}" y="{}">○ as it is</text>"#, end + 10.0, bottom);
-        let _ = write!(
-            out,
-            r#"<text class="axis" text-anchor="middle" x="{}" y="{}">cost over that of the model as it is</text>"#,
-            0.5 * (LEFT + end),
-            HEIGHT - 8.0
-        );
-        let middle = 0.5 * (TOP + bottom);
-        let _ = write!(
-            out,
-            r#"<text class="axis" text-anchor="middle" transform="translate(13 {middle}) rotate(-90)">largest error of the observables</text></svg>"#
-        );
-        out
+        let errors = points().map(|point| point.1).chain([self.default.1, self.floor]);
+        Scales { costs: [0.8 * cheap, 1.25 * dear], worst: 1.3 * errors.fold(0.01, f64::max) }
     }
+
+    fn draw_floor(&self, scales: &Scales, out: &mut String) {
+        let y = scales.y(self.floor);
+        let _ = write!(out, r#"<line class="level" x1="{LEFT}" x2="{END}" y1="{y:.1}" y2="{y:.1}"/>"#);
+        let (x, y) = (LEFT + 4.0, y - 4.0);
+        let _ = write!(out, r#"<text class="tick" x="{x}" y="{y:.1}">scatter of one start</text>"#);
+    }
+}
+
+fn draw_axes(scales: &Scales, out: &mut String) {
+    let [cheap, dear] = scales.costs;
+    for cost in ticks(cheap, dear) {
+        let (x, y) = (scales.x(cost), FOOT + 16.0);
+        let _ = write!(out, r#"<line class="grid" x1="{x:.1}" x2="{x:.1}" y1="{TOP}" y2="{FOOT}"/>"#);
+        let _ = write!(out, r#"<text class="tick" text-anchor="middle" x="{x:.1}" y="{y}">{cost}</text>"#);
+    }
+    for error in ticks(LEAST_ERROR, scales.worst) {
+        let (x, y) = (LEFT - 6.0, scales.y(error));
+        let _ = write!(out, r#"<line class="grid" x1="{LEFT}" x2="{END}" y1="{y:.1}" y2="{y:.1}"/>"#);
+        // Two digits below a percent.
+        let (percent, y) = ((1e4 * error).round() / 100.0, y + 4.0);
+        let _ = write!(out, r#"<text class="tick" text-anchor="end" x="{x}" y="{y:.1}">{percent} %</text>"#);
+    }
+    let (across, up, foot) = (0.5 * (LEFT + END), 0.5 * (TOP + FOOT), HEIGHT - 8.0);
+    let labels = [
+        (format!(r#"x="{across}" y="{foot}""#), "cost over that of the model as it is"),
+        (format!(r#"transform="translate(13 {up}) rotate(-90)""#), "largest error of the observables"),
+    ];
+    for (place, label) in labels {
+        let _ = write!(out, r#"<text class="axis" text-anchor="middle" {place}>{label}</text>"#);
+    }
+}
+
+fn draw_line(number: usize, line: &Line, scales: &Scales, out: &mut String) {
+    let colour = number % 6;
+    let places = line.points.iter().map(|(cost, error, word)| (scales.x(*cost), scales.y(*error), word));
+    let path: Vec<String> = places.clone().map(|(x, y, _)| format!("{x:.1},{y:.1}")).collect();
+    let _ = write!(out, r#"<polyline class="series c{colour}" points="{}"/>"#, path.join(" "));
+    for (x, y, word) in places {
+        let _ = write!(out, r#"<circle class="dot c{colour}" cx="{x:.1}" cy="{y:.1}" r="3"/>"#);
+        let (x, y, word) = (x + 5.0, y - 4.0, escape(word));
+        let _ = write!(out, r#"<text class="tick c{colour}" x="{x:.1}" y="{y:.1}">{word}</text>"#);
+    }
+    let (x, y, label) = (END + 10.0, TOP + 18.0 * (number as f64 + 1.0), escape(&line.label));
+    let _ = write!(out, r#"<text class="label c{colour}" x="{x}" y="{y:.1}">{label}</text>"#);
 }
 
 /// 1, 2 and 5 times the powers of ten between two values.

@@ -273,3 +273,30 @@ impl Builder<'_> {
         BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::BarrierDesign;
+    use crate::design::read::read_design;
+
+    /// The net hangs on rings alone: what pulls on the end of a main rope is the rope, its dissipator and the lateral ropes.
+    #[test]
+    fn no_rope_of_the_net_ends_at_the_end_of_a_main_rope() {
+        let design = read_design("x", include_bytes!("../../../designs/site_a.yaml")).unwrap().design;
+        let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
+        for model in [BarrierModel::PinnedRopes, BarrierModel::SlidingRopes, BarrierModel::Cylinders] {
+            let barrier = build(net, &design.channel, model).barrier;
+            let ends: Vec<u32> = barrier.dissipators.iter().map(|dissipator| dissipator.nodes[1]).collect();
+            assert_eq!(ends.len(), 8);
+            let segments = barrier.segments.iter().map(|segment| (segment.kind, segment.nodes));
+            let lines = segments.chain(barrier.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes)));
+            let at = |kind: SegmentKind| {
+                lines.clone().filter(|(of, nodes)| *of == kind && nodes.iter().any(|node| ends.contains(node))).count()
+            };
+            assert_eq!(at(SegmentKind::Net), 0);
+            // Up and down at each, but for the uppermost.
+            assert_eq!(at(SegmentKind::Lateral), 14);
+        }
+    }
+}
