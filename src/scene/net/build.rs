@@ -295,6 +295,10 @@ mod tests {
                 lines.clone().filter(|(of, nodes)| *of == kind && nodes.iter().any(|node| ends.contains(node))).count()
             };
             assert_eq!(at(SegmentKind::Net), 0);
+            // Half a mesh from the end to the first knot.
+            let lengths = barrier.segments.iter().map(|segment| segment.rest_length);
+            let shortest = lengths.chain(barrier.cylinders.iter().map(|cylinder| cylinder.rest_length));
+            assert!(shortest.fold(f64::INFINITY, f64::min) > 0.02, "{model:?}");
             // Up and down at each, but for the uppermost.
             assert_eq!(at(SegmentKind::Lateral), 14);
         }
