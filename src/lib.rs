@@ -14,6 +14,7 @@
 //! | a contact law | a file beside [`dem::contact::law`]; its stiffness in [`dem::contact::grain_touch`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and, for the stable step, [`dem::time::links`] and [`fidelity`]; its damping in [`dem::contact::restitution`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
+//! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
 //! | a load case | a file in [`loads::cases`] and a line in its list; its words in `report::loads` |

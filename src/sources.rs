@@ -6,6 +6,7 @@ pub const CUNDALL_STRACK_1979: &str =
     "Cundall & Strack 1979, A discrete numerical model for granular assemblies, Géotechnique 29";
 pub const EN_1990: &str = "EN 1990, annex D: design assisted by testing";
 pub const NO_LIMIT: &str = "no limit set; for information";
+pub const NOTHING_BREAKS: &str = "no rope may break";
 pub const DESIGN_LIMIT: &str = "limit set in the design file";
 pub const ROPE_FACTOR: &str = "breaking load that the ends hold over the rope's partial factor (after EN 1993-1-11, from memory; both are in the design file)";
 pub const ANCHOR_FACTOR: &str =

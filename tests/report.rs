@@ -67,6 +67,7 @@ fn the_words_of_the_report_are_as_they_were() {
 #[test]
 fn a_recording_that_is_none_is_refused() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("refused");
+    let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a folder");
     let good = std::fs::read("tests/fixtures/tiny.bin").expect("the fixture");
     let middle = good.len() / 2;

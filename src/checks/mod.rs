@@ -11,6 +11,7 @@ pub mod retained;
 pub mod ropes;
 pub mod total_force;
 pub mod wall;
+pub mod wear;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
@@ -25,6 +26,8 @@ const CHECKS: &[Check] = &[
     ropes::check_main,
     ropes::check_net,
     ropes::check_lateral,
+    wear::check_broken,
+    wear::tell_drawn_out,
     brakes::check_stroke,
     brakes::check_plateau,
     anchors::check,

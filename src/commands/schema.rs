@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::design::key::{Key, Kind, Need};
 use crate::design::schema::DESIGN;
 use crate::report::json::ResultFile;
+use crate::units::Dimension;
 
 /// Schema of `result.json`.
 pub fn result_schema() -> Value {
@@ -41,6 +42,10 @@ fn kind(kind: &Kind) -> Value {
         Kind::Quantity { dimension, .. } => {
             let units = dimension.symbols().join("|");
             json!({ "type": "string", "pattern": format!("^[-+0-9.eE]+ ?({units})$") })
+        }
+        Kind::LengthOrGrains { .. } => {
+            let units = Dimension::Length.symbols().join("|");
+            json!({ "type": "string", "pattern": format!("^[-+0-9.eE]+ ?({units}|[Dd][1-9][0-9]?)$") })
         }
         Kind::Quantities { dimension, low, high } => {
             json!({ "type": "array", "minItems": 1, "items": self::kind(&Kind::Quantity { dimension, low, high }) })

@@ -3,10 +3,10 @@
 use crate::dem::Vec3;
 use crate::dem::contact::law::{LawConstants, Memory};
 use crate::dem::contact::ropes::Push;
-use crate::dem::elements::cylinder::strain_all;
+use crate::dem::elements::cylinder::{Cylinder, strain_all};
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::ring::{RingContext, RingForce, RingSide};
-use crate::dem::elements::rope::pull;
+use crate::dem::elements::rope::{Fate, pull};
 use crate::dem::tables::barrier::Barrier;
 
 /// Forces on the nodes and tensions of the elements.
@@ -26,15 +26,19 @@ pub struct NetForces {
     pub from_grains: Vec3,
     /// Elastic energy (J).
     pub stored: f64,
-    /// Lost in rope damping (J).
+    /// Lost in rope damping, and in ropes that draw out or break (J).
     pub lost_ropes: f64,
-    /// Lost by rings sliding on their ropes, and in their dashpots (J).
+    /// Lost by rings sliding on their ropes, in their dashpots, and by side extensions (J).
     pub lost_rings: f64,
     /// Lost in dissipators (J).
     pub lost_dissipators: f64,
     /// Dissipators with the stroke of this step, and rings with what they remember now, to be taken over.
     slipped: Vec<Dissipator>,
+    let_go: Vec<Dissipator>,
     slid: Vec<(u32, Memory)>,
+    /// Pieces of rope that were overloaded.
+    overloaded: Vec<(usize, Fate)>,
+    bent: Vec<(usize, Cylinder)>,
 }
 
 /// Stretches every element to the present places of the nodes; `law` holds the barrier's own step.
@@ -45,10 +49,12 @@ pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
         tensions: Vec::with_capacity(barrier.segments.len()),
         axial: Vec::with_capacity(barrier.cylinders.len()),
         slipped: barrier.dissipators.clone(),
+        let_go: barrier.holds.clone(),
         ..NetForces::default()
     };
     net.pull_segments(barrier, law.time_step);
     net.pull_dissipators(barrier);
+    net.hold(barrier);
     net.strain_cylinders(barrier, law.time_step);
     let context = RingContext {
         nodes: &barrier.nodes,
@@ -71,15 +77,16 @@ pub fn slide_all(barrier: &mut Barrier, step: f64) -> f64 {
 
 impl NetForces {
     fn pull_segments(&mut self, barrier: &Barrier, step: f64) {
-        for segment in &barrier.segments {
+        for (number, segment) in barrier.segments.iter().enumerate() {
             let [a, b] = segment.nodes.map(|node| node as usize);
-            let result = pull(segment, &barrier.nodes[a], &barrier.nodes[b]);
+            let result = pull(segment, &barrier.nodes[a], &barrier.nodes[b], step);
             let force = result.direction * result.tension;
             self.forces[a] += force;
             self.forces[b] -= force;
             self.stored += result.stored;
-            self.lost_ropes += result.power_lost * step;
+            self.lost_ropes += result.lost;
             self.tensions.push(result.tension);
+            self.overloaded.extend(result.fate.map(|fate| (number, fate)));
         }
     }
 
@@ -96,10 +103,30 @@ impl NetForces {
         }
     }
 
+    /// Holds the knots of side extensions; what that loses is friction.
+    fn hold(&mut self, barrier: &Barrier) {
+        for hold in &mut self.let_go {
+            let [pin, knot] = hold.nodes.map(|node| node as usize);
+            let result = hold.stretch(&barrier.nodes[pin], &barrier.nodes[knot]);
+            self.forces[knot] -= result.direction * result.tension;
+            self.stored += result.stored;
+            self.lost_rings += result.lost;
+        }
+    }
+
     fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {
         let (mut stored, mut power) = (0.0, 0.0);
         strain_all(barrier, |number, strain| {
-            let [a, b] = barrier.cylinders[number].nodes.map(|node| node as usize);
+            let cylinder = &barrier.cylinders[number];
+            let [a, b] = cylinder.nodes.map(|node| node as usize);
+            let mut strain = *strain;
+            if cylinder.doubtful(&strain)
+                && let Some((after, given, lost)) = cylinder.give_way(&barrier.nodes, &barrier.frames, step)
+            {
+                self.lost_ropes += lost;
+                self.bent.push((number, after));
+                strain = given;
+            }
             let force = Vec3::from(strain.force);
             self.forces[a] -= force;
             self.forces[b] += force;
@@ -145,9 +172,31 @@ impl NetForces {
         self.from_grains += push.force;
     }
 
-    /// Hands strokes and what rings remember to the barrier.
+    /// Hands strokes, what rings remember and what became of overloaded ropes to the barrier.
     pub fn take_over(&self, barrier: &mut Barrier) {
+        for (number, fate) in &self.overloaded {
+            let segment = &mut barrier.segments[*number];
+            match fate {
+                Fate::Drawn(rest_length) => {
+                    segment.strength.drawn_out += rest_length - segment.rest_length;
+                    segment.set_rest_length(*rest_length);
+                }
+                Fate::Broken => {
+                    let nodes = segment.nodes;
+                    segment.part();
+                    barrier.lose_line(nodes);
+                }
+            }
+        }
+        for (number, after) in &self.bent {
+            let nodes = after.nodes;
+            barrier.cylinders[*number] = after.clone();
+            if after.strength.broken {
+                barrier.lose_line(nodes);
+            }
+        }
         barrier.dissipators.clone_from_slice(&self.slipped);
+        barrier.holds.clone_from_slice(&self.let_go);
         for (ring, (near, memory)) in barrier.rings.iter_mut().zip(&self.slid) {
             (ring.near, ring.memory) = (*near, *memory);
         }

@@ -44,6 +44,11 @@ pub struct Observed {
     /// Largest force on what holds the lowest rope to the bed (N).
     pub bed_force_peak: f64,
     pub net_tension_peak: f64,
+    /// Pieces of rope that broke, and when the first did (s).
+    pub broken_pieces: f64,
+    pub first_break: Option<f64>,
+    /// Largest permanent elongation of a piece of rope, over its first length.
+    pub drawn_out: f64,
     /// Per metre of width (N/m), from the bottom.
     pub segment_peak: Vec<f64>,
     pub segment_residual: Vec<f64>,
@@ -103,6 +108,9 @@ impl Observed {
             lateral_tension_peak: peak(&histories.lateral_largest).1,
             bed_force_peak: peak(&histories.bed_force).1,
             net_tension_peak: peak(&histories.net_largest).1,
+            broken_pieces: peak(&histories.broken_pieces).1,
+            first_break: histories.broken_pieces.iter().position(|count| *count > 0.0).map(time),
+            drawn_out: peak(&histories.drawn_out).1,
             segment_peak: histories.segments.iter().map(|row| peak(&smoothed(row, reading.window)).1 / width).collect(),
             segment_residual: histories.segments.iter().map(|row| tail_mean(row, reading.tail) / width).collect(),
             moment_peak: peak(&smoothed(&histories.moment, reading.window)).1 / width,

@@ -56,6 +56,9 @@ pub struct Demands {
     pub net_tension: Demand,
     /// N
     pub lateral_tension: Demand,
+    /// Pieces of rope that broke, and the largest permanent elongation of one: of the worst start.
+    pub broken_pieces: Demand,
+    pub drawn_out: Demand,
     /// Share of the mass held.
     pub retained: Demand,
     /// Final over initial height.
@@ -76,6 +79,7 @@ impl Demands {
         };
         let most = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.upper());
         let least = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.lower());
+        let worst = |quantity: &dyn Fn(&Observed) -> f64| observed.iter().map(|seen| quantity(seen)).reduce(larger);
         let simulated = |simulation: Option<f64>| Demand { simulation, ..Demand::default() };
         // The factor goes on the simulation alone: the guideline's ropes have it already.
         let by_rope =
@@ -122,6 +126,8 @@ impl Demands {
             },
             net_tension: simulated(most(&|seen| seen.net_tension_peak)).times(load_factor),
             lateral_tension: simulated(most(&|seen| seen.lateral_tension_peak)).times(load_factor),
+            broken_pieces: simulated(worst(&|seen| seen.broken_pieces)),
+            drawn_out: simulated(worst(&|seen| seen.drawn_out)),
             retained: simulated(least(&|seen| seen.retained)),
             residual_height: simulated(least(&|seen| seen.residual_height)),
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::design::document::Node;
+use crate::design::grain_lengths;
 use crate::design::key::{Key, Kind, Need, names};
 use crate::problem::{Problem, nearest};
 use crate::units::{self, Dimension};
@@ -13,6 +14,13 @@ pub enum Value {
     Number(f64),
     Numbers(Vec<f64>),
     Text(String),
+    /// A length told as so many times the grain size below which the share `finer` of the mass lies, and its bounds (m);
+    /// [`super::grain_lengths`] puts a number in its place.
+    OfGrains {
+        times: f64,
+        finer: f64,
+        bounds: [f64; 2],
+    },
 }
 
 /// Where a value comes from.
@@ -220,6 +228,10 @@ type Misunderstood = (String, Option<String>);
 fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
     match *kind {
         Kind::Quantity { dimension, low, high } => quantity(node, dimension, low, high).map(Value::Number),
+        Kind::LengthOrGrains { low, high } => match grain_lengths::parse(&typed(node)) {
+            Some((times, finer)) => Ok(Value::OfGrains { times, finer, bounds: [low, high] }),
+            None => quantity(node, Dimension::Length, low, high).map(Value::Number),
+        },
         Kind::Quantities { dimension, low, high } => match node {
             Node::List(items) if !items.is_empty() => items
                 .iter()

@@ -22,6 +22,11 @@ pub enum Kind {
         low: f64,
         high: f64,
     },
+    /// A length within bounds (m), or a multiple of a grain size: `0.8 D90`.
+    LengthOrGrains {
+        low: f64,
+        high: f64,
+    },
     /// A list of quantities.
     Quantities {
         dimension: Dimension,
@@ -81,6 +86,10 @@ impl Kind {
             Self::Quantity { dimension, low, high } => {
                 let units = dimension.symbols().join(", ");
                 format!("{} with unit ({units}), {} to {}", dimension.name(), dimension.show(low), dimension.show(high))
+            }
+            Self::LengthOrGrains { low, high } => {
+                let length = Self::Quantity { dimension: Dimension::Length, low, high }.allowed();
+                format!("{length}, or a multiple of a grain size (0.8 D90)")
             }
             Self::Quantities { dimension, low, high } => {
                 format!("a list of values, each {}", Self::Quantity { dimension, low, high }.allowed())

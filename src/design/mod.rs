@@ -3,6 +3,7 @@
 pub mod document;
 pub mod entries;
 pub mod factor_sets;
+pub mod grain_lengths;
 pub mod key;
 pub mod read;
 pub mod resolve;
@@ -158,6 +159,16 @@ pub struct FlexibleNet {
     /// Characteristic resistance of all that holds the lowest rope to the bed (N), if known.
     pub bed_resistance: Option<f64>,
     pub bottom: Bottom,
+    pub side_extension: Option<SideExtension>,
+}
+
+/// Strips of net along the side walls, downstream of the barrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideExtension {
+    /// m
+    pub length: f64,
+    /// Force that holds each of its knots (N).
+    pub holding_force: f64,
 }
 
 impl FlexibleNet {
@@ -175,6 +186,10 @@ pub struct Rope {
     pub modulus: f64,
     /// N
     pub breaking_load: f64,
+    /// Tension beyond which the simulated rope draws out and stays longer (N), if it does.
+    pub elastic_limit: Option<f64>,
+    /// Whether the simulated rope breaks at its breaking load.
+    pub breaks: bool,
 }
 
 /// The horizontal ropes that carry the net.

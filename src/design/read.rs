@@ -4,6 +4,7 @@ use crate::design::Design;
 use crate::design::document::Document;
 use crate::design::entries::{Entries, read};
 use crate::design::factor_sets;
+use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
 use crate::design::rules::RULES;
 use crate::design::schema::DESIGN;
@@ -29,6 +30,7 @@ pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     let mut problems = Vec::new();
     let mut entries = read(&document.root, DESIGN, &mut problems);
     factor_sets::apply(&mut entries);
+    grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
     if problems.is_empty() {
         if let Some(design) = resolve(&entries) {

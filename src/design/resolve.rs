@@ -4,7 +4,8 @@ use crate::design::entries::Entries;
 use crate::design::rules::{flow_volume, rope_heights, size_curve};
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, Bottom, Channel, DamBreak, Design, DissipatorDesign, Factors, FidelityWish,
-    FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, Project, RigidWall, Rope, SimulationWishes, Stability,
+    FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, Project, RigidWall, Rope, SideExtension,
+    SimulationWishes, Stability,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -155,12 +156,22 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
         anchor_resistance: value("anchors.resistance")?,
         bed_resistance: value("anchors.bed_resistance"),
         bottom: value("bottom.opening").map_or(Bottom::Fixed, Bottom::Opening),
+        side_extension: value("side_extension.length")
+            .zip(value("side_extension.holding_force"))
+            .map(|(length, holding_force)| SideExtension { length, holding_force }),
     })
 }
 
 fn rope(e: &Entries, part: &str) -> Option<Rope> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{part}.{key}"));
-    Some(Rope { diameter: value("diameter")?, modulus: value("modulus")?, breaking_load: value("breaking_load")? })
+    let beyond = e.text(&format!("barrier.flexible_net.{part}.at_breaking_load"))?;
+    Some(Rope {
+        diameter: value("diameter")?,
+        modulus: value("modulus")?,
+        breaking_load: value("breaking_load")?,
+        elastic_limit: value("elastic_limit"),
+        breaks: beyond == "breaks",
+    })
 }
 
 fn limits(e: &Entries) -> Option<Limits> {

@@ -43,6 +43,9 @@ pub const RULES: &[Rule] = &[
     knots_are_bearable,
     cylinders_are_bearable,
     cylinders_have_no_slack,
+    net_rope_draws_out_or_breaks,
+    main_rope_draws_out_or_breaks,
+    lateral_rope_draws_out_or_breaks,
 ];
 
 const NET: &str = "barrier.flexible_net";
@@ -51,7 +54,7 @@ fn at(name: &str) -> String {
     format!("{NET}.{name}")
 }
 
-fn length(value: f64) -> String {
+pub fn length(value: f64) -> String {
     Dimension::Length.show(value)
 }
 
@@ -384,6 +387,33 @@ fn cylinders_have_no_slack(e: &Entries) -> Option<Problem> {
         let found = format!("`{}` with barrier_model cylinders", e.typed(&at("net_slack")));
         Problem::new(at("net_slack"), found, "0 % with cylinders, which are straight at rest")
             .hint("use barrier_model sliding_ropes for a slack net")
+    })
+}
+
+fn net_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
+    draws_out_or_breaks(e, "net_rope")
+}
+
+fn main_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
+    draws_out_or_breaks(e, "main_ropes")
+}
+
+fn lateral_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
+    draws_out_or_breaks(e, "lateral_ropes")
+}
+
+/// A rope that draws out at constant tension never reaches its breaking load.
+fn draws_out_or_breaks(e: &Entries, part: &str) -> Option<Problem> {
+    let path = at(&format!("{part}.elastic_limit"));
+    let (elastic, breaking) = (e.number(&path)?, e.number(&at(&format!("{part}.breaking_load")))?);
+    if elastic >= breaking {
+        let found =
+            format!("{} with a breaking load of {}", Dimension::Force.show(elastic), Dimension::Force.show(breaking));
+        return Some(Problem::new(path, found, "less than the breaking load"));
+    }
+    (e.text(&at(&format!("{part}.at_breaking_load")))? == "breaks").then(|| {
+        Problem::new(path, "an elastic limit and `at_breaking_load: breaks`", "one of the two")
+            .hint("a rope that draws out at its elastic limit never reaches its breaking load")
     })
 }
 

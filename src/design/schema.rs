@@ -161,7 +161,7 @@ const FLEXIBLE_NET: &[Key] = &[
         "0 deg",
         "angle against plumb, positive leans upstream",
     ),
-    Key::required("mesh_opening", quantity(D::Length, 0.005, 3.0), "side of the square mesh"),
+    Key::required("mesh_opening", Kind::LengthOrGrains { low: 0.005, high: 3.0 }, "side of the square mesh"),
     Key::required("net_rope", Kind::Section(ROPE), "rope of the net"),
     Key::default(
         "net_slack",
@@ -174,7 +174,35 @@ const FLEXIBLE_NET: &[Key] = &[
     Key::optional("dissipators", Kind::Section(DISSIPATORS), "one at each end of every main rope that is free to move"),
     Key::required("anchors", Kind::Section(ANCHORS), "one at each end of every main rope that is free to move"),
     Key::required("bottom", Kind::OneOf(BOTTOM), "what holds the lowest main rope"),
+    Key::optional(
+        "side_extension",
+        Kind::Section(SIDE_EXTENSION),
+        "strips of net along the side walls, which close the windows that open beside the barrier when dissipators pay out",
+    ),
 ];
+
+const SIDE_EXTENSION: &[Key] = &[
+    Key::required("length", quantity(D::Length, 0.01, 30.0), "length of each strip, downstream along the side wall"),
+    Key::default(
+        "holding_force",
+        quantity(D::Force, 0.01, 1e6),
+        "1 kN",
+        "force with which wall and deposit hold each knot of a strip where it lies",
+    ),
+];
+
+const BREAKING_LOAD: Key = Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load");
+const ELASTIC_LIMIT: Key = Key::optional(
+    "elastic_limit",
+    quantity(D::Force, 1.0, 1e9),
+    "tension at which the simulated rope draws out and stays longer; by default it is elastic without end",
+);
+const AT_BREAKING_LOAD: Key = Key::default(
+    "at_breaking_load",
+    Kind::Choice(&["holds", "breaks"]),
+    "holds",
+    "what the simulated rope does beyond its breaking load: holds on, so that the load to be borne is seen, or breaks",
+);
 
 const ROPE: &[Key] = &[
     Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
@@ -183,7 +211,9 @@ const ROPE: &[Key] = &[
         quantity(D::Pressure, 1e7, 4e11),
         "modulus with the full circle of the diameter: EA = E pi d2/4",
     ),
-    Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
+    BREAKING_LOAD,
+    ELASTIC_LIMIT,
+    AT_BREAKING_LOAD,
 ];
 
 const MAIN_ROPES: &[Key] = &[
@@ -195,7 +225,9 @@ const MAIN_ROPES: &[Key] = &[
     ),
     Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
     Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
-    Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
+    BREAKING_LOAD,
+    ELASTIC_LIMIT,
+    AT_BREAKING_LOAD,
     Key::required("rings", Kind::Section(RINGS), "rings that hang the net on the rope"),
     Key::default(
         "element_length",
@@ -225,7 +257,9 @@ const RINGS: &[Key] = &[
 const LATERAL_ROPES: &[Key] = &[
     Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
     Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
-    Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load"),
+    BREAKING_LOAD,
+    ELASTIC_LIMIT,
+    AT_BREAKING_LOAD,
     Key::default(
         "tied_to",
         Kind::Choice(&["rope_ends", "dissipators", "anchors"]),
@@ -251,7 +285,11 @@ const ANCHORS: &[Key] = &[
 
 const BOTTOM: &[Key] = &[
     Key::optional("fixed", Kind::Choice(&["to_bed"]), "the lowest rope is bolted to the bed along its length"),
-    Key::optional("opening", quantity(D::Length, 0.0, 10.0), "the lowest rope is free, this far above the bed"),
+    Key::optional(
+        "opening",
+        Kind::LengthOrGrains { low: 0.0, high: 10.0 },
+        "the lowest rope is free, this far above the bed",
+    ),
 ];
 
 const UTILISATION: Kind = quantity(D::Share, 0.01, 1.0);

@@ -19,7 +19,7 @@ pub const FILE: &str = "recording.bin";
 
 const MAGIC: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const HEAD: usize = MAGIC.len() + 8;
 
 /// Why a recording cannot be read.

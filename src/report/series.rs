@@ -39,6 +39,8 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("lateral_largest_n".into(), histories.lateral_largest.clone());
     add("bed_force_n".into(), histories.bed_force.clone());
     add("net_largest_n".into(), histories.net_largest.clone());
+    add("broken_pieces".into(), histories.broken_pieces.clone());
+    add("drawn_out_share".into(), histories.drawn_out.clone());
     add("top_rope_height_m".into(), histories.top_rope_height.clone());
     add("velocity_mean_x_m_s".into(), histories.velocity.iter().map(|velocity| velocity[0]).collect());
     add("velocity_mean_z_m_s".into(), histories.velocity.iter().map(|velocity| velocity[1]).collect());

@@ -28,6 +28,7 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
         Arrival::Surge { .. } => false,
     };
     let simulated = run.simulated.is_some();
+    let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     let list = [
         (
             simulated,
@@ -45,7 +46,21 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
             EITHER,
         ),
-        (net, "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.", UNSAFE),
+        (
+            net && !any_breaks(design),
+            "Ropes, net and anchors do not break; exceeding their resistance shows in the checks alone.",
+            UNSAFE,
+        ),
+        (
+            net && any_breaks(design),
+            "Ropes break in the simulation where the design says so; other ropes and the anchors do not: there, exceeding the resistance shows in the checks alone.",
+            UNSAFE,
+        ),
+        (
+            extended && simulated,
+            "Side extensions lie flat on the side walls downstream of the barrier; wall and deposit hold each of their knots by the holding force, which is given, not computed.",
+            EITHER,
+        ),
         (
             net && simulated,
             "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
@@ -70,6 +85,12 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let kept = list.into_iter().filter(|(applies, ..)| *applies).map(|(_, text, safe)| Assumption { text, safe });
     let of_ropes = of_ropes(design).filter(|_| simulated);
     kept.chain(of_ropes.map(|text| Assumption { text, safe: EITHER })).collect()
+}
+
+/// Whether any of the ropes breaks in the simulation.
+fn any_breaks(design: &Design) -> bool {
+    matches!(&design.barrier, BarrierDesign::FlexibleNet(net)
+        if [net.net_rope, net.main_ropes.rope, net.lateral_rope].iter().any(|rope| rope.breaks))
 }
 
 /// What the model of the barrier assumes of its ropes.

@@ -209,6 +209,7 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         interval: smoothing(design) / SAMPLES_PER_WINDOW,
         passage_interval: PASSAGE * time_scale(design),
         ropes: net.as_ref().map_or(0, |net| net.rope_rows.len()),
+        screen_rows: net.as_ref().map_or(Vec::new(), |net| net.screen_rows.clone()),
         net_rows: net.map_or(Vec::new(), |net| net.rows),
         wall: match &design.barrier {
             BarrierDesign::RigidWall(wall) => Some([wall.height, design.channel.width]),

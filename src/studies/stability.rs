@@ -8,6 +8,7 @@ use crate::checks::credibility::{ENERGY_LIMIT, Numerics, doubts};
 use crate::dem::Vec3;
 use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::strength::Strength;
 use crate::dem::model::Model;
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
@@ -356,6 +357,7 @@ fn taut(element: f64, stiffer: f64, ropes: usize, radius: f64) -> Barrier {
                 stiffness,
                 damping: 0.1 * (stiffness * 0.5 * mass).sqrt(),
                 radius,
+                strength: Strength::default(),
             });
         }
     }
@@ -435,6 +437,7 @@ fn stop() -> Model {
         stiffness,
         damping: 0.0,
         radius: 0.016,
+        strength: Strength::default(),
     });
     barrier.dissipators = vec![Dissipator {
         nodes: [0, 1],

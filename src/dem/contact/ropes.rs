@@ -171,6 +171,9 @@ const LEAST_KEPT: f64 = 0.1;
 pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<RopeTouch> {
     let barrier = context.barrier;
     let line = &barrier.lines[line_index as usize];
+    if line.broken {
+        return None;
+    }
     let [a, b] = line.nodes.map(|node| &barrier.nodes[node as usize]);
     let centre = member.centre;
     let along = nearest_on_segment(&centre, &a.position, &b.position);

@@ -13,11 +13,15 @@
 use nalgebra::UnitQuaternion;
 
 use crate::dem::Vec3;
+use crate::dem::elements::strength::Strength;
 use crate::dem::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, minus, negative, plus, scaled};
 use crate::dem::simd::widest::{Work, with_widest};
-use crate::dem::tables::barrier::{Barrier, Frame, SegmentKind};
+use crate::dem::tables::barrier::{Barrier, Frame, Node, SegmentKind};
 use crate::dem::tables::grain_table::Quad;
+
+/// Rounds over the two ends of a cylinder that yields in bending; each leaves a quarter of what is wrong.
+const HINGE_ROUNDS: usize = 12;
 
 /// A cylinder between two nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +37,7 @@ pub struct Cylinder {
     pub turning_time: f64,
     /// Frame of the cylinder at rest as each node sees it: turned by the node's orientation it is the node's own axes.
     pub rest_frames: [UnitQuaternion<f64>; 2],
+    pub strength: Strength,
 }
 
 /// Stiffness of a cross-section.
@@ -92,6 +97,112 @@ impl Cylinder {
             damping_time: 0.0,
             turning_time: 0.0,
             rest_frames: frames.map(|frame| frame.orientation.inverse() * own),
+            strength: Strength::default(),
+        }
+    }
+
+    /// Lets the cylinder break: it does nothing more to its nodes.
+    pub fn part(&mut self) {
+        self.strength.broken = true;
+        (self.section.axial, self.section.bending, self.section.twisting) = (0.0, 0.0, 0.0);
+    }
+
+    /// Whether a strain may be more than the cylinder withstands; its dashpots make that a little early.
+    #[inline]
+    pub fn doubtful(&self, strain: &Strain) -> bool {
+        let least = self.strength.least();
+        if least == f64::INFINITY {
+            return false;
+        }
+        let [across, along] = self.strength.moments(self.section.radius);
+        let moment = across.min(along);
+        strain.tension > least || strain.moments.iter().any(|&of| dot(of, of) > moment * moment)
+    }
+
+    /// The cylinder as its nodes lie and move now.
+    fn bent(&self, nodes: &[Node], frames: &[Frame]) -> Bent<f64> {
+        let [a, b] = self.nodes.map(|node| node as usize);
+        Bent {
+            line: (nodes[b].position - nodes[a].position).into(),
+            parting: (nodes[b].velocity - nodes[a].velocity).into(),
+            orientations: [a, b].map(|node| frames[node].orientation.coords.into()),
+            spins: [a, b].map(|node| frames[node].spin.into()),
+            rest_frames: self.rest_frames.map(|frame| frame.coords.into()),
+            rest_length: self.rest_length,
+            axial: self.section.axial,
+            bending: self.section.bending,
+            twisting: self.section.twisting,
+            damping_time: self.damping_time,
+            turning_time: self.turning_time,
+        }
+    }
+
+    /// What becomes of the cylinder where it is overloaded: itself as it is after, the strain that goes with it, and the
+    /// energy lost by giving way in the step just made, of length `step` (J).
+    ///
+    /// Elastic and after the yield, primed and not: lost = E' − E − ½ Σ (Q' − Q) Δq over the axial force with the elongation
+    /// and the end moments with the turns of the step, as for a rope segment.
+    pub fn give_way(&self, nodes: &[Node], frames: &[Frame], step: f64) -> Option<(Self, Strain, f64)> {
+        let undamped = Self { damping_time: 0.0, turning_time: 0.0, ..self.clone() };
+        let before = undamped.bent(nodes, frames);
+        let elastic = before.strain();
+        let mut after = self.clone();
+        if elastic.tension > self.strength.breaking {
+            after.part();
+        } else {
+            after.draw_out(elastic.tension, dot(before.line, before.line).sqrt());
+            after.turn_out(&before, frames);
+            if after == *self {
+                return None;
+            }
+        }
+        let kept = Self { damping_time: 0.0, turning_time: 0.0, ..after.clone() }.bent(nodes, frames).strain();
+        let [stretched, turned1, turned2] = before.moved(step);
+        let work = (elastic.tension - kept.tension) * stretched[0]
+            - dot(minus(elastic.moments[0], kept.moments[0]), turned1)
+            - dot(minus(elastic.moments[1], kept.moments[1]), turned2);
+        let lost = elastic.stored - kept.stored - 0.5 * work;
+        let strain = after.bent(nodes, frames).strain();
+        Some((after, strain, lost))
+    }
+
+    /// Lets the axis yield under `tension` (N) at its present `length` (m).
+    fn draw_out(&mut self, tension: f64, length: f64) {
+        if tension <= self.strength.elastic {
+            return;
+        }
+        let rest_length = self.strength.rest_length_at_limit(self.section.axial, length);
+        self.strength.drawn_out += rest_length - self.rest_length;
+        self.rest_length = rest_length;
+    }
+
+    /// Lets the ends yield where bending or twisting is beyond the limits: turns the frames at rest by what is too much.
+    fn turn_out(&mut self, before: &Bent<f64>, frames: &[Frame]) {
+        let [most_across, most_along] = self.strength.moments(self.section.radius);
+        let (along, first, last) = before.turns();
+        let k = before.bending / before.rest_length;
+        let (moment1, moment2) = bending_moments(k, along, first, last);
+        let twist = dot(minus(last, first), along);
+        let torque = before.twisting / before.rest_length * twist;
+        let beyond = |moment: Triple<f64>| scaled(moment, (1.0 - most_across / dot(moment, moment).sqrt()).max(0.0));
+        let over_twist = twist * (1.0 - most_along / torque.abs()).max(0.0);
+        // A hinge at one end eases the other by half, so that a few rounds settle both.
+        let (mut turn1, mut turn2) = ([0.0; 3], [0.0; 3]);
+        for _ in 0..HINGE_ROUNDS {
+            let (eased, _) = bending_moments(k, along, turn1, turn2);
+            turn1 = plus(turn1, scaled(beyond(minus(moment1, eased)), 0.25 / k));
+            let (_, eased) = bending_moments(k, along, turn1, turn2);
+            turn2 = plus(turn2, scaled(beyond(minus(moment2, eased)), 0.25 / k));
+        }
+        let half_twist = scaled(along, 0.5 * over_twist);
+        let turns = [minus(turn1, half_twist), plus(turn2, half_twist)];
+        if turns == [[0.0; 3]; 2] {
+            return;
+        }
+        for ((rest, node), turn) in self.rest_frames.iter_mut().zip(self.nodes).zip(turns) {
+            let orientation = frames[node as usize].orientation;
+            let back = UnitQuaternion::from_scaled_axis(-Vec3::from(turn));
+            *rest = orientation.inverse() * back * orientation * *rest;
         }
     }
 }
@@ -122,12 +233,7 @@ impl<R: Real> Bent<R> {
     pub fn strain(&self) -> Strain<R> {
         let one = R::all(1.0);
         let length = dot(self.line, self.line).root();
-        let along = scaled(self.line, one / length);
-        let axes1 = axes_of(times(self.orientations[0], self.rest_frames[0]));
-        let axes2 = axes_of(times(self.orientations[1], self.rest_frames[1]));
-        let third = unit(cross(along, plus(axes1[1], axes2[1])));
-        let frame = [along, cross(third, along), third];
-        let (first, last) = (turn_between(&frame, &axes1), turn_between(&frame, &axes2));
+        let (along, first, last) = self.turns();
         let stretch = length - self.rest_length;
         let per_length = one / self.rest_length;
         let (k_axial, k_bend, k_twist) =
@@ -151,6 +257,30 @@ impl<R: Real> Bent<R> {
             + dot(lossy1, rate1)
             + dot(lossy2, rate2);
         Strain { tension, force: add_scaled(shear, -tension, along), moments, stored: stored * 0.5, power_lost }
+    }
+}
+
+impl<R: Real> Bent<R> {
+    /// Direction of the line, and how both nodes are turned against the frame that goes with it (rad).
+    #[inline(always)]
+    fn turns(&self) -> (Triple<R>, Triple<R>, Triple<R>) {
+        let along = unit(self.line);
+        let axes1 = axes_of(times(self.orientations[0], self.rest_frames[0]));
+        let axes2 = axes_of(times(self.orientations[1], self.rest_frames[1]));
+        let third = unit(cross(along, plus(axes1[1], axes2[1])));
+        let frame = [along, cross(third, along), third];
+        (along, turn_between(&frame, &axes1), turn_between(&frame, &axes2))
+    }
+}
+
+impl Bent<f64> {
+    /// Elongation (m, the first number alone) and turns of both ends against the line (rad) over a step of length `step` (s).
+    fn moved(&self, step: f64) -> [Triple<f64>; 3] {
+        let length = dot(self.line, self.line).sqrt();
+        let along = scaled(self.line, 1.0 / length);
+        let turning = scaled(cross(along, self.parting), 1.0 / length);
+        let turned = |spin: Triple<f64>| scaled(minus(spin, turning), step);
+        [[dot(self.parting, along) * step, 0.0, 0.0], turned(self.spins[0]), turned(self.spins[1])]
     }
 }
 

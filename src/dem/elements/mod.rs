@@ -5,3 +5,4 @@ pub mod dissipator;
 pub mod ring;
 pub mod rope;
 pub mod sliding;
+pub mod strength;

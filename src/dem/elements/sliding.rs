@@ -82,6 +82,11 @@ impl Chain {
             let [giver, taker] = [&pieces[slack], &pieces[taut]];
             // Tension falls by EA L/l² per rest length given to the taut side, and rises likewise on the other.
             let wanted = (taker.tension() - hold * giver.tension()) / (taker.slope() + hold * giver.slope());
+            if giver.axial == 0.0 {
+                // The rope has broken there: it runs out through the ring.
+                pieces[taut].rest_length += wanted;
+                continue;
+            }
             let moved = wanted.min(giver.rest_length - self.shortest);
             if moved == 0.0 || taker.rest_length + moved < self.shortest {
                 break;
@@ -94,7 +99,7 @@ impl Chain {
 
 /// One side of a ring: a segment as it lies, with a rest length that may change.
 struct Piece {
-    /// EA (N)
+    /// EA (N); nothing where the rope has broken.
     axial: f64,
     rest_length: f64,
     length: f64,

@@ -40,6 +40,10 @@ pub struct Histories {
     pub bed_force: Vec<f64>,
     /// Largest tension in the net (N).
     pub net_largest: Vec<f64>,
+    /// Pieces of rope that have broken so far.
+    pub broken_pieces: Vec<f64>,
+    /// Largest permanent elongation of a piece of rope so far, over its first length.
+    pub drawn_out: Vec<f64>,
     /// Lowest height of the top main rope above the bed (m).
     pub top_rope_height: Vec<f64>,
     /// Mean velocity of the grains along the channel and normal to the bed (m/s).

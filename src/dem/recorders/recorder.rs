@@ -30,6 +30,8 @@ pub struct RecorderSetup {
     pub passage_interval: f64,
     /// Knots of the net, row by row; empty for a rigid wall.
     pub net_rows: Vec<Vec<u32>>,
+    /// The same with all that a grain must have passed to be lost.
+    pub screen_rows: Vec<Vec<u32>>,
     /// Main ropes of the net; 0 for a rigid wall.
     pub ropes: usize,
     /// Height (m) and width (m) of the rigid wall, if that is the barrier.
@@ -155,6 +157,9 @@ impl Recorder {
             histories.net_largest.push(self.sum.net_largest * mean);
             histories.lateral_largest.push(self.sum.lateral_largest * mean);
             histories.bed_force.push(self.sum.bed_force.norm() * mean);
+            let [broken, drawn_out] = wear(simulation.model.barrier.as_ref());
+            histories.broken_pieces.push(broken);
+            histories.drawn_out.push(drawn_out);
         }
         histories.ledger.push(simulation.ledger);
         self.impact |= self.sum.force.norm() > 0.0;
@@ -231,7 +236,7 @@ impl Recorder {
 
     fn look_for_passed(&mut self, simulation: &Simulation, grains: &[Grain]) {
         let screen = match (&simulation.model.barrier, self.setup.wall) {
-            (Some(barrier), _) => Screen::of_net(barrier, &self.setup.net_rows),
+            (Some(barrier), _) => Screen::of_net(barrier, &self.setup.screen_rows),
             (None, Some([height, width])) => Screen::of_wall(height, width),
             (None, None) => return,
         };
@@ -362,6 +367,15 @@ fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, net: &NetForces, ropes
     add_rows(&mut sum.brakes, &brakes);
     sum.net_largest += net_largest;
     sum.lateral_largest += lateral_largest;
+}
+
+/// How many pieces of rope have broken, and the largest permanent elongation of one over its first length.
+fn wear(barrier: Option<&Barrier>) -> [f64; 2] {
+    let pieces = barrier.into_iter().flat_map(Barrier::strengths);
+    pieces.fold([0.0, 0.0], |[broken, drawn_out], (_, strength, length)| {
+        let elongation = strength.drawn_out / (length - strength.drawn_out);
+        [broken + f64::from(u8::from(strength.broken)), f64::max(drawn_out, elongation)]
+    })
 }
 
 /// Force on the fixed knots of the lowest row: what the bolts of a rope held by the bed must bear (N).

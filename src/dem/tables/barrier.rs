@@ -9,6 +9,7 @@ use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::ring::RingSide;
 use crate::dem::elements::sliding::Chain;
+use crate::dem::elements::strength::Strength;
 
 /// A point mass of the net or of a rope.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +54,7 @@ pub struct Segment {
     pub damping: f64,
     /// Radius with which grains touch (m).
     pub radius: f64,
+    pub strength: Strength,
 }
 
 impl Segment {
@@ -61,6 +63,12 @@ impl Segment {
     pub fn set_rest_length(&mut self, rest_length: f64) {
         self.stiffness *= self.rest_length / rest_length;
         self.rest_length = rest_length;
+    }
+
+    /// Lets the segment break: it pulls no more.
+    pub fn part(&mut self) {
+        self.strength.broken = true;
+        (self.stiffness, self.damping) = (0.0, 0.0);
     }
 }
 
@@ -80,6 +88,8 @@ pub struct Line {
     pub nodes: [u32; 2],
     /// m
     pub radius: f64,
+    /// What has broken is touched no more.
+    pub broken: bool,
 }
 
 /// An anchor point with the main rope it holds.
@@ -95,6 +105,8 @@ pub struct Barrier {
     pub nodes: Vec<Node>,
     pub segments: Vec<Segment>,
     pub dissipators: Vec<Dissipator>,
+    /// What holds knots of side extensions to where they lay: it yields like a dissipator, without end, and is not touched.
+    pub holds: Vec<Dissipator>,
     /// Cylinders, and how each node is turned (one frame for each node, or none where there are no cylinders).
     pub cylinders: Vec<Cylinder>,
     pub frames: Vec<Frame>,
@@ -120,15 +132,32 @@ impl Barrier {
         line.radius.max(ends[0]).max(ends[1])
     }
 
+    /// Lets the piece of rope between two nodes be touched no more.
+    pub fn lose_line(&mut self, nodes: [u32; 2]) {
+        let Some(index) = self.lines.iter().position(|line| line.nodes == nodes) else { return };
+        self.lines[index].broken = true;
+        for node in nodes {
+            self.nodes[node as usize].lines.retain(|&line| line as usize != index);
+        }
+    }
+
+    /// What every piece of rope has suffered, with the part it belongs to and its length at rest now (m).
+    pub fn strengths(&self) -> impl Iterator<Item = (SegmentKind, &Strength, f64)> {
+        let segments = self.segments.iter().map(|segment| (segment.kind, &segment.strength, segment.rest_length));
+        segments.chain(self.cylinders.iter().map(|piece| (piece.kind, &piece.strength, piece.rest_length)))
+    }
+
     /// Lists the lines that grains can touch, and at every node those that end there. Call once all elements stand.
     pub fn connect(&mut self) {
         let segments = self.segments.iter().map(|segment| (segment.kind, segment.nodes, segment.radius));
         let cylinders = self.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes, cylinder.section.radius));
         let touchable = segments.chain(cylinders).filter(|(kind, ..)| *kind != SegmentKind::Ring);
-        self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius }).collect();
-        self.lines.extend(
-            self.dissipators.iter().map(|dissipator| Line { nodes: dissipator.nodes, radius: dissipator.radius }),
-        );
+        self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius, broken: false }).collect();
+        self.lines.extend(self.dissipators.iter().map(|dissipator| Line {
+            nodes: dissipator.nodes,
+            radius: dissipator.radius,
+            broken: false,
+        }));
         for node in &mut self.nodes {
             node.lines.clear();
             node.radius = 0.0;

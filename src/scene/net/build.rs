@@ -9,6 +9,7 @@ use crate::dem::Vec3;
 use crate::dem::elements::cylinder::Section;
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::sliding::Chain;
+use crate::dem::elements::strength::Strength;
 use crate::dem::tables::barrier::{Anchor, Barrier, Frame, Node, Segment, SegmentKind};
 use crate::design::{BarrierModel, Bottom, Channel, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
@@ -32,6 +33,8 @@ pub struct BuiltNet {
     pub rows: Vec<Vec<u32>>,
     /// Row of each main rope.
     pub rope_rows: Vec<usize>,
+    /// The rows with the knots of the side extensions, if there are any: what a grain must have passed to be lost.
+    pub screen_rows: Vec<Vec<u32>>,
 }
 
 impl BuiltNet {
@@ -56,23 +59,29 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel) -> Bu
         },
         knots: BTreeMap::new(),
         rope_nodes: BTreeMap::new(),
+        wings: Vec::new(),
     };
     builder.add_knots();
     builder.add_net();
     builder.add_main_ropes();
     builder.add_lateral_ropes();
+    if let Some(extension) = &design.side_extension {
+        builder.add_side_extensions(extension);
+    }
     builder.finish()
 }
 
 pub(super) struct Builder<'a> {
     pub(super) design: &'a FlexibleNet,
-    channel: &'a Channel,
+    pub(super) channel: &'a Channel,
     model: BarrierModel,
     pub(super) grid: Grid,
     pub(super) barrier: Barrier,
     pub(super) knots: BTreeMap<(usize, usize), u32>,
     /// Nodes of main ropes from end to end, by row.
     pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
+    /// Knots of the side extensions by row, on either side, from the net outwards.
+    pub(super) wings: Vec<[Vec<u32>; 2]>,
 }
 
 impl Builder<'_> {
@@ -240,9 +249,10 @@ impl Builder<'_> {
     }
 
     /// Adds a straight rope between two nodes, as a segment or as a cylinder.
-    fn add_line(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
+    pub(super) fn add_line(&mut self, nodes: [u32; 2], kind: SegmentKind, rope: &Rope) {
         if self.model == BarrierModel::Cylinders {
-            self.add_cylinder(nodes, kind, Section::round(0.5 * rope.diameter, rope.modulus, POISSON));
+            let section = Section::round(0.5 * rope.diameter, rope.modulus, POISSON);
+            self.add_cylinder(nodes, kind, section, strength_of(rope));
         } else {
             self.add_segment(nodes, kind, rope);
         }
@@ -262,15 +272,30 @@ impl Builder<'_> {
             node.mass += half_mass;
         }
         let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
-        self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius });
+        let strength = strength_of(rope);
+        self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius, strength });
     }
 
     fn finish(mut self) -> BuiltNet {
         self.barrier.connect();
         // Along a main rope, the rope tells how high a row stands and how wide.
         let row = |row| self.rope_nodes.get(&row).cloned().unwrap_or_else(|| self.knots_of_row(row));
-        let rows = (0..self.grid.row_heights.len()).map(row).collect();
-        BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows }
+        let rows: Vec<Vec<u32>> = (0..self.grid.row_heights.len()).map(row).collect();
+        let mut screen_rows = rows.clone();
+        for (row, [first, last]) in screen_rows.iter_mut().zip(&self.wings) {
+            row.splice(0..0, first.iter().rev().copied());
+            row.extend(last);
+        }
+        BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows, screen_rows }
+    }
+}
+
+/// What pieces of `rope` withstand.
+pub(super) fn strength_of(rope: &Rope) -> Strength {
+    Strength {
+        elastic: rope.elastic_limit.unwrap_or(f64::INFINITY),
+        breaking: if rope.breaks { rope.breaking_load } else { f64::INFINITY },
+        ..Strength::default()
     }
 }
 

@@ -1,5 +1,6 @@
 //! The flexible barrier: mesh, main and lateral ropes, dissipators and anchors, as nodes and elements.
 
 pub mod build;
+mod extension;
 pub mod grid;
 pub mod rings;

@@ -9,9 +9,10 @@ use crate::dem::Vec3;
 use crate::dem::contact::law::Memory;
 use crate::dem::elements::cylinder::{Cylinder, Section};
 use crate::dem::elements::ring::RingSide;
+use crate::dem::elements::strength::Strength;
 use crate::dem::tables::barrier::SegmentKind;
 use crate::design::{MainRopes, Rope};
-use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY};
+use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY, strength_of};
 
 /// Poisson's ratio of all cylinders, for twisting only.
 pub const POISSON: f64 = 0.3;
@@ -54,7 +55,7 @@ impl Builder<'_> {
         let section = Section::round(0.5 * ropes.rope.diameter, ropes.rope.modulus, POISSON);
         let first = self.barrier.cylinders.len() as u32;
         for pair in nodes.windows(2) {
-            self.add_cylinder([pair[0], pair[1]], SegmentKind::Main(rope), section);
+            self.add_cylinder([pair[0], pair[1]], SegmentKind::Main(rope), section, strength_of(&ropes.rope));
         }
         let cylinders = first..self.barrier.cylinders.len() as u32;
         for (column, place) in columns.into_iter().zip(ring_places) {
@@ -75,27 +76,39 @@ impl Builder<'_> {
         let ropes = &self.design.main_ropes;
         let half_diagonal = ring_side(ropes) * FRAC_1_SQRT_2;
         let section = Section::round(0.5 * ropes.ring_diameter, ropes.ring_modulus, POISSON);
-        let rod = Rope { diameter: ropes.ring_diameter, modulus: ropes.ring_modulus, breaking_load: f64::INFINITY };
+        let rod = Rope {
+            diameter: ropes.ring_diameter,
+            modulus: ropes.ring_modulus,
+            breaking_load: f64::INFINITY,
+            elastic_limit: None,
+            breaks: false,
+        };
         let [upward, upstream] = self.directions();
         let corners = [upstream, upward, -upstream, -upward]
             .map(|direction| self.add_node(centre + direction * half_diagonal, false));
         for corner in 0..4 {
             let side = self.barrier.cylinders.len() as u32;
-            self.add_cylinder([corners[corner], corners[(corner + 1) % 4]], SegmentKind::Ring, section);
+            self.add_cylinder(
+                [corners[corner], corners[(corner + 1) % 4]],
+                SegmentKind::Ring,
+                section,
+                Strength::default(),
+            );
             self.barrier.rings.push(RingSide { side, ..ring.clone() });
         }
         self.add_segment([corners[0], corners[2]], SegmentKind::Ring, &rod);
         self.add_segment([corners[1], corners[3]], SegmentKind::Ring, &rod);
-        self.add_cylinder([corners[0], knot], SegmentKind::Ring, section);
+        self.add_cylinder([corners[0], knot], SegmentKind::Ring, section, Strength::default());
     }
 
     /// Adds a cylinder between two nodes, at rest as it lies, half its mass and inertia to each.
-    pub(super) fn add_cylinder(&mut self, nodes: [u32; 2], kind: SegmentKind, section: Section) {
+    pub(super) fn add_cylinder(&mut self, nodes: [u32; 2], kind: SegmentKind, section: Section, strength: Strength) {
         let ends = nodes.map(|node| node as usize);
         let barrier = &mut self.barrier;
         let places = ends.map(|end| barrier.nodes[end].position);
         let frames = ends.map(|end| &barrier.frames[end]);
         let mut cylinder = Cylinder::between(nodes, kind, section, [&places[0], &places[1]], frames);
+        cylinder.strength = strength;
         let (length, radius) = (cylinder.rest_length, section.radius);
         let half_mass = 0.5 * ROPE_DENSITY * PI * radius * radius * length;
         cylinder.damping_time = 2.0 * ROPE_DAMPING_RATIO * (half_mass * length / section.axial).sqrt();

@@ -1,6 +1,7 @@
 //! D27: a net panel in a frame, pushed through its middle.
 
 use crate::dem::Vec3;
+use crate::dem::elements::strength::Strength;
 use crate::dem::model::Model;
 use crate::dem::simulation::{Simulation, Unstable};
 use crate::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
@@ -79,6 +80,7 @@ fn panel(axial: f64, slack: f64) -> Barrier {
                 stiffness,
                 damping: 0.4 * (stiffness * half_mass).sqrt(),
                 radius: ROPE_RADIUS,
+                strength: Strength::default(),
             });
             for node in [node, other] {
                 barrier.nodes[node as usize].mass += half_mass;

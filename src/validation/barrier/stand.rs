@@ -3,6 +3,7 @@
 use crate::dem::Vec3;
 use crate::dem::contact::law::LawConstants;
 use crate::dem::elements::cylinder::{Cylinder, Section};
+use crate::dem::elements::strength::Strength;
 use crate::dem::net::{NetForces, pull_all};
 use crate::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
 use crate::dem::time::integrate::{move_nodes, turn_frames};
@@ -136,6 +137,7 @@ pub fn rope(points: &[Vec3], fixed: [bool; 2], slack: f64) -> Barrier {
             stiffness: section().axial / rest_length,
             damping: 0.0,
             radius: RADIUS,
+            strength: Strength::default(),
         });
     }
     barrier.connect();

@@ -1,6 +1,7 @@
 //! A27: standing waves of a chain of masses and springs.
 
 use crate::dem::Vec3;
+use crate::dem::elements::strength::Strength;
 use crate::dem::model::Model;
 use crate::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
 use crate::dem::tables::grains::GrainShape;
@@ -56,6 +57,7 @@ fn measured(mode: u32, expected: f64) -> Result<f64, Broken> {
             stiffness: STIFFNESS,
             damping: 0.0,
             radius: 0.01,
+            strength: Strength::default(),
         });
     }
     barrier.connect();
