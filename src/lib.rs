@@ -1,7 +1,7 @@
 //! Checks rigid and flexible debris-flow barriers: guideline loads, granular-flow simulation, verdict, report.
 //!
 //! # Map
-//! The run is one chain, all of it in [`pipeline::run`]:
+//! The run is one chain, all of it in [`pipeline::run`], its simulations in [`simulated::simulate`]:
 //!
 //! [`design`] (what is asked) → [`fidelity`] (how finely to model) → [`scene`] (bodies, and the event itself)
 //! → histories of [`dem`] → [`demand`] (one number per check, by guideline and by simulation) → [`checks`]
@@ -29,6 +29,7 @@
 //! | a rung of the ladder | [`fidelity::ladder::RUNGS`] |
 //! | a knob to study | a variant and its lines in [`studies::knobs`] |
 //! | a scene of the stability map | a function and a line in [`studies::stability::SCENES`] |
+//! | something a run depends on | a field that is kept with [`dem::simulation::Simulation`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | something recorded | a field of what [`report::recording`] writes; raise its `FORMAT` and make `tests/fixtures/tiny.bin` anew |
 //! | what the replay shows | [`dem::recorders::film`], its packing in [`report::replay`], its drawing in `templates/replay.js` |
 //! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
@@ -46,10 +47,13 @@
 //!   on motion, never by guesses ([`dem::neighbours::clocks`]).
 //! * The channel frame: x down the slope with the barrier's foot at 0, y across, z normal to the bed.
 //! * A run that becomes unstable or breaks a limit of [`checks::credibility`] never passes.
-//! * Only [`commands`] and the report's writer touch files; only one file names the broad-phase library; `unsafe` stands in
+//! * A run that is kept at a stop and resumed goes on bit for bit ([`checkpoint`]): whatever a step depends on is either kept or made
+//!   anew at every stop of every run.
+//! * Only [`commands`] and the writers of reports and checkpoints touch files; only one file names the broad-phase library; `unsafe` stands in
 //!   [`dem::crew`], [`dem::simd`], [`dem::tables::prefetch`], and around the rows that are moved while others are read
 //!   ([`dem::tables::grain_rows`], [`dem::sweep`]).
 
+pub mod checkpoint;
 pub mod checks;
 pub mod commands;
 pub mod dem;
@@ -61,7 +65,9 @@ pub mod pipeline;
 pub mod problem;
 pub mod report;
 pub mod scene;
+pub mod sealed;
 pub mod sensitivity;
+pub mod simulated;
 pub mod sources;
 pub mod starts;
 pub mod studies;

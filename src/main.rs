@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 use std::process;
+use std::time::Duration;
 
-use barrier_check::commands::check::{Wishes, check, dry_run, loads};
+use barrier_check::commands::check::{Wishes, check, dry_run, loads, resume};
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
@@ -34,6 +35,28 @@ struct CheckArguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     how: HowArguments,
+    #[command(flatten)]
+    keep: KeepArguments,
+}
+
+/// How a run is kept.
+#[derive(Args)]
+struct KeepArguments {
+    /// Seconds between two times that a run is kept, so that `resume` can go on with it
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = seconds)]
+    keep_every: f64,
+}
+
+impl KeepArguments {
+    fn every(&self) -> Duration {
+        Duration::from_secs_f64(self.keep_every)
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "a number of seconds is wanted".to_string())?;
+    let sound = (0.0..=1e6).contains(&value);
+    sound.then_some(value).ok_or_else(|| "from 0 to 1000000 seconds".to_string())
 }
 
 /// How to simulate.
@@ -88,6 +111,16 @@ enum Command {
         #[arg(long)]
         vtk: bool,
     },
+    /// Goes on with a run that was interrupted: the result is that of a run that was not
+    Resume {
+        /// Folder of the report that was to be written
+        folder: PathBuf,
+        /// Number of threads [default: all cores]; the result does not depend on it
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+        #[command(flatten)]
+        keep: KeepArguments,
+    },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
     /// Runs scenes with each choice of the model changed alone: what it costs, what it changes
@@ -134,16 +167,19 @@ fn main() {
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
         Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.wishes()) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
+        Some(Command::Resume { folder, threads, keep }) => {
+            resume(&folder, threads.map(usize::from), keep.every()) as i32
+        }
         Some(Command::Study { file, out }) => study(&file, out.as_deref()) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, dry_run: only_tell, out, how } = arguments.check;
+            let CheckArguments { design, dry_run: only_tell, out, how, keep } = arguments.check;
             let design = design.unwrap_or_default();
             match only_tell {
                 true => dry_run(&design, how.wishes()) as i32,
-                false => check(&design, out.as_deref(), how.wishes()) as i32,
+                false => check(&design, out.as_deref(), how.wishes(), keep.every()) as i32,
             }
         }
     };

@@ -1,30 +1,23 @@
 //! The run on one page: design → fidelity → scene → histories → demands → outcomes → verdict.
 
-use serde::{Deserialize, Serialize};
-
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
-use crate::checks::credibility::{Numerics, doubts};
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::wall::unheld;
-use crate::dem::crew;
-use crate::dem::recorders::histories::Histories;
-use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Demands;
-use crate::demand::from_histories::{Observed, Reading};
+use crate::demand::from_histories::Observed;
 use crate::demand::from_loads::{Guideline, guideline};
 use crate::design::Design;
 use crate::design::read::DesignFile;
+use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, Step};
-use crate::fidelity::{Fidelity, choose};
-use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::estimate::estimate;
-use crate::scene::event::{Ending, Event, Watch, run as run_event};
-use crate::scene::flow::packing::PackingError;
+use crate::scene::event::Watch;
 use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
-use crate::starts::{Spread, side_by_side};
+use crate::simulated::{Detail, RunError, Simulated, simulate};
+use crate::starts::side_by_side;
 
 /// What the whole run says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,85 +54,6 @@ pub struct Run {
     pub climb: Vec<Step>,
 }
 
-/// What the simulation shows: the first start in full, of every start what was observed.
-#[derive(Clone, Debug)]
-pub struct Simulated {
-    pub fidelity: Fidelity,
-    pub histories: Histories,
-    pub facts: Facts,
-    /// Worst over the starts.
-    pub numerics: Numerics,
-    pub starts: Vec<Start>,
-    /// Why runs cannot be relied on.
-    pub doubts: Vec<String>,
-}
-
-/// One start: its packing, and what came of it.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Start {
-    pub seed: u64,
-    pub observed: Observed,
-}
-
-impl Simulated {
-    /// What the first start showed.
-    pub fn first(&self) -> &Observed {
-        &self.starts[0].observed
-    }
-
-    /// A quantity over the starts.
-    pub fn spread(&self, quantity: impl Fn(&Observed) -> f64) -> Spread {
-        Spread::of(&self.starts.iter().map(|start| quantity(&start.observed)).collect::<Vec<_>>())
-    }
-}
-
-/// Counts and times of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Facts {
-    pub grains: usize,
-    pub spheres: usize,
-    pub barrier_nodes: usize,
-    pub barrier_elements: usize,
-    /// Simulated time since the release (s).
-    pub simulated: f64,
-    /// Whether the answer no longer changed at the end.
-    pub steady: bool,
-    /// Steps made, those of the settling included.
-    pub steps: u64,
-    /// Time step at the end (s).
-    pub time_step: f64,
-    /// How often an audit has cut the time step.
-    pub step_cuts: u32,
-    /// Steps of the barrier in one of the grains'.
-    pub barrier_parts: u32,
-    /// Largest step over critical step that an audit found.
-    pub step_ratio: StepRatio,
-    /// How often the neighbour lists were made anew.
-    pub renewals: u64,
-    pub threads: usize,
-    /// When the run began, in seconds since 1970.
-    pub began: i64,
-    /// From design to end of simulation (s).
-    pub wall_clock: f64,
-    /// Window over which total and wall forces are averaged (s).
-    pub smoothing: f64,
-    /// Interval of the time series (s).
-    pub sampling: f64,
-    /// Bulk density of the packed flow over the one asked for.
-    pub packed_share: f64,
-}
-
-/// Why there is no result at all.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    #[error("the run was interrupted; nothing was written")]
-    Interrupted,
-    #[error("the flow could not be prepared: {0}")]
-    Preparation(#[from] PackingError),
-    #[error("this design is not run: {0}")]
-    TooMuch(String),
-}
-
 /// By equations alone: loads, ropes, checks.
 pub fn by_equations(file: DesignFile) -> Run {
     let guideline = guideline(&file.design);
@@ -156,15 +70,12 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
     let threads = rayon::current_num_threads();
     let (started, began) = (Instant::now(), SystemTime::now());
     let runs = if starts < 2 {
-        vec![simulate(design, &fidelity, &guideline, seed(0), watch)]
+        vec![simulate(design, &fidelity, &guideline, seed(0), Detail::Full, watch)]
     } else {
         side_by_side(threads, starts as usize, |index| {
-            let mut simulated = simulate(design, &fidelity, &guideline, seed(index), watch)?;
             // The first start is told in full; of the others what was observed.
-            if index > 0 {
-                simulated.histories = Histories::default();
-            }
-            Ok(simulated)
+            let detail = if index == 0 { Detail::Full } else { Detail::Observed };
+            simulate(design, &fidelity, &guideline, seed(index), detail, watch)
         })
     };
     let mut runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -173,7 +84,7 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
     simulated.doubts = doubts;
     simulated.facts.threads = threads;
     simulated.facts.began = began.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs() as i64);
-    simulated.facts.wall_clock = started.elapsed().as_secs_f64();
+    simulated.facts.wall_clock = started.elapsed().as_secs_f64().max(simulated.facts.wall_clock);
     for other in runs {
         simulated.numerics = simulated.numerics.worst(&other.numerics);
         simulated.starts.extend(other.starts);
@@ -242,7 +153,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     let variants = variants(&run.file.design);
     let answer = |design: &Design| -> Result<Point, RunError> {
         let guideline = guideline(design);
-        let simulated = simulate(design, &choose(design), &guideline, design.simulation.seed, watch)?;
+        let simulated = simulate(design, &choose(design), &guideline, design.simulation.seed, Detail::Observed, watch)?;
         let mut demands = Demands::meet(&guideline, &[simulated.first()], design.factors.load);
         demands.leave_out_guideline();
         let point = Point::of(simulated.first().force_peak, &check_all(design, &demands));
@@ -273,43 +184,6 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
 
-/// One start of one design, modelled as finely as `fidelity` says. Call inside the thread pool that shall do the work.
-pub fn simulate(
-    design: &Design,
-    fidelity: &Fidelity,
-    guideline: &Guideline,
-    seed: u64,
-    watch: &Watch,
-) -> Result<Simulated, RunError> {
-    if let Some(reason) = estimate(design, fidelity).too_much() {
-        return Err(RunError::TooMuch(reason));
-    }
-    crew::gather(|| {
-        let started = Instant::now();
-        let scene = build(design, fidelity, seed)?;
-        let mut facts = Facts {
-            grains: scene.simulation.grains.len(),
-            spheres: scene.simulation.grains.members(),
-            smoothing: scene.smoothing,
-            sampling: scene.recorder.interval,
-            packed_share: scene.packed_share,
-            threads: rayon::current_num_threads(),
-            ..Facts::default()
-        };
-        let reading = Reading { window: SAMPLES_PER_WINDOW as usize, tail: scene.samples_of_rest() };
-        let event = run_event(scene, design.simulation.longest, watch);
-        if event.ending == Ending::Interrupted {
-            return Err(RunError::Interrupted);
-        }
-        facts.take(&event, started);
-        let numerics = numerics(&event);
-        let observed = Observed::read(&event.histories, design, guideline, reading);
-        let starts = vec![Start { seed, observed }];
-        let doubts = doubts(&numerics);
-        Ok(Simulated { fidelity: fidelity.clone(), histories: event.histories, facts, numerics, starts, doubts })
-    })
-}
-
 /// Doubt comes before everything; then a single failed check fails the design.
 fn verdict(outcomes: &[Outcome], doubts: &[String]) -> Verdict {
     if !doubts.is_empty() {
@@ -318,39 +192,5 @@ fn verdict(outcomes: &[Outcome], doubts: &[String]) -> Verdict {
         Verdict::Fail
     } else {
         Verdict::Pass
-    }
-}
-
-fn numerics(event: &Event) -> Numerics {
-    Numerics {
-        energy_error: event.energy_error,
-        overlap: event.simulation.extremes.overlap_ratio,
-        step_ratio: event.simulation.extremes.step_ratio.value,
-        crossings: event.simulation.extremes.crossings,
-        broke_down: match &event.ending {
-            Ending::BrokeDown(unstable) => Some(unstable.to_string()),
-            _ => None,
-        },
-        missed: event.ending == Ending::Steady && event.histories.force.iter().all(|force| force.norm() == 0.0),
-        unfinished: event.ending == Ending::OutOfTime,
-    }
-}
-
-impl Facts {
-    fn take(&mut self, event: &Event, started: Instant) {
-        let simulation = &event.simulation;
-        if let Some(barrier) = &simulation.model.barrier {
-            self.barrier_nodes = barrier.nodes.len();
-            self.barrier_elements = barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len();
-        }
-        self.simulated = simulation.time;
-        self.steady = event.ending == Ending::Steady;
-        self.steps = simulation.steps;
-        self.time_step = simulation.time_step;
-        self.step_cuts = simulation.step_cuts;
-        self.barrier_parts = simulation.barrier_parts;
-        self.step_ratio = simulation.extremes.step_ratio;
-        self.renewals = simulation.neighbours.renewals;
-        self.wall_clock = started.elapsed().as_secs_f64();
     }
 }

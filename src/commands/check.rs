@@ -4,18 +4,22 @@ use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::checkpoint::file::CheckpointError;
+use crate::checkpoint::{self, Order, Vault};
 use crate::commands::ExitCode;
-use crate::commands::output::hand_over;
+use crate::commands::output::{exit_code, hand_over, summarise, write_report};
 use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, read_design};
 use crate::fidelity::choose;
-use crate::pipeline::{Run, RunError, by_equations, climb, run, vary};
+use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::scene::estimate::{Estimate, estimate};
 use crate::scene::event::{ProgressReport, Watch};
+use crate::simulated::RunError;
 
 /// Bytes read of a file at the most; the document refuses anything near.
 const MOST_READ: u64 = 2 << 20;
@@ -36,9 +40,78 @@ pub struct Wishes {
     pub vtk: bool,
 }
 
-/// Runs one design and writes its report below `out`, or `out/<design name>` when none is given.
-pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes) -> ExitCode {
-    report_on(path, out, "", wishes.vtk, |file| simulate(file, wishes))
+/// Runs one design and writes its report below `out`, or `out/<design name>` when none is given. The run is kept every so often, so
+/// that it can be resumed.
+pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Duration) -> ExitCode {
+    let (file, folder) = match prepare(path, out, "") {
+        Ok(prepared) => prepared,
+        Err(code) => return code,
+    };
+    let Wishes { starts, vary, vtk, .. } = wishes;
+    let order = Order { name: file.name.clone(), design: file.text.clone(), starts, vary, vtk };
+    let vault = open_vault(&folder, order, &file, keep_every);
+    if Vault::order_in(vault.folder()).is_ok() {
+        eprintln!(
+            "note: an interrupted run is kept in {}; this one begins anew (`barrier-check resume {}` would go on with it)",
+            vault.folder().display(),
+            folder.display()
+        );
+        vault.clear();
+    }
+    run_kept(file, &folder, wishes, &vault)
+}
+
+/// Goes on with a run that was interrupted, whose report was to go to `folder`.
+pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> ExitCode {
+    let kept = folder.join(checkpoint::FOLDER);
+    let order = match Vault::order_in(&kept) {
+        Ok(order) => order,
+        Err(CheckpointError::Missing) => {
+            eprintln!("error: {}: no interrupted run is kept there", folder.display());
+            return ExitCode::Undecided;
+        }
+        Err(error) => {
+            eprintln!("error: the run kept in {} cannot be resumed: {error}. Run the design again", kept.display());
+            return ExitCode::Undecided;
+        }
+    };
+    let file = match read_design(&format!("{}.yaml", order.name), &order.design) {
+        Ok(file) => file,
+        Err(problems) => {
+            eprint!("{problems}");
+            return ExitCode::Undecided;
+        }
+    };
+    let Order { starts, vary, vtk, .. } = order;
+    let vault = open_vault(folder, order, &file, keep_every);
+    run_kept(file, folder, Wishes { threads, starts, vary, vtk }, &vault)
+}
+
+fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Duration) -> Vault {
+    let several = order.starts > 1 || order.vary || file.design.simulation.fidelity == FidelityWish::Auto;
+    Vault::new(folder.join(checkpoint::FOLDER), order, keep_every, several)
+}
+
+/// Runs a design whose simulations are kept in `vault`, and writes its report into `folder`.
+fn run_kept(file: DesignFile, folder: &Path, wishes: Wishes, vault: &Vault) -> ExitCode {
+    let there_before = folder.exists();
+    if let Err(code) = make_folder(folder) {
+        return code;
+    }
+    match simulate(file, wishes, Some(vault)).and_then(|run| Ok((write_report(&run, folder, wishes.vtk)?, run))) {
+        Ok((view, run)) => {
+            vault.clear();
+            summarise(&view, folder);
+            exit_code(run.verdict)
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            if vault.has_kept() || Vault::order_in(vault.folder()).is_ok() {
+                eprintln!("note: `barrier-check resume {}` goes on where the run was kept last", folder.display());
+            }
+            give_up(folder, there_before)
+        }
+    }
 }
 
 /// Tells what a run of the design would take, without running it.
@@ -87,50 +160,58 @@ fn duration(seconds: f64) -> String {
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
 pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
-    report_on(path, out, "_loads", false, |file| Ok(by_equations(file)))
+    let (file, folder) = match prepare(path, out, "_loads") {
+        Ok(prepared) => prepared,
+        Err(code) => return code,
+    };
+    let there_before = folder.exists();
+    if let Err(code) = make_folder(&folder) {
+        return code;
+    }
+    match hand_over(&by_equations(file), &folder, false) {
+        ExitCode::Undecided => give_up(&folder, there_before),
+        code => code,
+    }
 }
 
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-fn report_on(
-    path: &Path,
-    out: Option<&Path>,
-    suffix: &str,
-    with_vtk: bool,
-    work: impl FnOnce(DesignFile) -> Result<Run, Failure>,
-) -> ExitCode {
+/// The design, and the folder its report goes to.
+fn prepare(path: &Path, out: Option<&Path>, suffix: &str) -> Result<(DesignFile, PathBuf), ExitCode> {
     let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(format!("{name}{suffix}")), PathBuf::from);
-    let file = match load(path) {
-        Ok(file) => file,
+    match load(path) {
+        Ok(file) => {
+            let folder = folder_of(&file.name);
+            Ok((file, folder))
+        }
         Err(problems) => {
             eprint!("{problems}");
             tell_of_earlier_run(&folder_of(&path.file_stem().unwrap_or_default().to_string_lossy()));
-            return ExitCode::Undecided;
+            Err(ExitCode::Undecided)
         }
-    };
-    let folder = folder_of(&file.name);
+    }
+}
+
+/// Makes the folder of the report before the run, so that nobody waits for what cannot be kept.
+fn make_folder(folder: &Path) -> Result<(), ExitCode> {
     if folder.exists() && !folder.is_dir() {
         eprintln!("error: {} is a file; --out needs a folder", folder.display());
-        return ExitCode::Undecided;
+        return Err(ExitCode::Undecided);
     }
-    let there_before = folder.exists();
-    // Before the run, so that nobody waits for what cannot be kept.
-    if let Err(error) = std::fs::create_dir_all(&folder) {
+    std::fs::create_dir_all(folder).map_err(|error| {
         eprintln!("error: the report could not be written to {}: {error}", folder.display());
-        return ExitCode::Undecided;
+        ExitCode::Undecided
+    })
+}
+
+/// Leaves the folder as it was.
+fn give_up(folder: &Path, there_before: bool) -> ExitCode {
+    if !there_before {
+        // Only if it is empty.
+        let _ = std::fs::remove_dir(folder);
     }
-    let result = match work(file) {
-        Ok(run) => run,
-        Err(error) => {
-            eprintln!("error: {error}");
-            if !there_before {
-                let _ = std::fs::remove_dir(&folder);
-            }
-            tell_of_earlier_run(&folder);
-            return ExitCode::Undecided;
-        }
-    };
-    hand_over(&result, &folder, with_vtk)
+    tell_of_earlier_run(folder);
+    ExitCode::Undecided
 }
 
 /// Warns of a report that does not belong to this run.
@@ -153,10 +234,20 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
     read_design(&name, &bytes)
 }
 
-/// Runs inside a pool of its own, so that no step has to enter one; shows progress and listens for Ctrl-C.
-pub fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
+/// Listens for Ctrl-C and for being asked to end: the first time the run is kept at its next stop and ends, the second time the
+/// program ends at once.
+fn listen() {
     // Set once; that it cannot be set again for the next of several designs is no matter.
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    let _ = ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(ExitCode::Undecided as i32);
+        }
+    });
+}
+
+/// Runs inside a pool of its own, so that no step has to enter one; shows progress.
+pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Result<Run, Failure> {
+    listen();
     let bar = Mutex::new(progress_bar());
     let show = |report: ProgressReport| {
         if let Ok(bar) = bar.lock() {
@@ -165,7 +256,7 @@ pub fn simulate(file: DesignFile, wishes: Wishes) -> Result<Run, Failure> {
         }
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wishes.threads.unwrap_or(0)).build()?;
-    let watch = Watch { progress: &show, stop: &STOP };
+    let watch = Watch { progress: &show, stop: &STOP, vault };
     let result = pool.install(|| {
         let mut result = match file.design.simulation.fidelity {
             FidelityWish::Auto => climb(file, wishes.starts, &watch)?,

@@ -66,7 +66,7 @@ impl Source {
 
     fn run(self, wishes: Wishes) -> Result<Run, Failure> {
         match self {
-            Self::Design(file) => simulate(*file, wishes),
+            Self::Design(file) => simulate(*file, wishes, None),
             Self::Recorded(run) => Ok(*run),
         }
     }

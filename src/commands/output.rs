@@ -18,7 +18,7 @@ use crate::report::write::{ReportFile, write_all};
 pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
     match write_report(run, folder, with_vtk) {
         Err(error) => {
-            eprintln!("error: the report could not be written to {}: {error}", folder.display());
+            eprintln!("error: {error}");
             ExitCode::Undecided
         }
         Ok(view) => {
@@ -30,6 +30,12 @@ pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
 
 /// Writes all files of the report into `folder`; returns what they show.
 pub fn write_report(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failure> {
+    let told =
+        |error: Failure| Failure::from(format!("the report could not be written to {}: {error}", folder.display()));
+    write_all_of(run, folder, with_vtk).map_err(told)
+}
+
+fn write_all_of(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failure> {
     let view = View::of(run);
     let files = files(run, &view)?;
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
@@ -65,7 +71,7 @@ fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
 }
 
 /// Verdict and checks for the terminal.
-fn summarise(view: &View, folder: &Path) {
+pub fn summarise(view: &View, folder: &Path) {
     let mut out = std::io::stdout().lock();
     let mut say = |line: String| {
         let _ = writeln!(out, "{line}");

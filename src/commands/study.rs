@@ -9,11 +9,11 @@ use sha2::Digest;
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, STOP, load};
 use crate::design::read::DesignFile;
-use crate::pipeline::RunError;
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
 use crate::report::write::write_all;
 use crate::scene::event::Watch;
+use crate::simulated::RunError;
 use crate::starts::side_by_side;
 use crate::studies::knobs::Knob;
 use crate::studies::plan::{Plan, StabilityPlan, Study};
@@ -84,7 +84,7 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
             return Ok(Some(point));
         }
         bar.set_message(format!("{}, {}", scenes[task.scene].name, task.setting.word()));
-        let watch = Watch { progress: &|_| (), stop: &STOP };
+        let watch = Watch { progress: &|_| (), stop: &STOP, vault: None };
         let point = match make(task, &scenes[task.scene].design, &watch) {
             Ok(point) => point,
             Err(RunError::Preparation(_)) => return Ok(None),

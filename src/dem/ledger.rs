@@ -36,7 +36,7 @@ impl ContactSums {
 }
 
 /// Energies of motion and place at one instant (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MotionEnergy {
     pub kinetic: f64,
     /// Its rotational part.

@@ -1,12 +1,14 @@
 //! What is simulated: grains, surfaces, barrier, and what they are made of.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::grains::{Grain, GrainShape};
 use crate::dem::tables::surfaces::Surface;
 
 /// What the grains are made of, as contacts feel it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Contact modulus E (Pa): k = 2 E r₁ r₂/(r₁+r₂).
     pub modulus: f64,
@@ -19,7 +21,7 @@ pub struct Material {
 }
 
 /// Everything that is simulated.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Model {
     pub shape: GrainShape,
     /// The grains as they start; a running simulation keeps them in its own table.

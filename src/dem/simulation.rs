@@ -1,5 +1,7 @@
 //! A model in motion: one step after the other.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::contact::law::{LawConstants, Memory};
 use crate::dem::contact::surfaces::SurfaceForces;
@@ -24,6 +26,10 @@ const STEPS_PER_AUDIT: u64 = 500;
 /// Step over critical step to which the time step is cut when an audit finds it beyond the critical step.
 const STEP_AFTER_CUT: f64 = 0.95;
 
+/// Steps between two stops at which all lists are made anew, whatever they are still good for: what is kept there goes on bit for
+/// bit like a run that was never interrupted.
+pub const STEPS_PER_STOP: u64 = 2000;
+
 /// Step of the barrier over its critical step that is aimed at where it takes several in one of the grains', and their largest
 /// number.
 const BARRIER_STEP_SHARE: f64 = 0.7;
@@ -44,7 +50,7 @@ pub enum Unstable {
 }
 
 /// Extremes met so far that bear on credibility.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Largest overlap over the smaller radius.
     pub overlap_ratio: f64,
@@ -74,10 +80,12 @@ pub struct SurfaceContact {
     pub place: Vec3,
 }
 
+#[derive(Serialize, Deserialize)]
 pub struct Simulation {
     /// All but the grains; those are in `grains`.
     pub model: Model,
     pub grains: GrainTable,
+    #[serde(skip)]
     sheets: LoadSheets,
     pub neighbours: Neighbours,
     /// Time step (s).
@@ -90,6 +98,7 @@ pub struct Simulation {
     pub steps: u64,
     /// Time since the start (s).
     pub time: f64,
+    #[serde(skip)]
     pub sums: StepSums,
     /// Losses are booked in every step; energies in place only by [`Self::step_and_account`].
     pub ledger: Ledger,
@@ -202,6 +211,11 @@ impl Simulation {
         self.extremes = Extremes::default();
     }
 
+    /// Whether the simulation may be kept here and taken up again later.
+    pub fn at_stop(&self) -> bool {
+        self.steps.is_multiple_of(STEPS_PER_STOP)
+    }
+
     fn law(&self) -> LawConstants {
         LawConstants { time_step: self.time_step, ..self.law }
     }
@@ -213,6 +227,9 @@ impl Simulation {
 
     /// Sees to it that lists and time step are good for the step to come.
     fn prepare(&mut self) -> Result<(), Unstable> {
+        if self.at_stop() {
+            self.neighbours.rest();
+        }
         if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
             self.check_finite()?;
             self.renew();

@@ -44,6 +44,8 @@ pub struct Observed {
     /// Largest force on what holds the lowest rope to the bed (N).
     pub bed_force_peak: f64,
     pub net_tension_peak: f64,
+    /// Largest tension of the net at the end (N).
+    pub net_tension_residual: f64,
     /// Pieces of rope that broke, and when the first did (s).
     pub broken_pieces: f64,
     pub first_break: Option<f64>,
@@ -108,6 +110,7 @@ impl Observed {
             lateral_tension_peak: peak(&histories.lateral_largest).1,
             bed_force_peak: peak(&histories.bed_force).1,
             net_tension_peak: peak(&histories.net_largest).1,
+            net_tension_residual: tail_mean(&histories.net_largest, reading.tail),
             broken_pieces: peak(&histories.broken_pieces).1,
             first_break: histories.broken_pieces.iter().position(|count| *count > 0.0).map(time),
             drawn_out: peak(&histories.drawn_out).1,

@@ -10,7 +10,7 @@ use crate::scene::flow::release::bodies;
 use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
 
 /// Choices that trade time against accuracy, each with its reason.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fidelity {
     pub name: &'static str,
     /// Time step (s).

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::checks::outcome::Outcome;
 use crate::dem::recorders::histories::smoothed;
-use crate::pipeline::{Run, Simulated};
+use crate::pipeline::Run;
 use crate::report::findings::over_starts;
 use crate::report::numbers::{percent, with_scatter, with_unit};
 use crate::report::pictures::Chart;
@@ -15,6 +15,7 @@ use crate::report::render::{Rendered, render_as};
 use crate::report::view::summary;
 use crate::report::write::ReportFile;
 use crate::scene::build::SAMPLES_PER_WINDOW;
+use crate::simulated::Simulated;
 use crate::starts::Spread;
 
 const HTML: &str = include_str!("../../templates/compare.html");

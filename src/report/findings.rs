@@ -7,10 +7,11 @@ use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
 use crate::design::Design;
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::pipeline::{Run, Simulated};
+use crate::pipeline::Run;
 use crate::report::numbers::with_unit;
 use crate::report::validation::Kept;
 use crate::report::view::Row;
+use crate::simulated::Simulated;
 use crate::starts::{Spread, k_n};
 use crate::units::GRAVITY;
 

@@ -6,8 +6,9 @@ use serde::Serialize;
 use crate::checks::outcome::Outcome;
 use crate::demand::from_loads::Guideline;
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::pipeline::{Run, Simulated};
+use crate::pipeline::Run;
 use crate::report::findings::over_starts;
+use crate::simulated::Simulated;
 
 /// Version of this contract.
 pub const SCHEMA_VERSION: u32 = 1;

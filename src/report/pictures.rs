@@ -9,7 +9,7 @@ use crate::dem::recorders::snapshots::{Moment, Snapshot};
 use crate::dem::tables::barrier::SegmentKind;
 use crate::design::BarrierDesign;
 use crate::loads::pressure::Diagram;
-use crate::pipeline::{Run, Simulated};
+use crate::pipeline::Run;
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::line_chart::{Level, LineChart, Series, resampled};
@@ -18,6 +18,7 @@ use crate::report::plots::side_view::{Setting, side_view};
 use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
 use crate::report::view::worst_first;
+use crate::simulated::Simulated;
 
 #[derive(Debug, Serialize)]
 pub struct Chart {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
-use crate::pipeline::{Run, Simulated, Verdict};
+use crate::pipeline::{Run, Verdict};
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, percent, with_scatter, with_unit};
@@ -13,6 +13,7 @@ use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::replay::Replay;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
+use crate::simulated::Simulated;
 use crate::sources::VOLKWEIN_2014;
 
 #[derive(Debug, Serialize)]

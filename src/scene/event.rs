@@ -2,6 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::{Deserialize, Serialize};
+
+use crate::checkpoint::Vault;
 use crate::dem::recorders::histories::{Histories, tail_mean};
 use crate::dem::recorders::recorder::Recorder;
 use crate::dem::simulation::{Simulation, Unstable};
@@ -35,10 +38,24 @@ pub struct ProgressReport {
     pub force: f64,
 }
 
-/// How a run is watched and stopped from outside.
+/// How a run is watched and stopped from outside, and where it is kept, if it is.
 pub struct Watch<'a> {
     pub progress: &'a (dyn Fn(ProgressReport) + Sync),
     pub stop: &'a AtomicBool,
+    pub vault: Option<&'a Vault>,
+}
+
+/// A run under way.
+#[derive(Serialize, Deserialize)]
+pub struct Ongoing {
+    simulation: Simulation,
+    recorder: Recorder,
+    /// Largest energy imbalance met, over the energy put in.
+    energy_error: f64,
+    /// Samples in the stretch over which steadiness is judged.
+    stretch: usize,
+    /// Rough time the event takes (s).
+    expected_time: f64,
 }
 
 /// A finished run.
@@ -50,36 +67,53 @@ pub struct Event {
     pub energy_error: f64,
 }
 
-/// Runs `scene`; stops when steady, at `longest` (s), on breakdown or when asked to.
-pub fn run(scene: Scene, longest: f64, watch: &Watch) -> Event {
-    let stretch = scene.samples_of_rest();
-    let Scene { mut simulation, recorder, expected_time, .. } = scene;
-    let mut recorder = Recorder::new(recorder);
-    let mut energy_error: f64 = 0.0;
-    let ending = loop {
-        match recorder.step(&mut simulation) {
-            Err(unstable) => break Ending::BrokeDown(unstable),
-            Ok(false) => continue,
-            Ok(true) => {}
-        }
-        let histories = &recorder.histories;
-        let error = simulation.ledger.relative_error(&histories.ledger[0]);
-        energy_error = if error.abs() > energy_error.abs() || error.is_nan() { error } else { energy_error };
-        let force = histories.force.last().map_or(0.0, |force| force.norm());
-        let time = simulation.time;
-        (watch.progress)(ProgressReport { time, share: (time / expected_time).min(0.99), force });
-        if watch.stop.load(Ordering::Relaxed) {
-            break Ending::Interrupted;
-        }
-        if steady(histories, stretch) {
-            break Ending::Steady;
-        }
-        if time >= longest {
-            break Ending::OutOfTime;
-        }
-    };
-    recorder.finish(&simulation);
-    Event { histories: recorder.histories, ending, simulation, energy_error }
+impl Ongoing {
+    pub fn begin(scene: Scene) -> Self {
+        let stretch = scene.samples_of_rest();
+        let Scene { simulation, recorder, expected_time, .. } = scene;
+        Self { simulation, recorder: Recorder::new(recorder), energy_error: 0.0, stretch, expected_time }
+    }
+
+    /// Goes on until the event is steady, at `longest` (s), on breakdown or when asked to. At every stop of the simulation `keep` is
+    /// handed the run, and told whether it ends there because it was asked to; a run that nobody keeps ends at once.
+    pub fn go_on(mut self, longest: f64, watch: &Watch, mut keep: impl FnMut(&Self, bool)) -> Event {
+        let ending = loop {
+            let sampled = match self.recorder.step(&mut self.simulation) {
+                Err(unstable) => break Ending::BrokeDown(unstable),
+                Ok(sampled) => sampled,
+            };
+            if self.simulation.at_stop() {
+                let asked = watch.stop.load(Ordering::Relaxed);
+                keep(&self, asked);
+                if asked {
+                    break Ending::Interrupted;
+                }
+            }
+            if !sampled {
+                continue;
+            }
+            let histories = &self.recorder.histories;
+            let error = self.simulation.ledger.relative_error(&histories.ledger[0]);
+            if error.abs() > self.energy_error.abs() || error.is_nan() {
+                self.energy_error = error;
+            }
+            let force = histories.force.last().map_or(0.0, |force| force.norm());
+            let time = self.simulation.time;
+            (watch.progress)(ProgressReport { time, share: (time / self.expected_time).min(0.99), force });
+            if watch.vault.is_none() && watch.stop.load(Ordering::Relaxed) {
+                break Ending::Interrupted;
+            }
+            if steady(histories, self.stretch) {
+                break Ending::Steady;
+            }
+            if time >= longest {
+                break Ending::OutOfTime;
+            }
+        };
+        self.recorder.finish(&self.simulation);
+        let Self { simulation, recorder, energy_error, .. } = self;
+        Event { histories: recorder.histories, ending, simulation, energy_error }
+    }
 }
 
 /// Whether the last two stretches tell the same.

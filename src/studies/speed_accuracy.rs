@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::demand::from_loads::guideline;
 use crate::design::Design;
 use crate::design::read::DesignFile;
-use crate::pipeline::{RunError, Simulated, simulate};
 use crate::scene::event::Watch;
+use crate::simulated::{Detail, RunError, Simulated, simulate};
 use crate::starts::Spread;
 use crate::studies::knobs::{Knob, turn};
 use crate::studies::plan::Plan;
@@ -124,7 +124,7 @@ pub fn make(task: &Task, design: &Design, watch: &Watch) -> Result<Point, RunErr
         Setting::Turned(knob, value) => turn(design, &[(*knob, *value)]),
         Setting::Reference(values) => turn(design, values),
     };
-    Ok(Point::of(&simulate(&design, &fidelity, &guideline(&design), task.seed, watch)?))
+    Ok(Point::of(&simulate(&design, &fidelity, &guideline(&design), task.seed, Detail::Observed, watch)?))
 }
 
 /// What the runs of one setting come to on one scene.

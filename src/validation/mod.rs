@@ -69,4 +69,5 @@ pub const CASES: &[&Case] = &[
     &barrier::variations::OPENINGS,
     &barrier::variations::ORIENTATION,
     &barrier::variations::LATERAL,
+    &barrier::variations::EXTENSION,
 ];

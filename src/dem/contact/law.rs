@@ -7,6 +7,8 @@
 //! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
 //! Written for any [`Real`]: for one contact, or for eight side by side in vector registers.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::contact::restitution::{StepCorrection, damping_ratio_for};
 use crate::dem::simd::eight::{joined, parted};
 use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, scaled};
@@ -67,7 +69,7 @@ impl<R: Real> Spring<R> {
 }
 
 /// What a contact remembers from step to step; all zero without contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory<R = f64> {
     /// Tangential force on the first body (N).
     pub tangential: Triple<R>,
@@ -89,7 +91,7 @@ impl Memory {
 }
 
 /// Constants shared by all contacts of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LawConstants {
     /// Damping ratio ζ for short steps.
     pub damping_ratio: f64,

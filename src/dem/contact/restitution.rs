@@ -8,6 +8,8 @@
 //! (Schwager & Pöschel 2007, truncated branch). The same expression without truncation, exp(−πζ/√(1−ζ²)), would
 //! give 0.40 where 0.30 is asked.
 
+use serde::{Deserialize, Serialize};
+
 /// Restitution of the truncated dashpot with damping ratio `zeta` ≥ 0.
 pub fn restitution_of(zeta: f64) -> f64 {
     let gap = 1.0 - zeta * zeta;
@@ -45,7 +47,7 @@ pub fn damping_ratio_for(restitution: f64) -> f64 {
 /// more than it should: at ω0 Δt = 0.5 a nominal 0.30 comes out as 0.27 on the average over where in a step the contact
 /// begins. The ratio ζ (1 + a x + b x²), x = ω0 Δt, brings the average back; a and b are found once for each ε by
 /// playing the contact through in steps.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepCorrection {
     pub linear: f64,
     pub quadratic: f64,

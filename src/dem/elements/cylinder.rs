@@ -10,6 +10,8 @@
 //! to rounding. For a round section I = πR⁴/4 and J = πR⁴/2; this is the pair k_t = 12 EI/L³ at mid-length and k_b = EI/L
 //! of Albaba 2015, section 4.3.1, with the true I and J (the printed ones are half).
 
+use serde::{Deserialize, Serialize};
+
 use nalgebra::UnitQuaternion;
 
 use crate::dem::Vec3;
@@ -24,7 +26,7 @@ use crate::dem::tables::grain_table::Quad;
 const HINGE_ROUNDS: usize = 12;
 
 /// A cylinder between two nodes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cylinder {
     pub nodes: [u32; 2],
     pub kind: SegmentKind,
@@ -41,7 +43,7 @@ pub struct Cylinder {
 }
 
 /// Stiffness of a cross-section.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Section {
     /// m
     pub radius: f64,

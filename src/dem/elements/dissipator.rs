@@ -5,11 +5,13 @@
 //! the stroke is used up, p stays and F grows with slope k: the load goes straight to the anchor.
 //! Source: Albaba 2015, section 4.2.4; unloading and hard stop are our choices (stated in the report).
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::tables::barrier::Node;
 
 /// A dissipator between an anchor (first node) and a rope end (second node).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dissipator {
     pub nodes: [u32; 2],
     /// Number of the main rope it holds, from the bottom.

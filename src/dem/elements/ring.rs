@@ -5,6 +5,8 @@
 //! near the ring only the nearest is touched, and the friction spring goes along from one to the next. Force and torque
 //! go to the end nodes of both by the shares at the point of contact, so that momentum and angular momentum are conserved.
 
+use serde::{Deserialize, Serialize};
+
 use std::ops::Range;
 
 use crate::dem::Vec3;
@@ -14,7 +16,7 @@ use crate::dem::geometry::segment_segment::{BetweenSegments, nearest_of_segments
 use crate::dem::tables::barrier::{Frame, Node};
 
 /// A side of a ring and the rope it runs on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RingSide {
     /// Number of the side's cylinder.
     pub side: u32,

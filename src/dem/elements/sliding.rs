@@ -6,11 +6,13 @@
 //! never gets shorter than a given share of its first length: there the rings touch. The tensions compared are the elastic ones; what
 //! the segments' small dashpots add while they stretch or shorten is left out.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::tables::barrier::{Node, Segment};
 
 /// Segments of one rope in order from end to end; rings sit between them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chain {
     pub segments: Vec<u32>,
     /// Friction coefficient between ring and rope.

@@ -5,8 +5,10 @@
 //! first under M = σ I/R = F R/4 or T = (σ/√3) J/R = F R/(2√3). Each of the three limits stands alone. A piece that yields keeps its
 //! force; what it gives way by stays.
 
+use serde::{Deserialize, Serialize};
+
 /// What an element withstands, and what it has suffered.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Strength {
     /// Tension at which it draws out (N); infinite if it never does.
     pub elastic: f64,

@@ -7,6 +7,7 @@ pub mod broad_phase;
 pub mod candidates;
 pub mod clocks;
 pub mod drift;
+pub mod kept;
 pub mod memory_rows;
 pub mod order;
 pub mod renew;

@@ -10,6 +10,7 @@ use crate::dem::neighbours::candidates::{
 };
 use crate::dem::neighbours::clocks::Clocks;
 use crate::dem::neighbours::drift::{Drift, strayed};
+use crate::dem::neighbours::kept::Kept;
 use crate::dem::neighbours::memory_rows::MemoryRows;
 use crate::dem::neighbours::order::morton_code;
 use crate::dem::tables::barrier::Barrier;
@@ -56,6 +57,8 @@ pub struct Neighbours {
     /// A tree over the grains of each block.
     trees: Vec<BoxTree>,
     lost: bool,
+    /// Whether the lists end at a stop of the run, not because they have expired.
+    at_stop: bool,
 }
 
 /// What a renewal reads; the grains may be reordered.
@@ -88,7 +91,22 @@ impl Neighbours {
             row_ids: Vec::new(),
             trees: Vec::new(),
             lost: true,
+            at_stop: false,
         }
+    }
+
+    /// What is kept of the lists at a stop of the run.
+    pub fn keep(&self) -> Kept {
+        Kept::of([self.skin, self.least_skin], self.renewals, &self.row_ids, &self.blocks)
+    }
+
+    /// Lists that are made anew before the next step, with the contacts kept.
+    pub fn take_up(kept: Kept) -> Self {
+        let Kept { skins: [skin, least_skin], renewals, .. } = kept;
+        let mut neighbours = Self { least_skin, renewals, row_ids: kept.row_ids.clone(), ..Self::new(skin) };
+        neighbours.blocks = vec![kept.block()];
+        neighbours.rest();
+        neighbours
     }
 
     /// Whether a pair outside the lists could touch now. The clocks run at the fastest pace of all; when they say that
@@ -125,6 +143,13 @@ impl Neighbours {
         self.lost = true;
     }
 
+    /// Ends all lists at a stop of the run: those to come depend on nothing but bodies, contacts in force, reach and count, which
+    /// can be kept.
+    pub fn rest(&mut self) {
+        self.trees.clear();
+        (self.lost, self.at_stop) = (true, true);
+    }
+
     /// Drops the surface candidates because surfaces have gone; the next step renews all lists.
     pub fn forget_surfaces(&mut self) {
         let reach = self.fixed_skin();
@@ -149,7 +174,10 @@ impl Neighbours {
         if self.renewals.is_multiple_of(RENEWALS_PER_ORDERING) {
             reorder(bodies.grains);
         }
-        self.adapt_skin();
+        if !std::mem::take(&mut self.at_stop) {
+            self.adapt_skin();
+        }
+        self.age = 0;
         let grains = &*bodies.grains;
         let new_rows = self.rows_now(grains);
         let memories = self.collect(&new_rows, grains.members());
@@ -170,7 +198,6 @@ impl Neighbours {
         } else if self.age > AGE_TO_NARROW {
             self.skin = (self.skin / SKIN_CHANGE).max(self.least_skin);
         }
-        self.age = 0;
     }
 
     /// Restarts the clocks at the present places.

@@ -1,10 +1,12 @@
 //! Which grains have passed the barrier, and which way.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::tables::barrier::Barrier;
 
 /// The way a grain passed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Way {
     Through,
     Under,

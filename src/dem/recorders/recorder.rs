@@ -1,5 +1,7 @@
 //! Watches a simulation and fills its histories.
 
+use serde::{Deserialize, Serialize};
+
 use std::collections::BTreeMap;
 
 use crate::dem::Vec3;
@@ -22,7 +24,7 @@ const NEW_LARGEST: f64 = 1.005;
 const UNSEEN: f64 = 1e-9;
 
 /// What and how often to record.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RecorderSetup {
     /// Sampling interval (s).
     pub interval: f64,
@@ -45,7 +47,7 @@ pub struct RecorderSetup {
 }
 
 /// A window across the channel, between two distances upstream of the barrier's foot.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GaugeWindow {
     pub near: f64,
     pub far: f64,
@@ -57,6 +59,7 @@ pub struct GaugeWindow {
     pub mean_diameter: f64,
 }
 
+#[derive(Serialize, Deserialize)]
 pub struct Recorder {
     setup: RecorderSetup,
     pub histories: Histories,
@@ -71,7 +74,7 @@ pub struct Recorder {
 }
 
 /// Sums over the steps of one sampling interval.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct IntervalSum {
     steps: u32,
     time: f64,

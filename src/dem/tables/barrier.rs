@@ -12,7 +12,7 @@ use crate::dem::elements::sliding::Chain;
 use crate::dem::elements::strength::Strength;
 
 /// A point mass of the net or of a rope.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Node {
     pub position: Vec3,
     /// At half steps, like the grains'; where the barrier takes several steps in one of the grains', at those.
@@ -30,7 +30,7 @@ pub struct Node {
 }
 
 /// How a node is turned, where cylinders meet in it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
     pub orientation: UnitQuaternion<f64>,
     /// Angular velocity (rad/s), at half steps.
@@ -42,7 +42,7 @@ pub struct Frame {
 }
 
 /// A straight piece of wire rope: a spring that pulls and never pushes, with a little damping.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     pub nodes: [u32; 2],
     pub kind: SegmentKind,
@@ -83,7 +83,7 @@ pub enum SegmentKind {
 }
 
 /// A segment or cylinder as grains touch it: a line between two nodes, with a thickness.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line {
     pub nodes: [u32; 2],
     /// m
@@ -93,14 +93,14 @@ pub struct Line {
 }
 
 /// An anchor point with the main rope it holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Anchor {
     pub node: u32,
     pub rope: u16,
 }
 
 /// The flexible barrier as the engine sees it.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Barrier {
     pub nodes: Vec<Node>,
     pub segments: Vec<Segment>,

@@ -3,12 +3,14 @@
 //! Three entries are a vector, the fourth is a constant of the grain that is wanted at the same time. A row is one
 //! vector register; updates leave the fourth entry alone because the fourth entries of forces and steps are zero.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::tables::grain_rows::GrainRows;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 
 /// Four numbers that are handled together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[repr(C, align(32))]
 pub struct Quad(pub [f64; 4]);
 
@@ -64,7 +66,7 @@ impl GrainLoad {
 }
 
 /// All grains of a model. Velocities and spins live at half steps (leapfrog), the rest at full steps.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GrainTable {
     pub shape: GrainShape,
     /// Centre of mass (m); radius of each member sphere (m).

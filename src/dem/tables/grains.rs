@@ -1,9 +1,11 @@
 //! Grains: rigid bodies of one sphere, or of two equal overlapping spheres (a clump).
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 
 /// One rigid grain. Velocity and angular momentum live at half steps (leapfrog), the rest at full steps.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grain {
     /// Number given at creation; survives reordering and removal.
     pub id: u32,
@@ -19,7 +21,7 @@ pub struct Grain {
 }
 
 /// What of a grain never changes: its size and its inertia.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GrainBody {
     /// Radius of each member sphere (m).
     pub radius: f64,
@@ -92,7 +94,7 @@ impl Grain {
 }
 
 /// How many member spheres every grain of a model has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum GrainShape {
     Sphere,
     Clump,

@@ -1,9 +1,11 @@
 //! Fixed flat surfaces: channel base, side walls, gate, rigid barrier.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 
 /// A rectangle in space, possibly unbounded, that grains touch from either side.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
     pub role: SurfaceRole,
     /// A point of the surface, from which extents are measured (m).
@@ -17,7 +19,7 @@ pub struct Surface {
 }
 
 /// One in-plane direction of a surface and how far the surface reaches along it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Span {
     pub direction: Vec3,
     pub low: f64,
@@ -25,7 +27,7 @@ pub struct Span {
 }
 
 /// What a surface is for; recorders sum forces by it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SurfaceRole {
     Base,
     Side,

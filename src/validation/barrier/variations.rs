@@ -1,7 +1,9 @@
-//! FS3 to FS6: the full-scale barrier with one thing changed, as in the thesis's chapters 4.6 and 5.
+//! FS3 to FS7: the full-scale barrier with one thing changed, as in the thesis's chapters 4.6 and 5.
 
-use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
-use crate::pipeline::Simulated;
+use crate::demand::from_histories::Observed;
+use crate::design::sizes::SizeCurve;
+use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo, SideExtension};
+use crate::simulated::Simulated;
 use crate::validation::barrier::full_scale::run_changed;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 
@@ -22,7 +24,7 @@ pub const OPENINGS: Case = Case {
     title: "What gets under a free lowest rope, and through a mesh of D90",
     source: "Albaba 2015, section 5.4: all goes under with a gap of D30; a mesh of D90 holds 97 % (barrier of 11 m, no dissipators)",
     tier: Tier::SecondHand,
-    weakness: "one start; D30 and D90 of a curve that is not printed",
+    weakness: "D30 and D90 of a curve that is not printed, read by number as its D50 seems to be; by mass D90 is 3 % more, and 91 % is held",
     cost: Cost::Long,
     run: openings,
 };
@@ -49,6 +51,20 @@ pub const LATERAL: Case = Case {
     run: lateral,
 };
 
+/// Starts of which means are compared.
+const STARTS: u32 = 3;
+
+pub const EXTENSION: Case = Case {
+    id: "FS7",
+    suite: Suite::FullScale,
+    title: "Side extensions of the net (3 m, 1 kN on each knot)",
+    source: "Albaba 2015, section 5.5.2: they close the windows beside the barrier",
+    tier: Tier::SecondHand,
+    weakness: "the thesis gives no figures; that the force stays what it was is our expectation",
+    cost: Cost::Long,
+    run: extension,
+};
+
 const BRAKED: &str = include_str!("../../../designs/site_a.yaml");
 const UNBRAKED: &str = include_str!("../../../designs/site_a_no_brakes.yaml");
 const WALL: &str = include_str!("../../../designs/rigid_wall.yaml");
@@ -66,25 +82,38 @@ fn onset(run: &Simulated) -> f64 {
     run.histories.time.get(at).copied().unwrap_or(0.0)
 }
 
+/// Mean over the starts.
+fn mean(run: &Simulated, quantity: impl Fn(&Observed) -> f64) -> f64 {
+    run.spread(quantity).mean
+}
+
 fn slope() -> Result<Vec<Finding>, Broken> {
-    let run = run_changed(UNBRAKED, |design| design.channel.slope = 30_f64.to_radians())?;
-    let seen = run.first();
+    let run = run_changed(UNBRAKED, STARTS, |design| design.channel.slope = 30_f64.to_radians())?;
     Ok(vec![
-        Finding::near("highest mean velocity (m/s)", seen.velocity_peak, 5.4, 0.05),
-        Finding::near("onset of the force (s)", onset(&run), 3.05, 0.05),
-        Finding::near("largest force (kN)", seen.force_peak * 1e-3, 1645.0, 0.15),
-        Finding::near("force at rest (kN)", seen.force_residual * 1e-3, 1550.0, 0.15),
-        Finding::near("mass held", seen.retained, 1.0, 0.01),
+        Finding::near("highest mean velocity (m/s)", mean(&run, |seen| seen.velocity_peak), 5.4, 0.05),
+        Finding::near("onset of the force, first start (s)", onset(&run), 3.05, 0.05),
+        Finding::near("largest force (kN)", mean(&run, |seen| seen.force_peak) * 1e-3, 1645.0, 0.15),
+        Finding::near("force at rest (kN)", mean(&run, |seen| seen.force_residual) * 1e-3, 1550.0, 0.15),
+        Finding::near("mass held", mean(&run, |seen| seen.retained), 1.0, 0.01),
     ])
 }
 
+/// Diameter below which the given share of the grains lies, told by their number (m). The thesis's D50 of 450 mm is 4 % more than the
+/// median by number of its sizes (434 mm), and 9 % less than that by mass (494 mm): so its D30 and D90 are read by number too.
+fn by_number(sizes: &SizeCurve, share: f64) -> f64 {
+    match sizes {
+        SizeCurve::ByNumber { smallest, largest } => smallest + share * (largest - smallest),
+        SizeCurve::ByMass(_) => sizes.quantile(share),
+    }
+}
+
 fn openings() -> Result<Vec<Finding>, Broken> {
-    let gap = run_changed(UNBRAKED, |design| {
-        let fine = design.flow.sizes.quantile(0.3);
+    let gap = run_changed(UNBRAKED, STARTS, |design| {
+        let fine = by_number(&design.flow.sizes, 0.3);
         net(design, |net| net.bottom = Bottom::Opening(fine));
     })?;
-    let mesh = run_changed(UNBRAKED, |design| {
-        let coarse = design.flow.sizes.quantile(0.9);
+    let mesh = run_changed(UNBRAKED, STARTS, |design| {
+        let coarse = by_number(&design.flow.sizes, 0.9);
         design.channel.wall_height = 15.0;
         net(design, |net| {
             let wider = coarse / net.mesh_opening;
@@ -95,8 +124,8 @@ fn openings() -> Result<Vec<Finding>, Broken> {
         });
     })?;
     Ok(vec![
-        Finding::between("lost under a free rope, gap D30", gap.first().lost[1], 0.95, 1.0),
-        Finding::near("held by a mesh of D90", mesh.first().retained, 0.97, 0.05),
+        Finding::between("lost under a free rope, gap D30", mean(&gap, |seen| seen.lost[1]), 0.95, 1.0),
+        Finding::near("held by a mesh of D90", mean(&mesh, |seen| seen.retained), 0.97, 0.05),
     ])
 }
 
@@ -105,46 +134,57 @@ fn orientation() -> Result<Vec<Finding>, Broken> {
     let longer = |design: &mut Design| {
         net(design, |net| net.dissipators.iter_mut().for_each(|dissipator| dissipator.stroke = 3.5));
     };
-    let plumb = run_changed(BRAKED, longer)?;
-    let normal = run_changed(BRAKED, |design| {
+    let plumb = run_changed(BRAKED, STARTS, longer)?;
+    let normal = run_changed(BRAKED, STARTS, |design| {
         let slope = design.channel.slope;
         longer(design);
         net(design, |net| net.tilt = -slope);
     })?;
-    let free = run_changed(UNBRAKED, |_| ())?;
-    let wall = run_changed(WALL, |_| ())?;
-    let [plumb, normal, free, wall_seen] = [&plumb, &normal, &free, &wall].map(Simulated::first);
-    let until_peak = wall_seen.force_peak_time - wall_seen.velocity_peak_time;
+    let free = run_changed(UNBRAKED, STARTS, |_| ())?;
+    let wall = run_changed(WALL, STARTS, |_| ())?;
+    let force = |run: &Simulated| mean(run, |seen| seen.force_peak);
+    let held = |run: &Simulated| mean(run, |seen| seen.retained);
+    let until_peak = mean(&wall, |seen| seen.force_peak_time - seen.velocity_peak_time);
     Ok(vec![
-        Finding::told("fbG: largest force (kN)", plumb.force_peak * 1e-3),
-        Finding::told("fbG: mass held", plumb.retained),
-        Finding::told("fbN: mass held", normal.retained),
-        Finding::between("fbN: mass held over that of fbG", normal.retained / plumb.retained, 0.0, 0.8),
-        Finding::near("fbN: largest force over that of fbG", normal.force_peak / plumb.force_peak, 1.0, 0.1),
-        Finding::told("rigW: largest force (kN)", wall_seen.force_peak * 1e-3),
-        Finding::between(
-            "rigW: largest force over that without dissipators",
-            wall_seen.force_peak / free.force_peak,
-            1.0,
-            2.0,
-        ),
-        Finding::between("without dissipators over fbG with them", free.force_peak / plumb.force_peak, 1.0, 2.0),
+        Finding::told("fbG: largest force (kN)", force(&plumb) * 1e-3),
+        Finding::told("fbG: mass held", held(&plumb)),
+        Finding::told("fbN: mass held", held(&normal)),
+        Finding::between("fbN: mass held over that of fbG", held(&normal) / held(&plumb), 0.0, 0.8),
+        Finding::near("fbN: largest force over that of fbG", force(&normal) / force(&plumb), 1.0, 0.1),
+        Finding::told("rigW: largest force (kN)", force(&wall) * 1e-3),
+        Finding::between("rigW: largest force over that without dissipators", force(&wall) / force(&free), 1.0, 2.0),
+        Finding::between("without dissipators over fbG with them", force(&free) / force(&plumb), 1.0, 2.0),
         Finding::close("rigW: from highest velocity to largest force (s)", until_peak, 1.0, 0.3),
     ])
 }
 
 fn lateral() -> Result<Vec<Finding>, Broken> {
-    let to_dissipators = run_changed(BRAKED, |_| ())?;
-    let to_anchors = run_changed(BRAKED, |design| net(design, |net| net.lateral_to = LateralTo::Anchors))?;
-    let [first, second] = [&to_dissipators, &to_anchors].map(Simulated::first);
+    let to_dissipators = run_changed(BRAKED, STARTS, |_| ())?;
+    let to_anchors = run_changed(BRAKED, STARTS, |design| net(design, |net| net.lateral_to = LateralTo::Anchors))?;
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let strokes = [first, second].map(|seen| largest(&seen.brake_stroke_mean));
-    let anchors = [first, second].map(|seen| largest(&seen.anchor_force_peak));
+    let stroke = |run: &Simulated| mean(run, |seen| largest(&seen.brake_stroke_mean));
+    let anchor = |run: &Simulated| mean(run, |seen| largest(&seen.anchor_force_peak));
+    let force = |run: &Simulated| mean(run, |seen| seen.force_peak);
+    let (before, after) = (&to_dissipators, &to_anchors);
     Ok(vec![
-        Finding::near("des_2: mass held", second.retained, 1.0, 0.01),
-        Finding::between("des_2: largest stroke over that of des_1", strokes[1] / strokes[0], 0.0, 0.25),
-        Finding::between("des_2: largest force over that of des_1", second.force_peak / first.force_peak, 1.0, 1.5),
-        Finding::between("des_2: largest anchor load over that of des_1", anchors[1] / anchors[0], 1.0, 4.0),
-        Finding::told("des_2: largest anchor load (kN)", anchors[1] * 1e-3),
+        Finding::near("des_2: mass held", mean(after, |seen| seen.retained), 1.0, 0.01),
+        Finding::between("des_2: largest stroke over that of des_1", stroke(after) / stroke(before), 0.0, 0.25),
+        Finding::between("des_2: largest force over that of des_1", force(after) / force(before), 1.0, 1.5),
+        Finding::between("des_2: largest anchor load over that of des_1", anchor(after) / anchor(before), 1.0, 4.0),
+        Finding::told("des_2: largest anchor load (kN)", anchor(after) * 1e-3),
+    ])
+}
+
+fn extension() -> Result<Vec<Finding>, Broken> {
+    let bare = run_changed(BRAKED, STARTS, |_| ())?;
+    let extended = run_changed(BRAKED, STARTS, |design| {
+        net(design, |net| net.side_extension = Some(SideExtension { length: 3.0, holding_force: 1e3 }));
+    })?;
+    let beside = |run: &Simulated| mean(run, |seen| seen.lost[2]);
+    let force = |run: &Simulated| mean(run, |seen| seen.force_peak);
+    Ok(vec![
+        Finding::told("lost beside the barrier without extensions", beside(&bare)),
+        Finding::between("lost beside the barrier with extensions", beside(&extended), 0.0, 0.001),
+        Finding::near("largest force over that without extensions", force(&extended) / force(&bare), 1.0, 0.1),
     ])
 }

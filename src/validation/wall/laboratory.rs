@@ -11,7 +11,7 @@ use crate::design::read::read_design;
 use crate::design::sizes::SizeCurve;
 use crate::fidelity::choose;
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
-use crate::scene::event::{Ending, Watch, run};
+use crate::scene::event::{Ending, Ongoing, Watch};
 use crate::validation::case::Broken;
 
 const DESIGN: &str = include_str!("../../../designs/flume_l44_h15_a40.yaml");
@@ -122,8 +122,8 @@ pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
     let scene = build(&design, &choose(&design), variant.seed).map_err(|error| Broken::Scene(error.to_string()))?;
     let window = SAMPLES_PER_WINDOW as usize;
     let reading = Reading { window, tail: scene.samples_of_rest() };
-    let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false) };
-    let event = run(scene, design.simulation.longest, &watch);
+    let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false), vault: None };
+    let event = Ongoing::begin(scene).go_on(design.simulation.longest, &watch, |_, _| ());
     if let Ending::BrokeDown(unstable) = event.ending {
         return Err(unstable.into());
     }

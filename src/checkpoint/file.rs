@@ -1,0 +1,178 @@
+//! The files of a vault: written whole or not at all, checked when read.
+//!
+//! Sealed ([`crate::sealed`]), in the wire format of postcard: what kind of file it is, the program that wrote it, the SHA-256 of the
+//! design it belongs to, and the content. A file is written beside its place, synced and renamed; the one it replaces stays as the one before.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::sealed::{Broken, seal, unseal};
+
+const NAME: &[u8; 8] = b"BARRKPT\n";
+/// Changes whenever anything that is kept changes.
+const FORMAT: u32 = 1;
+
+/// The program that writes, down to the commit: another one would go on differently.
+const PROGRAM: &str = concat!(env!("CARGO_PKG_VERSION"), " ", env!("BARRIER_CHECK_COMMIT"));
+
+/// Why a file cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    #[error("there is none")]
+    Missing,
+    #[error("it cannot be read: {0}")]
+    Unreadable(io::Error),
+    #[error("it is not a checkpoint of barrier-check")]
+    Foreign,
+    #[error("its format is {0}, but this program reads format {FORMAT}")]
+    Format(u32),
+    #[error("it is damaged: its checksum is wrong")]
+    Damaged,
+    #[error("it was kept by version {0}, but this is {PROGRAM}, which would go on differently")]
+    Program(String),
+    #[error("it belongs to another design")]
+    Design,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    Order,
+    Simulation,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Label {
+    kind: Kind,
+    program: String,
+    design: Option<[u8; 32]>,
+}
+
+/// Where the file stays that the one at `path` has replaced.
+pub fn previous(path: &Path) -> PathBuf {
+    path.with_extension("before")
+}
+
+/// Writes a file. Whatever happens on the way, one that was there stays, here or as the one before.
+pub fn write<T: Serialize>(path: &Path, kind: Kind, design: Option<[u8; 32]>, content: &T) -> io::Result<()> {
+    let label = Label { kind, program: PROGRAM.to_string(), design };
+    let body = postcard::to_stdvec(&(label, content)).map_err(io::Error::other)?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)?;
+    let temporary = path.with_extension("tmp");
+    let mut file = File::create(&temporary)?;
+    let written = file.write_all(&seal(NAME, FORMAT, &body)).and_then(|()| file.sync_all());
+    drop(file);
+    let renamed = written.and_then(|()| {
+        if kind == Kind::Simulation && path.exists() {
+            fs::rename(path, previous(path))?;
+        }
+        fs::rename(&temporary, path)?;
+        // So that the names are on the disk as well; not every system lets a folder be synced.
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
+        Ok(())
+    });
+    if renamed.is_err() {
+        let _ = fs::remove_file(&temporary);
+    }
+    renamed
+}
+
+/// Reads a file of the given kind, kept for the given design.
+pub fn read<T: DeserializeOwned>(path: &Path, kind: Kind, design: Option<[u8; 32]>) -> Result<T, CheckpointError> {
+    let bytes = fs::read(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => CheckpointError::Missing,
+        _ => CheckpointError::Unreadable(error),
+    })?;
+    let body = unseal(NAME, FORMAT, &bytes).map_err(|broken| match broken {
+        Broken::Foreign => CheckpointError::Foreign,
+        Broken::Format(other) => CheckpointError::Format(other),
+        Broken::Damaged => CheckpointError::Damaged,
+    })?;
+    let (label, rest) = postcard::take_from_bytes::<Label>(body).map_err(|_| CheckpointError::Damaged)?;
+    if label.program != PROGRAM {
+        return Err(CheckpointError::Program(label.program));
+    }
+    if label.kind != kind || label.design != design {
+        return Err(CheckpointError::Design);
+    }
+    postcard::from_bytes(rest).map_err(|_| CheckpointError::Damaged)
+}
+
+/// Removes a vault's folder with what the program has put there, and nothing else.
+pub fn clear(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let ours = path.extension().is_some_and(|end| ["bin", "before", "tmp"].iter().any(|our| end == *our));
+        if ours {
+            let _ = fs::remove_file(path);
+        }
+    }
+    let _ = fs::remove_dir(folder);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("barrier-check-{}-{name}", std::process::id()));
+        clear(&folder);
+        folder.join("a.bin")
+    }
+
+    #[test]
+    fn what_is_written_is_read_and_the_one_before_stays() {
+        let path = place("written");
+        let read = |path: &Path| read::<Vec<f64>>(path, Kind::Simulation, Some([1; 32]));
+        assert!(matches!(read(&path), Err(CheckpointError::Missing)));
+        for value in [1.0, 2.0, 3.0] {
+            write(&path, Kind::Simulation, Some([1; 32]), &vec![value, f64::NAN]).expect("a file");
+            assert_eq!(read(&path).expect("readable")[0], value);
+        }
+        assert_eq!(read(&previous(&path)).expect("readable")[0], 2.0);
+        clear(path.parent().expect("a folder"));
+        assert!(!path.parent().expect("a folder").exists());
+    }
+
+    #[test]
+    fn what_is_not_as_written_is_refused_with_the_reason() {
+        let path = place("refused");
+        write(&path, Kind::Simulation, Some([1; 32]), &vec![1.0; 100]).expect("a file");
+        let good = std::fs::read(&path).expect("bytes");
+        let told = |bytes: &[u8], design: [u8; 32]| {
+            std::fs::write(&path, bytes).expect("a file");
+            read::<Vec<f64>>(&path, Kind::Simulation, Some(design)).err().map(|error| error.to_string())
+        };
+        assert_eq!(told(&good, [1; 32]), None);
+        assert_eq!(told(&good, [2; 32]).as_deref(), Some("it belongs to another design"));
+        for length in 0..good.len() {
+            assert!(told(&good[..length], [1; 32]).is_some(), "{length}");
+        }
+        for bit in (0..8 * good.len()).step_by(7) {
+            let mut flipped = good.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            assert!(told(&flipped, [1; 32]).is_some(), "{bit}");
+        }
+        let mut newer = good.clone();
+        newer[NAME.len()] = 9;
+        assert!(told(&newer, [1; 32]).is_some_and(|told| told.contains("format is 9")));
+        clear(path.parent().expect("a folder"));
+    }
+
+    #[test]
+    fn another_version_is_told_by_name() {
+        let path = place("version");
+        let label = Label { kind: Kind::Order, program: "0.0.1 abc".into(), design: None };
+        let body = postcard::to_stdvec(&(label, 5_u32)).expect("bytes");
+        let bytes = seal(NAME, FORMAT, &body);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&path, bytes).expect("a file");
+        let error = read::<u32>(&path, Kind::Order, None).expect_err("another version");
+        assert!(error.to_string().contains("kept by version 0.0.1 abc"), "{error}");
+        clear(path.parent().expect("a folder"));
+    }
+}

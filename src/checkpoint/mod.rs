@@ -1,0 +1,147 @@
+//! Runs that can be taken up again: what is kept of them, when, and where.
+//!
+//! A vault is a folder with the order (the design and how to run it) and, for every simulation of the run, a file that is renewed
+//! now and then while it goes on and once it is done. To resume a run is to give the same order again with the same vault: what is
+//! done is taken from it, what was under way goes on, the rest is begun. A simulation is kept at its stops alone
+//! ([`crate::dem::simulation::STEPS_PER_STOP`]), where all that it depends on can be kept; so the result is that of a run that was
+//! never interrupted, bit for bit.
+
+pub mod file;
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use sha2::Digest;
+
+use crate::checkpoint::file::{CheckpointError, Kind, read, write};
+
+/// Name of a vault's folder within that of the report.
+pub const FOLDER: &str = "checkpoint";
+const ORDER: &str = "order.bin";
+
+/// What was asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Order {
+    /// Name of the design file without folder and extension, and its bytes.
+    pub name: String,
+    pub design: Vec<u8>,
+    pub starts: u32,
+    pub vary: bool,
+    pub vtk: bool,
+}
+
+impl Order {
+    /// What the files of a vault must have been kept for.
+    fn print(&self) -> [u8; 32] {
+        sha2::Sha256::digest(&self.design).into()
+    }
+}
+
+/// Where a run is kept.
+#[derive(Debug)]
+pub struct Vault {
+    folder: PathBuf,
+    order: Order,
+    every: Duration,
+    /// Whether simulations that are done are kept too, because others follow.
+    several: bool,
+    /// Whether anything has been kept, and whether it was told that nothing can be.
+    kept: AtomicBool,
+    warned: AtomicBool,
+}
+
+impl Vault {
+    /// A vault in `folder`, which is made when first something is kept; `every` is the time between two times that a simulation is.
+    pub fn new(folder: PathBuf, order: Order, every: Duration, several: bool) -> Self {
+        Self { folder, order, every, several, kept: AtomicBool::new(false), warned: AtomicBool::new(false) }
+    }
+
+    /// The order of the vault in `folder`.
+    pub fn order_in(folder: &Path) -> Result<Order, CheckpointError> {
+        read(&folder.join(ORDER), Kind::Order, None)
+    }
+
+    /// Whether anything has been kept since the vault was opened.
+    pub fn has_kept(&self) -> bool {
+        self.kept.load(Ordering::Relaxed)
+    }
+
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Throws everything away: the run is done.
+    pub fn clear(&self) {
+        file::clear(&self.folder);
+    }
+
+    /// The place of one simulation; `identity` tells it from the others of the run.
+    pub fn shelf(&self, identity: &str) -> Shelf<'_> {
+        let digest = sha2::Sha256::digest(identity.as_bytes());
+        let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        Shelf { vault: self, name: format!("{name}.bin"), last: Mutex::new(Instant::now()) }
+    }
+
+    fn put<T: Serialize>(&self, name: &str, kind: Kind, content: &T) {
+        let print = self.order.print();
+        let result = write(&self.folder.join(ORDER), Kind::Order, None, &self.order)
+            .and_then(|()| write(&self.folder.join(name), kind, Some(print), content));
+        match result {
+            Ok(()) => self.kept.store(true, Ordering::Relaxed),
+            Err(error) => {
+                if !self.warned.swap(true, Ordering::Relaxed) {
+                    eprintln!("warning: the run could not be kept in {}: {error}; it goes on", self.folder.display());
+                }
+            }
+        }
+    }
+}
+
+/// Where one simulation is kept.
+#[derive(Debug)]
+pub struct Shelf<'a> {
+    vault: &'a Vault,
+    name: String,
+    last: Mutex<Instant>,
+}
+
+impl Shelf<'_> {
+    /// What was kept last and can be read. What cannot is told, and the one before it taken, or none.
+    pub fn take<T: DeserializeOwned>(&self) -> Option<T> {
+        let path = self.vault.folder.join(&self.name);
+        let before = file::previous(&path);
+        for (path, otherwise) in [(&path, "the one before it is used"), (&before, "this simulation begins anew")] {
+            match read(path, Kind::Simulation, Some(self.vault.order.print())) {
+                Ok(content) => return Some(content),
+                Err(CheckpointError::Missing) => {}
+                Err(error) => eprintln!("warning: {} cannot be used: {error}; {otherwise}", path.display()),
+            }
+        }
+        None
+    }
+
+    /// Keeps what goes on, if it is time to or if it is the `last` time.
+    pub fn keep<T: Serialize>(&self, content: &T, last: bool) {
+        let due = self.last.lock().is_ok_and(|mut kept| {
+            let due = last || kept.elapsed() >= self.vault.every;
+            if due {
+                *kept = Instant::now();
+            }
+            due
+        });
+        if due {
+            self.vault.put(&self.name, Kind::Simulation, content);
+        }
+    }
+
+    /// Keeps what is done, if others follow.
+    pub fn finish<T: Serialize>(&self, content: &T) {
+        if self.vault.several {
+            self.vault.put(&self.name, Kind::Simulation, content);
+        }
+    }
+}

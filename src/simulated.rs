@@ -1,0 +1,231 @@
+//! One simulation of one design: from a scene, or from where an earlier run was interrupted, to what it showed.
+
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use crate::checks::credibility::{Numerics, doubts};
+use crate::dem::crew;
+use crate::dem::recorders::histories::Histories;
+use crate::dem::time::stable_step::StepRatio;
+use crate::demand::from_histories::{Observed, Reading};
+use crate::demand::from_loads::Guideline;
+use crate::design::Design;
+use crate::fidelity::Fidelity;
+use crate::scene::build::{SAMPLES_PER_WINDOW, build};
+use crate::scene::estimate::estimate;
+use crate::scene::event::{Ending, Event, Ongoing, Watch};
+use crate::scene::flow::packing::PackingError;
+use crate::starts::Spread;
+
+/// What the simulation shows: the first start in full, of every start what was observed.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Simulated {
+    /// Chosen by the design, so it need not be recorded.
+    #[serde(skip)]
+    pub fidelity: Fidelity,
+    pub histories: Histories,
+    pub facts: Facts,
+    /// Worst over the starts.
+    pub numerics: Numerics,
+    pub starts: Vec<Start>,
+    /// Why runs cannot be relied on.
+    pub doubts: Vec<String>,
+}
+
+/// One start: its packing, and what came of it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Start {
+    pub seed: u64,
+    pub observed: Observed,
+}
+
+impl Simulated {
+    /// What the first start showed.
+    pub fn first(&self) -> &Observed {
+        &self.starts[0].observed
+    }
+
+    /// A quantity over the starts.
+    pub fn spread(&self, quantity: impl Fn(&Observed) -> f64) -> Spread {
+        Spread::of(&self.starts.iter().map(|start| quantity(&start.observed)).collect::<Vec<_>>())
+    }
+}
+
+/// Counts and times of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Facts {
+    pub grains: usize,
+    pub spheres: usize,
+    pub barrier_nodes: usize,
+    pub barrier_elements: usize,
+    /// Simulated time since the release (s).
+    pub simulated: f64,
+    /// Whether the answer no longer changed at the end.
+    pub steady: bool,
+    /// Steps made, those of the settling included.
+    pub steps: u64,
+    /// Time step at the end (s).
+    pub time_step: f64,
+    /// How often an audit has cut the time step.
+    pub step_cuts: u32,
+    /// Steps of the barrier in one of the grains'.
+    pub barrier_parts: u32,
+    /// Largest step over critical step that an audit found.
+    pub step_ratio: StepRatio,
+    /// How often the neighbour lists were made anew.
+    pub renewals: u64,
+    pub threads: usize,
+    /// When the run began, in seconds since 1970.
+    pub began: i64,
+    /// From design to end of simulation (s).
+    pub wall_clock: f64,
+    /// Window over which total and wall forces are averaged (s).
+    pub smoothing: f64,
+    /// Interval of the time series (s).
+    pub sampling: f64,
+    /// Bulk density of the packed flow over the one asked for.
+    pub packed_share: f64,
+}
+
+/// Why there is no result at all.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    #[error("the run was interrupted; no report was written")]
+    Interrupted,
+    #[error("the flow could not be prepared: {0}")]
+    Preparation(#[from] PackingError),
+    #[error("this design is not run: {0}")]
+    TooMuch(String),
+}
+
+/// How much of a simulation is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// With its time series and its film.
+    Full,
+    /// What was observed.
+    Observed,
+}
+
+/// A simulation that was interrupted, as it is kept; `T` owns or borrows the run.
+#[derive(Serialize, Deserialize)]
+struct Halfway<T> {
+    facts: Facts,
+    /// Samples in the smoothing window and in the stretch of rest.
+    samples: [usize; 2],
+    ongoing: T,
+}
+
+/// What is kept of a simulation.
+#[derive(Serialize, Deserialize)]
+enum Kept<Unfinished, Done> {
+    Halfway(Unfinished),
+    Done(Done),
+}
+
+impl Halfway<Ongoing> {
+    fn begin(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Self, PackingError> {
+        let scene = build(design, fidelity, seed)?;
+        let facts = Facts {
+            grains: scene.simulation.grains.len(),
+            spheres: scene.simulation.grains.members(),
+            smoothing: scene.smoothing,
+            sampling: scene.recorder.interval,
+            packed_share: scene.packed_share,
+            threads: rayon::current_num_threads(),
+            ..Facts::default()
+        };
+        let samples = [SAMPLES_PER_WINDOW as usize, scene.samples_of_rest()];
+        Ok(Self { facts, samples, ongoing: Ongoing::begin(scene) })
+    }
+}
+
+/// One start of one design, modelled as finely as `fidelity` says. Call inside the thread pool that shall do the work.
+pub fn simulate(
+    design: &Design,
+    fidelity: &Fidelity,
+    guideline: &Guideline,
+    seed: u64,
+    detail: Detail,
+    watch: &Watch,
+) -> Result<Simulated, RunError> {
+    if let Some(reason) = estimate(design, fidelity).too_much() {
+        return Err(RunError::TooMuch(reason));
+    }
+    let shelf = watch.vault.map(|vault| vault.shelf(&format!("{design:?} {fidelity:?} {seed} {detail:?}")));
+    let halfway = match shelf.as_ref().and_then(|shelf| shelf.take()) {
+        Some(Kept::Done(done)) => return Ok(Simulated { fidelity: fidelity.clone(), ..done }),
+        Some(Kept::Halfway(halfway)) => Some(halfway),
+        None => None,
+    };
+    if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
+        return Err(RunError::Interrupted);
+    }
+    crew::gather(|| {
+        let started = Instant::now();
+        let Halfway { mut facts, samples, ongoing } = match halfway {
+            Some(halfway) => halfway,
+            None => Halfway::begin(design, fidelity, seed)?,
+        };
+        let before = facts.wall_clock;
+        let spent = || before + started.elapsed().as_secs_f64();
+        let event = ongoing.go_on(design.simulation.longest, watch, |ongoing, last| {
+            if let Some(shelf) = &shelf {
+                let facts = Facts { wall_clock: spent(), ..facts.clone() };
+                shelf.keep(&Kept::<_, Simulated>::Halfway(Halfway { facts, samples, ongoing }), last);
+            }
+        });
+        if event.ending == Ending::Interrupted {
+            return Err(RunError::Interrupted);
+        }
+        facts.take(&event);
+        facts.wall_clock = spent();
+        let numerics = numerics(&event);
+        let [window, tail] = samples;
+        let observed = Observed::read(&event.histories, design, guideline, Reading { window, tail });
+        let histories = match detail {
+            Detail::Full => event.histories,
+            Detail::Observed => Histories::default(),
+        };
+        let (starts, doubts) = (vec![Start { seed, observed }], doubts(&numerics));
+        let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, doubts };
+        if let Some(shelf) = &shelf {
+            shelf.finish(&Kept::<Halfway<Ongoing>, _>::Done(&simulated));
+        }
+        Ok(simulated)
+    })
+}
+
+fn numerics(event: &Event) -> Numerics {
+    Numerics {
+        energy_error: event.energy_error,
+        overlap: event.simulation.extremes.overlap_ratio,
+        step_ratio: event.simulation.extremes.step_ratio.value,
+        crossings: event.simulation.extremes.crossings,
+        broke_down: match &event.ending {
+            Ending::BrokeDown(unstable) => Some(unstable.to_string()),
+            _ => None,
+        },
+        missed: event.ending == Ending::Steady && event.histories.force.iter().all(|force| force.norm() == 0.0),
+        unfinished: event.ending == Ending::OutOfTime,
+    }
+}
+
+impl Facts {
+    fn take(&mut self, event: &Event) {
+        let simulation = &event.simulation;
+        if let Some(barrier) = &simulation.model.barrier {
+            self.barrier_nodes = barrier.nodes.len();
+            self.barrier_elements = barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len();
+        }
+        self.simulated = simulation.time;
+        self.steady = event.ending == Ending::Steady;
+        self.steps = simulation.steps;
+        self.time_step = simulation.time_step;
+        self.step_cuts = simulation.step_cuts;
+        self.barrier_parts = simulation.barrier_parts;
+        self.step_ratio = simulation.extremes.step_ratio;
+        self.renewals = simulation.neighbours.renewals;
+    }
+}

@@ -1,0 +1,276 @@
+//! Runs that are killed, stopped, damaged or starved of disk, and resumed: the result is that of a run that was left alone, or
+//! there is none, with the reason.
+#![cfg(unix)]
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const DESIGN: &str = "tests/fixtures/tiny.yaml";
+
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_barrier-check"))
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("resume").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+fn run(arguments: &[&str]) -> Output {
+    program().args(arguments).output().expect("the program starts")
+}
+
+fn error(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// All numbers of a result but those that tell of times and speeds of the machine; time series.
+fn numbers(folder: &Path) -> (serde_json::Value, Vec<u8>) {
+    let text = std::fs::read_to_string(folder.join("result.json")).expect("a result");
+    let mut result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    result.as_object_mut().expect("an object").remove("provenance");
+    strip(&mut result);
+    (result, std::fs::read(folder.join("histories.csv")).expect("histories"))
+}
+
+fn strip(value: &mut serde_json::Value) {
+    match value {
+        serde_json::Value::Object(map) => {
+            let of_the_machine = ["wall_clock", "threads", "simulated_at", "per_s"];
+            map.retain(|key, _| !of_the_machine.iter().any(|word| key.contains(word)));
+            map.values_mut().for_each(strip);
+        }
+        serde_json::Value::Array(list) => list.iter_mut().for_each(strip),
+        _ => {}
+    }
+}
+
+/// The run that nobody disturbs, with the given further arguments.
+fn undisturbed(name: &str, more: &[&str]) -> (serde_json::Value, Vec<u8>) {
+    let out = folder(name);
+    let output = run(&[&[DESIGN, "--out", &out.display().to_string()], more].concat());
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", error(&output));
+    assert!(!out.join("checkpoint").exists());
+    numbers(&out)
+}
+
+/// Starts a run that is kept at every stop.
+fn start(out: &Path, more: &[&str]) -> Child {
+    let out = out.display().to_string();
+    let first = [DESIGN, "--out", &out, "--keep-every", "0"];
+    program().args(first).args(more).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("the program starts")
+}
+
+/// Waits until the run is kept; false if it was done before.
+fn wait_until_kept(child: &mut Child, out: &Path) -> bool {
+    let kept = || {
+        let files = std::fs::read_dir(out.join("checkpoint")).into_iter().flatten().flatten();
+        files.map(|file| file.path()).any(|path| path.extension().is_some_and(|end| end == "before"))
+    };
+    let started = Instant::now();
+    while started.elapsed() < Duration::from_secs(60) {
+        if kept() {
+            return true;
+        }
+        if child.try_wait().expect("a child").is_some() {
+            return false;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    panic!("nothing is kept");
+}
+
+fn signal(child: &Child, name: &str) {
+    let sent = Command::new("kill").args([name, &child.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+}
+
+/// Kills and resumes a run `times` over, on changing numbers of threads, and lets it end.
+fn kill_and_resume(name: &str, times: u64, more: &[&str], seed: u64) {
+    let out = folder(name);
+    let path = out.display().to_string();
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut child = start(&out, more);
+    for time in 0..times {
+        if !wait_until_kept(&mut child, &out) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(random.u64(0..80)));
+        let _ = child.kill();
+        let _ = child.wait();
+        if !out.join("checkpoint/order.bin").exists() {
+            break; // It was done just before.
+        }
+        let threads = ["1", "2", "3"][time as usize % 3];
+        let resume = ["resume", &path, "--keep-every", "0", "--threads", threads];
+        child = program().args(resume).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("the program starts");
+    }
+    let code = child.wait().expect("an end").code();
+    if out.join("checkpoint").exists() {
+        let last = run(&["resume", &path]);
+        assert!(matches!(last.status.code(), Some(0 | 1)), "{}", error(&last));
+    } else {
+        assert!(matches!(code, Some(0 | 1)), "{code:?}");
+    }
+    assert!(!out.join("checkpoint").exists());
+}
+
+#[test]
+fn a_run_that_is_killed_and_resumed_ends_with_the_same_bits() {
+    let whole = undisturbed("whole", &[]);
+    kill_and_resume("killed", 4, &[], 1);
+    assert_eq!(whole, numbers(&folder_of("killed")));
+}
+
+/// Several starts side by side, and a barrier of cylinders.
+#[test]
+fn several_starts_that_are_killed_end_with_the_same_bits() {
+    let whole = undisturbed("whole_of_three", &["--seeds", "3"]);
+    kill_and_resume("three_killed", 3, &["--seeds", "3"], 2);
+    assert_eq!(whole, numbers(&folder_of("three_killed")));
+}
+
+/// Fifty kills at random moments: `cargo test --release --test resume -- --ignored`.
+#[test]
+#[ignore = "takes minutes"]
+fn fifty_kills() {
+    let whole = undisturbed("whole_of_fifty", &["--seeds", "2"]);
+    for round in 0..10 {
+        let name = format!("killed_{round}");
+        kill_and_resume(&name, 5, &["--seeds", "2"], 100 + round);
+        assert_eq!(whole, numbers(&folder_of(&name)), "round {round}");
+    }
+}
+
+fn folder_of(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("resume").join(name)
+}
+
+/// A run that is asked to end keeps all its starts, ends with 2 and says how to go on.
+#[test]
+fn a_run_that_is_asked_to_end_can_be_resumed() {
+    let whole = undisturbed("whole_of_two", &["--seeds", "2"]);
+    let out = folder("asked");
+    let path = out.display().to_string();
+    let mut child = program()
+        .args([DESIGN, "--out", &path, "--keep-every", "0", "--seeds", "2"])
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    assert!(wait_until_kept(&mut child, &out));
+    signal(&child, "-TERM");
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(output.status.code(), Some(2), "{}", error(&output));
+    assert!(error(&output).contains(&format!("barrier-check resume {path}")), "{}", error(&output));
+    assert!(!out.join("result.json").exists());
+    let resumed = run(&["resume", &path]);
+    assert!(matches!(resumed.status.code(), Some(0 | 1)), "{}", error(&resumed));
+    assert_eq!(whole, numbers(&out));
+}
+
+/// Killed, with what was kept spoilt on purpose before it is resumed.
+fn spoilt(name: &str, spoil: impl Fn(&Path)) -> (PathBuf, Output) {
+    let out = folder(name);
+    let mut child = start(&out, &[]);
+    assert!(wait_until_kept(&mut child, &out));
+    let _ = child.kill();
+    let _ = child.wait();
+    spoil(&out.join("checkpoint"));
+    let output = run(&["resume", &out.display().to_string()]);
+    (out, output)
+}
+
+fn simulation_in(kept: &Path, end: &str) -> PathBuf {
+    let files = std::fs::read_dir(kept).expect("a folder").flatten().map(|file| file.path());
+    let mut ours = files.filter(|path| path.extension().is_some_and(|has| has == end) && !path.ends_with("order.bin"));
+    ours.next().unwrap_or_else(|| kept.join(format!("none.{end}")))
+}
+
+fn flip_a_bit(path: &Path) {
+    let mut bytes = std::fs::read(path).expect("a file");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 4;
+    std::fs::write(path, bytes).expect("written");
+}
+
+fn cut_short(path: &Path) {
+    let bytes = std::fs::read(path).expect("a file");
+    std::fs::write(path, &bytes[..bytes.len() / 3]).expect("written");
+}
+
+#[test]
+fn what_is_spoilt_is_told_and_the_one_before_is_used() {
+    let whole = undisturbed("whole_of_spoilt", &[]);
+    let (out, output) = spoilt("bit", |kept| flip_a_bit(&simulation_in(kept, "bin")));
+    assert!(error(&output).contains("damaged: its checksum is wrong; the one before it is used"), "{}", error(&output));
+    assert_eq!(whole, numbers(&out));
+    let (out, output) = spoilt("cut", |kept| cut_short(&simulation_in(kept, "bin")));
+    assert!(error(&output).contains("the one before it is used"), "{}", error(&output));
+    assert_eq!(whole, numbers(&out));
+    let (out, output) = spoilt("both", |kept| {
+        flip_a_bit(&simulation_in(kept, "bin"));
+        cut_short(&simulation_in(kept, "before"));
+    });
+    assert!(error(&output).contains("this simulation begins anew"), "{}", error(&output));
+    assert_eq!(whole, numbers(&out));
+    // Kept by a run of another design, under the name of this one's.
+    let (out, output) = spoilt("foreign", |kept| {
+        let other = folder("other");
+        let text = std::fs::read_to_string(DESIGN).expect("a design").replace("1.2 m3", "1.3 m3");
+        std::fs::create_dir_all(&other).expect("a folder");
+        std::fs::write(other.join("other.yaml"), text).expect("a design");
+        let arguments = [&other.join("other.yaml").display().to_string(), "--out", &other.display().to_string()];
+        let mut child = program().args(arguments).args(["--keep-every", "0"]).spawn().expect("the program starts");
+        assert!(wait_until_kept(&mut child, &other));
+        let _ = child.kill();
+        let _ = child.wait();
+        std::fs::copy(simulation_in(&other.join("checkpoint"), "before"), simulation_in(kept, "bin")).expect("copied");
+    });
+    assert!(error(&output).contains("belongs to another design; the one before it is used"), "{}", error(&output));
+    assert_eq!(whole, numbers(&out));
+    // Without the order nobody knows what to go on with.
+    let (out, output) = spoilt("order", |kept| flip_a_bit(&kept.join("order.bin")));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(error(&output).contains("cannot be resumed"), "{}", error(&output));
+    assert!(!out.join("result.json").exists());
+}
+
+#[test]
+fn where_nothing_is_kept_there_is_nothing_to_resume() {
+    let output = run(&["resume", "/nowhere/at/all"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(error(&output).contains("no interrupted run is kept there"), "{}", error(&output));
+}
+
+/// No room on the disk, played by a limit on the size of files: the result of before stays, bit for bit, and the reason is told.
+#[test]
+fn a_full_disk_spoils_nothing() {
+    let out = folder("full");
+    let path = out.display().to_string();
+    assert!(matches!(run(&[DESIGN, "--out", &path]).status.code(), Some(0 | 1)));
+    let all = || -> Vec<(PathBuf, Vec<u8>)> {
+        let mut files: Vec<PathBuf> =
+            std::fs::read_dir(&out).expect("a folder").map(|file| file.expect("a file").path()).collect();
+        files.sort();
+        files.into_iter().map(|file| (file.clone(), std::fs::read(&file).unwrap_or_default())).collect()
+    };
+    let before = all();
+    let shell = format!(
+        "trap '' XFSZ; ulimit -f 16; exec '{}' {DESIGN} --out '{path}' --keep-every 0",
+        env!("CARGO_BIN_EXE_barrier-check")
+    );
+    let output = Command::new("sh").args(["-c", &shell]).output().expect("a shell");
+    assert_eq!(output.status.code(), Some(2), "{}", error(&output));
+    let told = error(&output);
+    assert!(told.contains("the run could not be kept") && told.contains("the report could not be written"), "{told}");
+    assert!(told.contains("still holds the report of an earlier run"), "{told}");
+    let _ = std::fs::remove_dir_all(out.join("checkpoint"));
+    assert!(before == all(), "the result of before has changed");
+    // A folder that cannot be is told before the run.
+    let output = run(&[DESIGN, "--out", "/proc/nothing/here"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(error(&output).contains("could not be written"), "{}", error(&output));
+}
