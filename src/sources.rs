@@ -5,6 +5,10 @@ pub const ALBABA_2015: &str = "Albaba 2015, Discrete element modeling of the imp
 pub const CUNDALL_STRACK_1979: &str =
     "Cundall & Strack 1979, A discrete numerical model for granular assemblies, Géotechnique 29";
 pub const EN_1990: &str = "EN 1990, annex D: design assisted by testing";
+pub const EN_1993_1_11: &str =
+    "EN 1993-1-11: structures with tension components (the partial factor of ropes; quoted from memory)";
+pub const EN_1997_1: &str = "EN 1997-1: geotechnical design (the partial factor of anchors)";
+pub const OTHER_MODELS: &str = "Other models of impact and rules of detailing: named with their range and how sure we are of them where they are used; none of them decides a check";
 pub const NO_LIMIT: &str = "no limit set; for information";
 pub const NOTHING_BREAKS: &str = "no rope may break";
 pub const DESIGN_LIMIT: &str = "limit set in the design file";

@@ -60,7 +60,7 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             most: Some(2200.0),
             unit: "kg/m³",
             source: "Volkwein 2014 (after Albaba 2015)",
-            advice: "K and λ of the guideline were set for flows within this range; see the ladder of models",
+            advice: "K and λ of the guideline were set for flows within this range: compare with \"Other models for the first surge\", and with K and λ of the simulation",
         },
         least(
             "Froude number",
@@ -68,7 +68,7 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             (5.3 / input.dynamic_pressure).powf(1.0 / 1.5),
             "",
             "where 5.3 Fr^−1.5 of Cui et al. 2015 equals the design's λ",
-            "a model that follows the Froude number asks for more than the design's λ; see the ladder of models",
+            "a model that follows the Froude number asks for more than the design's λ: compare with \"Other models for the first surge\" and raise λ if they agree",
         ),
     ];
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {

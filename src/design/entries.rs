@@ -39,6 +39,8 @@ pub struct Entry {
     pub typed: String,
     pub origin: Origin,
     pub meaning: &'static str,
+    /// What the designer has written beside it, as a comment.
+    pub remark: String,
 }
 
 /// All values by their dotted path, and the sections that are there.
@@ -169,7 +171,7 @@ impl Reader<'_> {
         }
         match understand(node, &key.kind) {
             Ok(value) => {
-                let entry = Entry { value, typed: typed(node), origin, meaning: key.meaning };
+                let entry = Entry { value, typed: typed(node), origin, meaning: key.meaning, remark: String::new() };
                 self.entries.order.push(path.to_string());
                 self.entries.values.insert(path.to_string(), entry);
             }

@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::design::document::Document;
-use crate::design::entries::{Entries, read};
+use crate::design::entries::{Entries, Origin, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
@@ -29,6 +29,7 @@ pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     let document = Document::parse(bytes).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
     let mut entries = read(&document.root, DESIGN, &mut problems);
+    take_remarks(&mut entries, &document, bytes);
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
@@ -43,6 +44,31 @@ pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     }
     problems.sort_by_key(|problem| problem.position);
     Err(refuse(problems))
+}
+
+/// Hands every value the comment that stands on its line.
+fn take_remarks(entries: &mut Entries, document: &Document, bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    let lines: Vec<&str> = text.lines().collect();
+    for (path, entry) in entries.values.iter_mut().filter(|(_, entry)| entry.origin == Origin::File) {
+        let line = document.position(path).and_then(|position| lines.get(position.line.checked_sub(1)?).copied());
+        entry.remark = line.and_then(comment).unwrap_or_default().to_string();
+    }
+}
+
+/// What follows the first `#` that begins a comment: one after a blank, outside quotes.
+fn comment(line: &str) -> Option<&str> {
+    let (mut quote, mut before) = (None, ' ');
+    for (place, letter) in line.char_indices() {
+        match (quote, letter) {
+            (None, '#') if before.is_whitespace() => return Some(line[place + 1..].trim()),
+            (None, '"' | '\'') => quote = Some(letter),
+            (Some(open), close) if open == close => quote = None,
+            _ => {}
+        }
+        before = letter;
+    }
+    None
 }
 
 /// Position of the key at `path`, or of the nearest key above it that is in the file.
@@ -65,4 +91,23 @@ fn stem(file: &str) -> String {
 fn sha256(bytes: &[u8]) -> String {
     use sha2::Digest;
     sha2::Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comment_is_what_stands_behind_the_value() {
+        assert_eq!(comment("  width: 3 m   # measured"), Some("measured"));
+        assert_eq!(comment("  name: \"a # b\"  # c"), Some("c"));
+        assert_eq!(comment("  name: a#b"), None);
+        assert_eq!(comment("  width: 3 m"), None);
+        let file = read_design("x", include_bytes!("../../designs/site_a.yaml")).unwrap();
+        assert_eq!(
+            file.entries.values["barrier.flexible_net.anchors.resistance"].remark,
+            "characteristic; assumed, the thesis sets none"
+        );
+        assert_eq!(file.entries.values["barrier.flexible_net.net_slack"].remark, "");
+    }
 }

@@ -120,12 +120,16 @@ impl Rung {
 
     /// What of `outcomes` is open still on this rung; nothing where one check fails for certain.
     pub fn open(&self, outcomes: &[Outcome]) -> Vec<String> {
-        let answers: Vec<(&Outcome, Answer)> = outcomes.iter().map(|outcome| (outcome, self.answer(outcome))).collect();
-        if answers.iter().any(|(_, answer)| *answer == Answer::Fails) {
+        if outcomes.iter().any(|outcome| self.answer(outcome) == Answer::Fails) {
             return Vec::new();
         }
-        let open = answers.into_iter().filter(|(_, answer)| *answer == Answer::Open);
-        open.map(|(outcome, _)| outcome.title.clone()).collect()
+        self.could_flip(outcomes)
+    }
+
+    /// Checks that a finer model may decide otherwise, whatever the others say.
+    pub fn could_flip(&self, outcomes: &[Outcome]) -> Vec<String> {
+        let open = outcomes.iter().filter(|outcome| self.answer(outcome) == Answer::Open);
+        open.map(|outcome| outcome.title.clone()).collect()
     }
 
     fn answer(&self, outcome: &Outcome) -> Answer {

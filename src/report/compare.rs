@@ -55,6 +55,7 @@ struct Head {
     folder: String,
     verdict: &'static str,
     verdict_line: String,
+    sha256: String,
 }
 
 /// A row: what it is of, and a cell for each design.
@@ -71,6 +72,8 @@ struct Cell {
     class: &'static str,
     /// How it differs from the first design, where that is worth a mark.
     change: String,
+    /// Whether a verdict differs from that of the first design.
+    marked: bool,
 }
 
 /// The page as files. `variants` holds two at least.
@@ -101,6 +104,7 @@ fn head(variant: &Variant, letter: char) -> Head {
         folder: variant.folder.clone(),
         verdict: variant.run.verdict.word(),
         verdict_line: summary(&variant.run),
+        sha256: variant.run.file.sha256.clone(),
     }
 }
 
@@ -117,7 +121,12 @@ fn check_lines(variants: &[Variant]) -> Vec<Line> {
         let found = |variant: &Variant| variant.run.outcomes.iter().find(|outcome| outcome.id == id).cloned();
         let outcomes: Vec<Option<Outcome>> = variants.iter().map(found).collect();
         let title = outcomes.iter().flatten().next().map_or(String::new(), |outcome| outcome.title.clone());
-        Line { title, cells: outcomes.iter().map(check_cell).collect() }
+        let mut cells: Vec<Cell> = outcomes.iter().map(check_cell).collect();
+        let first = cells[0].class;
+        cells
+            .iter_mut()
+            .for_each(|cell| cell.marked = !first.is_empty() && !cell.class.is_empty() && cell.class != first);
+        Line { title, cells }
     };
     ids.into_iter().map(line).collect()
 }
@@ -130,7 +139,7 @@ fn check_cell(outcome: &Option<Outcome>) -> Cell {
         None => outcome.demand.simulation.or(outcome.demand.guideline),
     };
     let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit));
-    Cell { text, class: outcome.verdict.word(), change: percent(outcome.utilisation) }
+    Cell { text, class: outcome.verdict.word(), change: percent(outcome.utilisation), marked: false }
 }
 
 fn observed_lines(variants: &[Variant]) -> Vec<Line> {
@@ -164,7 +173,7 @@ fn observed_cell(spread: Spread, first: Option<Spread>, unit: &str) -> Cell {
         "-" => format!("{:+.1} points", 100.0 * (spread.mean - first.mean)),
         _ => format!("{:+.0} %", 100.0 * (spread.mean / first.mean - 1.0)),
     });
-    Cell { text, class: if change.is_empty() { "" } else { "differs" }, change }
+    Cell { text, class: if change.is_empty() { "" } else { "differs" }, change, marked: false }
 }
 
 /// Whether a difference is more than scatter may make.
@@ -204,7 +213,7 @@ fn input_lines(variants: &[Variant]) -> Vec<Line> {
         let cell = |value: String| Cell {
             class: if value == values[0] { "" } else { "differs" },
             text: value,
-            change: String::new(),
+            ..Cell::default()
         };
         let cells = values.iter().cloned().map(cell).collect();
         (!same && !path.starts_with("project.")).then_some(Line { title: path, cells })

@@ -5,12 +5,13 @@ use serde::Serialize;
 use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, STEP_LIMIT};
 use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
-use crate::design::Design;
+use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::Run;
 use crate::report::numbers::with_unit;
 use crate::report::validation::Kept;
 use crate::report::view::Row;
+use crate::report::warnings::pinned_fidelity;
 use crate::simulated::Simulated;
 use crate::starts::{Spread, k_n};
 use crate::units::GRAVITY;
@@ -57,10 +58,29 @@ fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
-            format!("at {:.2} s; {}", seen.force_peak_time, per_width(seen.force_peak, design)),
+            format!(
+                "at {:.2} s; {}; length of the vector, mean over the smoothing window",
+                seen.force_peak_time,
+                per_width(seen.force_peak, design)
+            ),
         ),
-        row("Total force at rest", with_unit(seen.force_residual, "N"), per_width(seen.force_residual, design)),
+        row("Total force at rest", with_unit(seen.force_residual, "N"), at_rest_remark(design, seen)),
     ]
+}
+
+/// The force at rest beside the weight of what is held.
+fn at_rest_remark(design: &Design, seen: &Observed) -> String {
+    let downhill = seen.retained * design.flow.mass * GRAVITY * design.channel.slope.sin();
+    let why = if seen.force_residual > downhill {
+        "; more, because the barrier has sprung back and presses the deposit up the slope, against the friction of the bed"
+    } else {
+        "; the rest is borne by the bed"
+    };
+    format!(
+        "{}; what is held weighs {} along the bed{why}",
+        per_width(seen.force_residual, design),
+        with_unit(downhill, "N")
+    )
 }
 
 fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
@@ -154,10 +174,11 @@ fn wall_rows(seen: &Observed) -> Vec<Row> {
 }
 
 /// How the numbers were obtained, and the limits of credibility.
-pub fn numerics_rows(run: &Simulated) -> Vec<Row> {
+pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
     let (facts, numerics) = (&run.facts, &run.numerics);
+    let fidelity = pinned_fidelity(whole).map(|why| row("Fidelity", fidelity_in_a_word(whole, run), why));
     let ending = if facts.steady { "force and masses no longer changed" } else { "stopped before it was steady" };
-    vec![
+    let rows = vec![
         row(
             "Energy imbalance",
             format!("{:.3} %", 100.0 * numerics.energy_error),
@@ -172,19 +193,18 @@ pub fn numerics_rows(run: &Simulated) -> Vec<Row> {
             "Time step over critical step",
             format!("{:.2}", numerics.step_ratio),
             format!(
-                "largest met, of a mode with {:.0} % of its energy in the barrier; limit {STEP_LIMIT}",
+                "largest an audit met, of a mode with {:.0} % of its energy in the barrier; a step that is found too long is cut at once, and the energy account tells whether it did harm; limit {STEP_LIMIT}",
                 100.0 * facts.step_ratio.in_barrier
             ),
         ),
-        row(
-            "Time step",
-            format!("{:.2e} s", facts.time_step),
-            format!("{}; cut {} times", run.fidelity.reason, facts.step_cuts),
-        ),
+        row("Time step", format!("{:.2e} s", facts.time_step), step_remark(run)),
         row(
             "Grains through ropes",
             numerics.crossings.to_string(),
-            format!("none is allowed; the barrier takes {} steps in one of the grains'", facts.barrier_parts),
+            match facts.barrier_parts {
+                0 | 1 => "none is allowed".to_string(),
+                parts => format!("none is allowed; the barrier takes {parts} steps in one of the grains'"),
+            },
         ),
         row("Simulated time", with_unit(facts.simulated, "s"), ending),
         row(
@@ -207,9 +227,40 @@ pub fn numerics_rows(run: &Simulated) -> Vec<Row> {
         row(
             "Cost",
             format!("{:.1} s", facts.wall_clock),
-            format!("{} steps on {} threads, {} neighbour lists", facts.steps, facts.threads, facts.renewals),
+            format!("{} steps on {}, {} neighbour lists", facts.steps, threads(facts.threads), facts.renewals),
         ),
-    ]
+    ];
+    fidelity.into_iter().chain(rows).collect()
+}
+
+/// How the step was chosen, and what became of it.
+fn step_remark(run: &Simulated) -> String {
+    let (wished, now) = (run.fidelity.time_step, run.facts.time_step);
+    let cuts = match run.facts.step_cuts {
+        0 => "never cut".to_string(),
+        cuts => format!("{:.2e} s at first, cut {cuts} times by audits, to {:.2} of that", wished, now / wished),
+    };
+    format!("at first {}; {cuts}", run.fidelity.reason)
+}
+
+fn threads(count: usize) -> String {
+    if count == 1 { "one thread".to_string() } else { format!("{count} threads") }
+}
+
+/// The model in a few words.
+fn fidelity_in_a_word(whole: &Run, run: &Simulated) -> String {
+    let design = &whole.file.design;
+    let model = match (&design.barrier, design.simulation.barrier_model) {
+        (BarrierDesign::RigidWall(_), _) => "rigid wall",
+        (_, BarrierModel::PinnedRopes) => "ropes, rings pinned",
+        (_, BarrierModel::SlidingRopes) => "ropes that slide",
+        (_, BarrierModel::Cylinders) => "cylinders",
+    };
+    let starts = match run.starts.len() {
+        1 => "one start".to_string(),
+        starts => format!("{starts} starts"),
+    };
+    format!("{}, {model}, {starts}", run.fidelity.name)
 }
 
 /// The rungs of the ladder that ran.
@@ -268,9 +319,15 @@ fn validation_row() -> Row {
     };
     let failed: Vec<String> =
         kept.cases.iter().filter(|case| !case.held).map(|case| format!("{} ({})", case.id, case.title)).collect();
+    let this = env!("BARRIER_CHECK_COMMIT");
+    let commit = if kept.commit == this {
+        format!("at this commit, {this}")
+    } else {
+        format!("at commit {}; this program is of commit {this}, which was not validated in full", kept.commit)
+    };
     let remark = match failed.as_slice() {
-        [] => format!("all cases, run at commit {}", kept.commit),
-        failed => format!("at commit {}; not held: {}", kept.commit, failed.join("; ")),
+        [] => commit,
+        failed => format!("{commit}; not held: {}", failed.join("; ")),
     };
     row(
         "Validation of this program",

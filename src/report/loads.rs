@@ -369,7 +369,7 @@ pub fn rules(run: &Run) -> Vec<RuleRow> {
             (None, Some(most)) => format!("at most {}", show(most)),
             (None, None) => String::new(),
         };
-        let remark = if rule.holds() { rule.source.to_string() } else { format!("{}. {}", rule.source, rule.advice) };
+        let remark = if rule.holds() { rule.source.to_string() } else { format!("{}; {}", rule.source, rule.advice) };
         RuleRow {
             title: rule.title,
             found: show(rule.found),
@@ -401,6 +401,10 @@ pub fn swing_rows(swings: &[sensitivity::Swing]) -> Vec<SwingRow> {
 
 pub fn margin(run: &Run) -> String {
     use sensitivity::Limit;
+    let still = sensitivity::least(&run.file.design).map_or(String::new(), |point| {
+        let used = percent(point.utilisation);
+        format!(" Filled, and with next to no velocity, the {} still uses {used}.", point.governing.to_lowercase())
+    });
     let tell = |name: &str, limit: Limit| match limit {
         Limit::Unjudged => "no check is judged by the equations".to_string(),
         Limit::AlwaysFails => format!("no {name}, however small, lets all checks by the equations hold"),
@@ -418,5 +422,19 @@ pub fn margin(run: &Run) -> String {
     if margin.velocity == Limit::Unjudged {
         return "No check is judged by the equations.".into();
     }
-    format!("Alone, {}; {}.", tell("velocity", margin.velocity), tell("depth", margin.depth))
+    let still = if margin.velocity == Limit::AlwaysFails { still } else { String::new() };
+    format!("Alone, {}; {}.{still}", tell("velocity", margin.velocity), tell("depth", margin.depth))
+}
+
+/// The smaller of the margins of velocity and depth, in words, where there is one.
+pub fn least_margin(run: &Run) -> Option<String> {
+    use sensitivity::Limit;
+    let margin = sensitivity::margin(&run.file.design);
+    let grown = |name: &'static str, limit: Limit| match limit {
+        Limit::At(factor) if factor >= 1.0 => Some((factor, name)),
+        _ => None,
+    };
+    let both = [grown("velocity", margin.velocity), grown("depth", margin.depth)];
+    let (factor, name) = both.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!("{:.0} % more {name} makes a check fail", 100.0 * (factor - 1.0)))
 }

@@ -17,4 +17,5 @@ pub mod study;
 pub mod validation;
 pub mod view;
 pub mod vtk;
+pub mod warnings;
 pub mod write;

@@ -4,6 +4,8 @@ pub fn percent(share: Option<f64>) -> String {
     match share {
         None => "–".to_string(),
         Some(share) if share > 10.0 => "> 1000 %".to_string(),
+        // Near the limit a digit more, so that nothing at 100 % fails.
+        Some(share) if (share - 1.0).abs() < 0.05 => format!("{:.1} %", 100.0 * share),
         Some(share) => format!("{:.0} %", 100.0 * share),
     }
 }
@@ -26,6 +28,9 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "N m/m" => format!("{} kN m/m", figures(value / 1e3)),
         "kg" if value.abs() < 2000.0 => format!("{} kg", figures(value)),
         "kg" => format!("{} t", figures(value / 1e3)),
+        // No distance in this trade is known to less than a millimetre.
+        "m" if value == 0.0 => "0 m".to_string(),
+        "m" if value.abs() < 0.1 => format!("{value:.3} m"),
         "" => figures(value),
         "count" => format!("{value:.0}"),
         "-" => format!("{:.1} %", 100.0 * value),

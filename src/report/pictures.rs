@@ -12,6 +12,7 @@ use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
+use crate::report::plots::escape;
 use crate::report::plots::line_chart::{Level, LineChart, Series, resampled};
 use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
@@ -32,13 +33,21 @@ pub struct Chart {
 impl Chart {
     /// A picture whose file is called as its title is.
     fn of(title: &'static str, svg: String, note: impl Into<String>) -> Self {
-        Self { title, file: file_name(title), svg, note: note.into() }
+        let note = note.into();
+        Self { title, file: file_name(title), svg: labelled(&svg, title), note }
     }
 
     /// The picture as a file that stands alone.
     pub fn alone(&self) -> String {
         alone(&self.svg)
     }
+}
+
+/// The picture with its title as what is read out in its place.
+pub fn labelled(svg: &str, title: &str) -> String {
+    let Some((before, rest)) = svg.split_once("aria-label=\"") else { return svg.to_string() };
+    let Some((_, after)) = rest.split_once('"') else { return svg.to_string() };
+    format!("{before}aria-label=\"{}\"{after}", escape(title))
 }
 
 /// A picture of the page as a file that stands alone.
@@ -61,7 +70,7 @@ pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
         charts.push(stroke_chart(run, seen));
     }
     if !seen.histories.rope_mean.is_empty() {
-        charts.push(rope_chart(seen));
+        charts.push(rope_chart(run, seen));
     }
     charts.extend(anchor_chart(run, seen));
     charts.extend(wall_charts(run, seen));
@@ -77,15 +86,17 @@ pub fn utilisation_chart(run: &Run) -> Option<Chart> {
     let judged = worst_first(run).into_iter().filter(|outcome| outcome.verdict != CheckVerdict::Info);
     let bar = |outcome: &Outcome| {
         let used = outcome.utilisation?;
-        Some(Bar { label: outcome.title.clone(), used, class: outcome.verdict.word() })
+        let of = |demand: Option<f64>| Some(demand? / outcome.capacity.filter(|_| outcome.resistance.is_some())?);
+        let by = [of(outcome.demand.guideline), of(outcome.demand.simulation)];
+        Some(Bar { label: outcome.title.clone(), used, by, class: outcome.verdict.word() })
     };
     let bars: Vec<Bar> = judged.filter_map(bar).take(MOST_BARS).collect();
-    let note = "Demand over capacity; of guideline and simulation the larger.";
+    let note = "Demand over capacity; of guideline (square) and simulation (circle) the larger. Bars beyond 200 % are cut off. Checks that tell no share of use are in the table alone.";
     (!bars.is_empty()).then(|| Chart::of("Utilisation of the checks", utilisation(&bars), note))
 }
 
 /// Bars in the picture of utilisations.
-const MOST_BARS: usize = 14;
+const MOST_BARS: usize = 40;
 
 /// Least and largest force over all starts, at the times of the first.
 fn force_band(seen: &Simulated) -> Option<[Vec<f64>; 2]> {
@@ -113,7 +124,10 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         factor: 1e-3,
         time: &seen.histories.time,
         series: rope_series(&seen.histories.anchors),
-        levels: vec![Level { label: "resistance".into(), value: net.anchor_resistance }],
+        levels: vec![Level {
+            label: "design resistance".into(),
+            value: net.anchor_resistance / run.file.design.factors.anchor,
+        }],
         band: None,
     };
     let note = "The higher loaded anchor of each main rope, without partial factors.";
@@ -162,7 +176,11 @@ fn energy_chart(seen: &Simulated) -> Chart {
     let (motion, lost) = (of(|now| now.kinetic), of(Ledger::dissipated));
     let contacts = of(|now| now.lost_damping + now.lost_friction);
     let largest = released.iter().chain(&motion).copied().fold(0.0, f64::max);
-    let (unit, factor) = if largest < 2000.0 { ("J", 1.0) } else { ("kJ", 1e-3) };
+    let (unit, factor) = match largest {
+        small if small < 2e3 => ("J", 1.0),
+        medium if medium < 2e6 => ("kJ", 1e-3),
+        _ => ("MJ", 1e-6),
+    };
     let series = |label: &str, values, colour| Series { label: label.into(), values, colour };
     let chart = LineChart {
         title: "energy",
@@ -170,7 +188,7 @@ fn energy_chart(seen: &Simulated) -> Chart {
         factor,
         time: &seen.histories.time,
         series: vec![
-            series("released by falling", &released, 2),
+            series("released", &released, 2),
             series("motion", &motion, 0),
             series("lost in all", &lost, 1),
             series("lost in contacts", &contacts, 3),
@@ -178,7 +196,7 @@ fn energy_chart(seen: &Simulated) -> Chart {
         levels: Vec::new(),
         band: None,
     };
-    let note = "Lost in contacts: by impacts and by friction; the rest goes into dissipators and the damping of ropes. Energy that departed grains carry is taken off what falling has released.";
+    let note = "Released: by falling. Lost in contacts: by impacts and by friction; the rest goes into dissipators and the damping of ropes. Energy that departed grains carry is taken off what falling has released.";
     Chart::of("Energy account", chart.svg(), note)
 }
 
@@ -202,8 +220,14 @@ pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
         Chart {
             title,
             file: format!("flow_{}", file_name(title)),
-            svg: side_view(snapshot, &setting),
-            note: format!("at {:.2} s", snapshot.time),
+            svg: labelled(&side_view(snapshot, &setting), &format!("Flow from the side: {title}")),
+            note: match snapshot.moment {
+                Moment::LargestForce => format!("at {:.2} s, within half a percent of the largest", snapshot.time),
+                Moment::FirstContact => {
+                    format!("at {:.2} s; the first grains touch, not all in this slice", snapshot.time)
+                }
+                Moment::HalfAtRest | Moment::End => format!("at {:.2} s", snapshot.time),
+            },
         }
     };
     seen.histories.snapshots.iter().map(chart).collect()
@@ -261,7 +285,7 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         file: file_name("Barrier from upstream"),
         svg: elevation(snapshot, design.channel.width, resistance),
         note: format!(
-            "At {:.2} s, as deformed then; colour by tension over design resistance at that instant.",
+            "At {:.2} s, as deformed then; colour by tension over design resistance at that instant. Main ropes are numbered from the bottom.",
             snapshot.time
         ),
     })
@@ -364,13 +388,17 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
         factor: 100.0,
         time: &histories.time,
         series: vec![
-            Series { label: "not past the barrier".into(), values: &retained, colour: 0 },
+            Series { label: "held".into(), values: &retained, colour: 0 },
             Series { label: "at rest".into(), values: &histories.dead, colour: 1 },
         ],
         levels: vec![Level { label: "limit".into(), value: run.file.design.limits.retained_mass }],
         band: None,
     };
-    Chart::of("Retained mass", chart.svg(), "At rest: slower than 5 % of the highest mean velocity.")
+    Chart::of(
+        "Retained mass",
+        chart.svg(),
+        "Held: not past the barrier. At rest: slower than 5 % of the highest mean velocity.",
+    )
 }
 
 fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
@@ -390,17 +418,25 @@ fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
     Chart::of("Dissipators", chart.svg(), "The longer of the two strokes of each main rope.")
 }
 
-fn rope_chart(seen: &Simulated) -> Chart {
+fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
+    let design = &run.file.design;
+    let resistance = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => {
+            Some(net.main_ropes.rope.breaking_load * design.factors.rope_end / design.factors.rope)
+        }
+        BarrierDesign::RigidWall(_) => None,
+    };
     let chart = LineChart {
-        title: "mean tension",
+        title: "largest tension",
         unit: "kN",
         factor: 1e-3,
         time: &seen.histories.time,
-        series: rope_series(&seen.histories.rope_mean),
-        levels: Vec::new(),
+        series: rope_series(&seen.histories.rope_largest),
+        levels: resistance.map(|value| Level { label: "design resistance".into(), value }).into_iter().collect(),
         band: None,
     };
-    Chart::of("Main ropes", chart.svg(), "Mean along each rope, numbered from the bottom.")
+    let note = "Largest along each rope and its dissipators, without partial factors; ropes are numbered from the bottom. Their means are in histories.csv.";
+    Chart::of("Main ropes", chart.svg(), note)
 }
 
 fn velocity_chart(seen: &Simulated) -> Chart {
@@ -410,7 +446,7 @@ fn velocity_chart(seen: &Simulated) -> Chart {
         unit: "m/s",
         factor: 1.0,
         time: &seen.histories.time,
-        series: vec![Series { label: "along the channel".into(), values: &velocity, colour: 0 }],
+        series: vec![Series { label: "along the bed".into(), values: &velocity, colour: 0 }],
         levels: Vec::new(),
         band: None,
     };

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::design::{Arrival, BarrierDesign, BarrierModel, Bottom, Design};
 use crate::pipeline::Run;
-use crate::sources::{ALBABA_2015, CUNDALL_STRACK_1979, EN_1990, VOLKWEIN_2014};
+use crate::sources::{ALBABA_2015, CUNDALL_STRACK_1979, EN_1990, EN_1993_1_11, EN_1997_1, OTHER_MODELS, VOLKWEIN_2014};
 
 /// An assumption, and whether a design that rests on it is the safer for it.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -111,13 +111,15 @@ fn of_ropes(design: &Design) -> Option<&'static str> {
 
 /// What nobody has looked at.
 pub fn not_checked(design: &Design) -> Vec<&'static str> {
-    let (net, bolts) = match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => (true, net.bottom == Bottom::Fixed && net.bed_resistance.is_none()),
-        BarrierDesign::RigidWall(_) => (false, false),
+    let (net, bolts, wall) = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => (true, net.bottom == Bottom::Fixed && net.bed_resistance.is_none(), false),
+        BarrierDesign::RigidWall(wall) => (false, false, wall.stability.is_none()),
     };
     let loads = &design.loads;
     let list = [
         (true, "scour, abutments and foundations"),
+        (wall, "sliding, overturning and bearing of the wall (rigid_wall.stability would have them checked)"),
+        (!net, "bending and shear of the wall itself; the segments' pressures are told for that"),
         (true, "corrosion, abrasion and maintenance"),
         (net, "the rings; punching of the mesh by a single stone"),
         (
@@ -142,6 +144,10 @@ pub fn references(run: &Run) -> Vec<&'static str> {
     if run.simulated.as_ref().is_some_and(|seen| seen.starts.len() > 1) {
         references.push(EN_1990);
     }
+    if matches!(run.file.design.barrier, BarrierDesign::FlexibleNet(_)) {
+        references.extend([EN_1993_1_11, EN_1997_1]);
+    }
+    references.push(OTHER_MODELS);
     let mut seen = BTreeSet::new();
     references.into_iter().filter(|reference| seen.insert(*reference)).collect()
 }

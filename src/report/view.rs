@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
+use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::pipeline::{Run, Verdict};
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
@@ -13,6 +14,7 @@ use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::replay::Replay;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
+use crate::report::warnings::{left_by_simulation, warnings};
 use crate::simulated::Simulated;
 use crate::sources::VOLKWEIN_2014;
 
@@ -23,6 +25,8 @@ pub struct View {
     pub verdict: &'static str,
     pub verdict_line: String,
     pub doubts: Vec<String>,
+    /// What a reviewer should know before the numbers.
+    pub warnings: Vec<String>,
     pub utilisation: Option<Chart>,
     pub checks: Vec<CheckRow>,
     pub simulated: bool,
@@ -54,6 +58,8 @@ pub struct View {
     /// Program of the page that shows it.
     pub replay_script: &'static str,
     pub inputs: Vec<InputRow>,
+    /// What follows from the inputs alone.
+    pub derived: Vec<Row>,
     pub assumptions: Vec<Assumption>,
     pub references: Vec<&'static str>,
     pub not_checked: Vec<&'static str>,
@@ -90,6 +96,8 @@ pub struct InputRow {
     pub typed: String,
     pub origin: &'static str,
     pub meaning: &'static str,
+    /// What the designer has written beside the value.
+    pub remark: String,
 }
 
 impl View {
@@ -102,6 +110,7 @@ impl View {
             verdict: run.verdict.word(),
             verdict_line: summary(run),
             doubts: run.doubts.clone(),
+            warnings: warnings(run),
             utilisation: pictures::utilisation_chart(run),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
             guideline: guideline_rows(run),
@@ -115,7 +124,11 @@ impl View {
             by_starts: run.simulated.as_ref().map_or(String::new(), by_starts),
             rules: loads::rules(run),
             tornado: loads::tornado(run),
-            margin: loads::margin(run),
+            margin: [left_by_simulation(run), Some(loads::margin(run))]
+                .into_iter()
+                .flatten()
+                .collect::<Vec<_>>()
+                .join(" "),
             varied: loads::swing_rows(&run.varied),
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
@@ -127,12 +140,13 @@ impl View {
             replay_script: REPLAY_SCRIPT,
             charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),
+            derived: derived_rows(run),
             assumptions: assumptions(run),
             climb: climb_rows(run),
             why_enough: why_enough(run),
             references: references(run),
             not_checked: not_checked(&run.file.design),
-            numerics: run.simulated.as_ref().map_or_else(Vec::new, super::findings::numerics_rows),
+            numerics: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::numerics_rows(run, seen)),
         }
     }
 
@@ -159,8 +173,8 @@ fn title_block(run: &Run) -> Vec<Row> {
         row("Barrier", &project.barrier),
         row("Revision", &project.revision),
         row("Author", &project.author),
-        row("Checker", &project.checker),
-        row("Date", &project.date),
+        row("Checker", blank(&project.checker)),
+        row("Date", blank(&project.date)),
         row("Notes", &project.notes),
         row("Design file", &run.file.name),
         row("SHA-256 of the design file", &run.file.sha256),
@@ -172,6 +186,11 @@ fn title_block(run: &Run) -> Vec<Row> {
         ),
     ];
     rows.into_iter().filter(|row| !matches!(row.value.as_str(), "" | "-")).collect()
+}
+
+/// What a hand may fill in.
+fn blank(text: &str) -> &str {
+    if matches!(text, "" | "-") { "to be filled in" } else { text }
 }
 
 /// A moment in seconds since 1970, as date and time.
@@ -244,20 +263,30 @@ pub fn summary(run: &Run) -> String {
             };
             let close = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Warn).count();
             let close = if close > 0 { format!(", {close} with less than 10 % to spare") } else { String::new() };
-            format!("{0} of {0} checks hold{close}{alone}.{governing}", held.len())
+            let left = loads::least_margin(run).map_or(String::new(), |left| format!(" By the equations {left}."));
+            format!("{0} of {0} checks hold{close}{alone}.{governing}{left}", held.len())
         }
     }
 }
 
 fn check_row(outcome: &Outcome) -> CheckRow {
     let show = |value: Option<f64>| value.map_or("–".to_string(), |value| with_unit(value, outcome.unit));
+    // A stroke ends where there is no more of it: the demand is at least that.
+    let stroke = outcome.resistance.filter(|_| outcome.unit == "m").map(|(resistance, _)| resistance.characteristic);
+    let used_up = |demand: Option<f64>| stroke.zip(demand).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
+    let demand =
+        |demand: Option<f64>| if used_up(demand) { format!("≥ {}, used up", show(demand)) } else { show(demand) };
     CheckRow {
         title: outcome.title.clone(),
-        guideline: show(outcome.demand.guideline),
-        simulation: show(outcome.demand.simulation),
+        guideline: demand(outcome.demand.guideline),
+        simulation: demand(outcome.demand.simulation),
         capacity: show(outcome.capacity),
         working: working(outcome),
-        utilisation: percent(outcome.utilisation),
+        utilisation: match (outcome.utilisation, outcome.verdict) {
+            (None, CheckVerdict::Pass) => "as it should be".to_string(),
+            (used, _) if used_up(outcome.demand.largest()) => format!("≥ {}", percent(used)),
+            (used, _) => percent(used),
+        },
         verdict: outcome.verdict.word(),
         source: outcome.source,
     }
@@ -354,7 +383,45 @@ fn input_rows(run: &Run) -> Vec<InputRow> {
                 Origin::Set(source) => source,
             },
             meaning: entry.meaning,
+            remark: entry.remark.clone(),
         }
     };
     entries.order.iter().map(row).collect()
+}
+
+/// What follows from the inputs alone.
+fn derived_rows(run: &Run) -> Vec<Row> {
+    let design = &run.file.design;
+    let flow = &design.flow;
+    let row = |name: &str, value: String, remark: String| Row { name: name.into(), value, remark };
+    let solid = flow.volume() * flow.bulk_density / flow.solid_density;
+    let mut rows = vec![
+        row("Volume of the flow", with_unit(flow.volume(), "m³"), "mass over bulk density".into()),
+        row(
+            "Grain sizes D30, D50, D90",
+            [0.3, 0.5, 0.9].map(|share| with_unit(flow.sizes.quantile(share), "m")).join(", "),
+            "by mass, from the curve or the range of sizes".into(),
+        ),
+        row("Number of grains", format!("{:.0}", flow.sizes.count(solid)), "of the whole flow, about".into()),
+        row(
+            "Unit weight normal to the bed ρ g'",
+            format!("{} kN/m³", figures(run.guideline.input.unit_pressure() * 1e-3)),
+            "g' = g cos α".into(),
+        ),
+    ];
+    if let Arrival::DamBreak(block) = design.flow.arrival {
+        rows.push(row(
+            "Depth of the block",
+            with_unit(block.height, "m"),
+            "volume over its length and the width".into(),
+        ));
+    }
+    if let BarrierDesign::FlexibleNet(net) = &design.barrier {
+        let axial = |rope: &Rope| rope.modulus * std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
+        for (name, rope) in [("main", &net.main_ropes.rope), ("net", &net.net_rope), ("lateral", &net.lateral_rope)] {
+            let how = "modulus times the full circle of the diameter".to_string();
+            rows.push(row(&format!("EA of the {name} ropes"), with_unit(axial(rope), "N"), how));
+        }
+    }
+    rows
 }

@@ -158,6 +158,12 @@ pub fn margin(design: &Design) -> Margin {
     Margin { velocity: limit(VELOCITY), depth: limit(DEPTH) }
 }
 
+/// What the equations say with the smallest velocity a margin is sought for; nothing where no check is judged.
+pub fn least(design: &Design) -> Option<Point> {
+    let point = changed(design, VELOCITY, SMALLEST);
+    point.utilisation.is_some().then_some(point)
+}
+
 /// Factors between which a margin is sought.
 const SMALLEST: f64 = 0.05;
 const LARGEST: f64 = 10.0;

@@ -1,12 +1,18 @@
 //! The barrier seen along the channel, from upstream: ropes and net coloured by the share of their design resistance.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use crate::dem::Vec3;
 use crate::dem::recorders::snapshots::{Snapshot, Strand};
 use crate::dem::tables::barrier::SegmentKind;
 
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 8.0;
+/// Room that a number needs above its rope; without it the number stands below.
+const ROOM_ABOVE: f64 = 16.0;
+/// Room for the scale below the picture.
+const FOOT: f64 = 22.0;
 /// Upper ends of the classes, as shares of the design resistance.
 pub const CLASSES: [f64; 6] = [0.05, 0.25, 0.5, 0.75, 1.0, f64::INFINITY];
 
@@ -16,8 +22,8 @@ pub fn elevation(snapshot: &Snapshot, width: f64, resistance: impl Fn(SegmentKin
     let highest = points().map(|place| place.z).fold(0.0, f64::max);
     let lowest = points().map(|place| place.z).fold(0.0, f64::min);
     let scale = (WIDTH - 2.0 * MARGIN) / width;
-    let height = (highest - lowest) * scale + 2.0 * MARGIN;
-    let screen = |place: &crate::dem::Vec3| (MARGIN + place.y * scale, MARGIN + (highest - place.z) * scale);
+    let height = (highest - lowest) * scale + 2.0 * MARGIN + FOOT;
+    let screen = |place: &Vec3| (MARGIN + place.y * scale, MARGIN + (highest - place.z) * scale);
     let class = |strand: &Strand| {
         let used = strand.tension / resistance(strand.kind);
         CLASSES.iter().position(|limit| used <= *limit).unwrap_or(CLASSES.len() - 1)
@@ -35,7 +41,32 @@ pub fn elevation(snapshot: &Snapshot, width: f64, resistance: impl Fn(SegmentKin
         let _ =
             write!(svg, "<path class=\"u{class} thin\" d=\"{thin}\"/><path class=\"u{class} thick\" d=\"{thick}\"/>");
     }
-    svg + "</svg>"
+    for (rope, place) in rope_ends(snapshot) {
+        let (x, y) = screen(&place);
+        let _ = write!(
+            svg,
+            r#"<text class="on" x="{:.1}" y="{:.1}">{}</text>"#,
+            x + 3.0,
+            if y < ROOM_ABOVE { y + ROOM_ABOVE } else { y - 4.0 },
+            rope + 1
+        );
+    }
+    svg + &super::scale_bar(MARGIN, height - 8.0, scale, 0.2 * WIDTH) + "</svg>"
+}
+
+/// The first end of each main rope, where its number is written.
+fn rope_ends(snapshot: &Snapshot) -> BTreeMap<u16, Vec3> {
+    let mut ends: BTreeMap<u16, Vec3> = BTreeMap::new();
+    for strand in &snapshot.strands {
+        if let SegmentKind::Main(rope) = strand.kind {
+            let outer = strand.ends.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)).unwrap_or(strand.ends[0]);
+            let known = ends.entry(rope).or_insert(outer);
+            if outer.y < known.y {
+                *known = outer;
+            }
+        }
+    }
+    ends
 }
 
 /// Words for the classes, for the legend.

@@ -30,14 +30,17 @@ pub struct LineChart<'a> {
     pub band: Option<[Vec<f64>; 2]>,
 }
 
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 280.0;
-const LEFT: f64 = 64.0;
-const RIGHT: f64 = 150.0;
+/// So small that the text is read in half a page's width.
+const WIDTH: f64 = 500.0;
+const HEIGHT: f64 = 250.0;
+const LEFT: f64 = 56.0;
+const RIGHT: f64 = 140.0;
 const TOP: f64 = 16.0;
-const BOTTOM: f64 = 40.0;
+const BOTTOM: f64 = 42.0;
 /// Columns into which the time axis is cut; in each the least and the largest value are drawn.
 const COLUMNS: usize = 400;
+/// Length of the line that leads from a curve's end to its label.
+const LEADER: f64 = 14.0;
 /// Least distance between two labels at the right edge.
 const LABEL_STEP: f64 = 14.0;
 
@@ -205,10 +208,13 @@ fn draw_labels(mut labels: Vec<(f64, String, String)>, out: &mut String) {
     for (y, label, class) in labels {
         let place = y.max(lowest_free);
         lowest_free = place + LABEL_STEP;
+        // From the end of the curve to its label.
+        let (from, to) = (WIDTH - RIGHT, WIDTH - RIGHT + LEADER);
+        let _ = write!(out, r#"<polyline class="leader {class}" points="{from},{y:.1} {to},{place:.1}"/>"#);
         let _ = write!(
             out,
             r#"<text class="label {class}" x="{}" y="{:.1}">{}</text>"#,
-            WIDTH - RIGHT + 6.0,
+            WIDTH - RIGHT + LEADER + 3.0,
             place + 4.0,
             escape(&label)
         );

@@ -75,6 +75,10 @@ pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
         let [(x1, y1), (x2, y2)] = [screen(&strand.ends[0]), screen(&strand.ends[1])];
         let _ = write!(path, "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
     }
-    let _ = write!(svg, "<path class=\"net\" d=\"{path}\"/></svg>");
+    let _ = write!(
+        svg,
+        "<path class=\"net\" d=\"{path}\"/>{}</svg>",
+        super::scale_bar(10.0, HEIGHT - 12.0, scale, 0.25 * WIDTH)
+    );
     svg
 }

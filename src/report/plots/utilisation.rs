@@ -2,11 +2,15 @@
 
 use std::fmt::Write;
 
+use crate::report::numbers::percent;
+
 /// One bar.
 pub struct Bar {
     pub label: String,
     /// Share of the capacity that is used.
     pub used: f64,
+    /// The same by guideline and by simulation alone, where both are told against one capacity.
+    pub by: [Option<f64>; 2],
     /// Class of the style sheet: pass, warn or fail.
     pub class: &'static str,
 }
@@ -38,8 +42,15 @@ pub fn utilisation(bars: &[Bar]) -> String {
             y + 3.0,
             ROW - 6.0
         );
+        let up = y + 0.5 * ROW;
+        if let Some(used) = bar.by[0] {
+            let _ = write!(out, r#"<rect class="by" x="{:.1}" y="{}" width="6" height="6"/>"#, x(used) - 3.0, up - 3.0);
+        }
+        if let Some(used) = bar.by[1] {
+            let _ = write!(out, r#"<circle class="by" cx="{:.1}" cy="{up}" r="3.2"/>"#, x(used));
+        }
         let more = if bar.used > MOST { "› " } else { "" };
-        let used = if bar.used.is_finite() { format!("{:.0} %", 100.0 * bar.used) } else { "not a number".into() };
+        let used = if bar.used.is_finite() { percent(Some(bar.used)) } else { "not a number".into() };
         let _ = write!(out, r#"<text class="label" x="{:.1}" y="{middle}">{more}{used}</text>"#, end + 6.0);
     }
     let limit = x(1.0);
@@ -54,7 +65,7 @@ mod tests {
 
     #[test]
     fn bars_end_where_they_should_and_long_ones_are_cut() {
-        let bar = |used| Bar { label: "a<b".into(), used, class: "pass" };
+        let bar = |used| Bar { label: "a<b".into(), used, by: [Some(0.3), None], class: "pass" };
         let svg = utilisation(&[bar(0.5), bar(7.0), bar(f64::NAN)]);
         let full = WIDTH - LABEL - RIGHT;
         assert!(
