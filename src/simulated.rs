@@ -197,12 +197,14 @@ pub fn simulate(
     })
 }
 
-fn numerics(event: &Event) -> Numerics {
+/// What a finished run shows of its own numerics.
+pub fn numerics(event: &Event) -> Numerics {
     Numerics {
         energy_error: event.energy_error,
         overlap: event.simulation.extremes.overlap_ratio,
         step_ratio: event.simulation.extremes.step_ratio.value,
         crossings: event.simulation.extremes.crossings,
+        strays: event.strays,
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
             _ => None,

@@ -18,6 +18,8 @@ pub struct Numerics {
     pub step_ratio: f64,
     /// Grains whose centre has gone through a rope.
     pub crossings: u32,
+    /// Grains that have left the channel through or over its bed or side walls.
+    pub strays: u32,
     /// Why the run ended early, if it did.
     pub broke_down: Option<String>,
     /// Whether no grain ever touched the barrier.
@@ -35,6 +37,7 @@ impl Numerics {
             overlap: larger(self.overlap, other.overlap),
             step_ratio: larger(self.step_ratio, other.step_ratio),
             crossings: self.crossings + other.crossings,
+            strays: self.strays + other.strays,
             broke_down: self.broke_down.clone().or_else(|| other.broke_down.clone()),
             missed: self.missed || other.missed,
             unfinished: self.unfinished || other.unfinished,
@@ -61,6 +64,12 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     if numerics.crossings > 0 {
         let count = numerics.crossings;
         doubts.push(format!("{count} times a grain has slipped through a rope; {stiffer}"));
+    }
+    if numerics.strays > 0 {
+        let count = numerics.strays;
+        doubts.push(format!(
+            "{count} grains have left the channel through its bed or beside its walls; raise channel.wall_height, or {finer}"
+        ));
     }
     if numerics.missed {
         doubts.push("the flow came to rest without ever touching the barrier".to_string());
@@ -94,6 +103,7 @@ mod tests {
             Numerics { overlap: 0.21, ..Numerics::default() },
             Numerics { step_ratio: 2.0, ..Numerics::default() },
             Numerics { crossings: 1, ..Numerics::default() },
+            Numerics { strays: 1, ..Numerics::default() },
             Numerics { missed: true, ..Numerics::default() },
             Numerics { unfinished: true, ..Numerics::default() },
             Numerics { broke_down: Some("x".into()), ..Numerics::default() },

@@ -2,6 +2,7 @@
 //! silent: that was already reported.
 
 use crate::design::entries::Entries;
+use crate::design::schema::SCHEMA_VERSION;
 use crate::design::sizes::SizeCurve;
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -10,6 +11,7 @@ type Rule = fn(&Entries) -> Option<Problem>;
 
 /// All rules, in the order of the file.
 pub const RULES: &[Rule] = &[
+    schema_version_is_known,
     mass_or_volume,
     solid_is_denser_than_bulk,
     packing_is_possible,
@@ -49,6 +51,15 @@ pub const RULES: &[Rule] = &[
 ];
 
 const NET: &str = "barrier.flexible_net";
+
+fn schema_version_is_known(e: &Entries) -> Option<Problem> {
+    let version = e.number("schema_version")?;
+    (version != SCHEMA_VERSION).then(|| {
+        let hint =
+            if version > SCHEMA_VERSION { "a newer barrier-check is needed" } else { "there never was such a version" };
+        Problem::new("schema_version", format!("version {version}"), format!("version {SCHEMA_VERSION}")).hint(hint)
+    })
+}
 
 fn at(name: &str) -> String {
     format!("{NET}.{name}")

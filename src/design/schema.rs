@@ -4,6 +4,9 @@ use crate::design::factor_sets;
 use crate::design::key::{Key, Kind, quantity};
 use crate::units::Dimension as D;
 
+/// Version of the table below; raised when a file that was good is read differently, or no more.
+pub const SCHEMA_VERSION: f64 = 1.0;
+
 /// Steepest angle of a slope or of friction (rad): 80 degrees.
 const STEEPEST: f64 = 80.0 * std::f64::consts::PI / 180.0;
 const FRICTION: Kind = quantity(D::Angle, 0.0, STEEPEST);
@@ -12,6 +15,12 @@ const NOTE: Kind = Kind::Text;
 
 /// The whole file.
 pub const DESIGN: &[Key] = &[
+    Key::default(
+        "schema_version",
+        Kind::Count { low: 0, high: 1_000_000 },
+        "1",
+        "version of this table of keys that the file was written for",
+    ),
     Key::required("project", Kind::Section(PROJECT), "what the report is about"),
     Key::required("channel", Kind::Section(CHANNEL), "a straight channel of rectangular section"),
     Key::required("flow", Kind::Section(FLOW), "the design flow"),

@@ -206,6 +206,11 @@ pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
                 parts => format!("none is allowed; the barrier takes {parts} steps in one of the grains'"),
             },
         ),
+        row(
+            "Grains outside the channel",
+            numerics.strays.to_string(),
+            "below the bed or beyond a side wall; none is allowed",
+        ),
         row("Simulated time", with_unit(facts.simulated, "s"), ending),
         row(
             "Model",

@@ -171,6 +171,7 @@ pub struct NumericsPart {
     pub barrier_steps_per_step: u32,
     /// How often a grain has slipped through a rope; any makes the run undecided.
     pub rope_crossings: u32,
+    pub grains_outside: u32,
     pub energy_error_relative: f64,
     pub overlap_max_relative: f64,
     pub neighbour_rebuilds: u64,
@@ -306,6 +307,7 @@ fn numerics_part(run: &Simulated) -> NumericsPart {
         time_step_cuts: facts.step_cuts,
         barrier_steps_per_step: facts.barrier_parts,
         rope_crossings: run.numerics.crossings,
+        grains_outside: run.numerics.strays,
         energy_error_relative: run.numerics.energy_error,
         overlap_max_relative: run.numerics.overlap,
         neighbour_rebuilds: facts.renewals,

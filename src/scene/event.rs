@@ -65,6 +65,8 @@ pub struct Event {
     pub simulation: Simulation,
     /// Largest energy imbalance met, over the energy put in.
     pub energy_error: f64,
+    /// Grains that have left the channel through its bed or beside its walls.
+    pub strays: u32,
 }
 
 impl Ongoing {
@@ -112,7 +114,8 @@ impl Ongoing {
         };
         self.recorder.finish(&self.simulation);
         let Self { simulation, recorder, energy_error, .. } = self;
-        Event { histories: recorder.histories, ending, simulation, energy_error }
+        let strays = recorder.strays.len() as u32;
+        Event { histories: recorder.histories, ending, simulation, energy_error, strays }
     }
 }
 

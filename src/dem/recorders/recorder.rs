@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dem::Vec3;
 use crate::dem::net::NetForces;
@@ -69,6 +69,8 @@ pub struct Recorder {
     lost: [f64; WAYS],
     impact: bool,
     next_passage: f64,
+    /// Grains that have left the channel through its bed or beside its walls.
+    pub strays: BTreeSet<u32>,
     /// Largest force of which a snapshot was taken (N).
     pictured_force: f64,
 }
@@ -103,6 +105,7 @@ impl Recorder {
             lost: [0.0; WAYS],
             impact: false,
             next_passage: 0.0,
+            strays: BTreeSet::new(),
             pictured_force: 0.0,
         }
     }
@@ -174,6 +177,7 @@ impl Recorder {
             self.look_for_passed(simulation, &grains);
             self.next_passage = simulation.time + self.setup.passage_interval;
         }
+        self.look_for_strays(&grains);
         self.sample_grains(&grains);
         let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
         let dead: Vec<bool> =
@@ -252,6 +256,18 @@ impl Recorder {
                 let way = if self.setup.wall.is_some() && way == Way::Through { Way::Over } else { way };
                 self.passed.insert(grain.id, way);
                 self.lost[way as usize] += grain.body.mass / self.setup.mass;
+            }
+        }
+    }
+
+    /// Notes grains that are where none can get: wholly below the bed, or wholly beyond a side wall.
+    fn look_for_strays(&mut self, grains: &[Grain]) {
+        let width = self.setup.incoming.width;
+        for grain in grains {
+            let reach = grain.body.radius + grain.body.offset;
+            let (y, z) = (grain.position.y, grain.position.z);
+            if z < -reach || y < -reach || y > width + reach {
+                self.strays.insert(grain.id);
             }
         }
     }
