@@ -5,9 +5,9 @@ use std::process::Command;
 /// Whether a licence expression is satisfied by `allowed`: one alternative of each part that is joined by AND.
 fn allowed(expression: &str, licences: &[String]) -> bool {
     let plain = expression.replace(['(', ')'], "").replace('/', " OR ");
-    plain.split(" AND ").all(|part| {
-        part.split(" OR ").any(|licence| licences.iter().any(|allowed| allowed == licence.trim()))
-    })
+    plain
+        .split(" AND ")
+        .all(|part| part.split(" OR ").any(|licence| licences.iter().any(|allowed| allowed == licence.trim())))
 }
 
 fn allowed_licences() -> Vec<String> {

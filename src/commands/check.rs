@@ -101,7 +101,7 @@ fn run_kept(file: DesignFile, folder: &Path, wishes: Wishes, vault: &Vault) -> E
     match simulate(file, wishes, Some(vault)).and_then(|run| Ok((write_report(&run, folder, wishes.vtk)?, run))) {
         Ok((view, run)) => {
             vault.clear();
-            summarise(&view, folder);
+            summarise(&view, folder, wishes.vtk);
             exit_code(run.verdict)
         }
         Err(error) => {

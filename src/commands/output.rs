@@ -22,7 +22,7 @@ pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
             ExitCode::Undecided
         }
         Ok(view) => {
-            summarise(&view, folder);
+            summarise(&view, folder, with_vtk);
             exit_code(run.verdict)
         }
     }
@@ -71,7 +71,7 @@ fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
 }
 
 /// Verdict and checks for the terminal.
-pub fn summarise(view: &View, folder: &Path) {
+pub fn summarise(view: &View, folder: &Path, with_vtk: bool) {
     let mut out = std::io::stdout().lock();
     let mut say = |line: String| {
         let _ = writeln!(out, "{line}");
@@ -87,6 +87,9 @@ pub fn summarise(view: &View, folder: &Path) {
     }
     for doubt in &view.doubts {
         say(format!("  {doubt}"));
+    }
+    if with_vtk {
+        say(format!("paraview: {}", folder.join(vtk::FOLDER).display()));
     }
     say(format!("report: {}", folder.join("report.html").display()));
 }
