@@ -140,8 +140,11 @@ struct ValidateArguments {
     /// Suites (contact, bulk, wall, rope, dissipator, net, full-scale) or cases (A1, C5, ...) [default: all]
     names: Vec<String>,
     /// Only the cases that take seconds
-    #[arg(long)]
+    #[arg(long, conflicts_with = "full")]
     quick: bool,
+    /// All cases, long ones too [the default]
+    #[arg(long)]
+    full: bool,
     /// Folder for the report
     #[arg(long, value_name = "DIR", default_value = "out/validation")]
     out: PathBuf,
@@ -171,7 +174,7 @@ fn main() {
             resume(&folder, threads.map(usize::from), keep.every()) as i32
         }
         Some(Command::Study { file, out }) => study(&file, out.as_deref()) as i32,
-        Some(Command::Validate(ValidateArguments { names, quick, out })) => {
+        Some(Command::Validate(ValidateArguments { names, quick, full: _, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {

@@ -34,6 +34,8 @@ pub struct FindingRow {
     pub wanted: String,
     /// `ok`, `FAIL` or `told`.
     pub verdict: &'static str,
+    /// The measured value over what is wanted, as a picture; empty where nothing is.
+    pub overlay: String,
 }
 
 impl Row {
@@ -66,8 +68,33 @@ impl FindingRow {
             (_, true) => "ok",
             (_, false) => "FAIL",
         };
-        Self { what: finding.what.clone(), measured: number(finding.measured), wanted, verdict }
+        let overlay = match finding.wanted {
+            Wanted::Near { value, tolerance } => overlay((finding.measured - value) / tolerance, true),
+            Wanted::Between { low, high } => overlay((2.0 * finding.measured - low - high) / (high - low), false),
+            Wanted::Nothing => String::new(),
+        };
+        Self { what: finding.what.clone(), measured: number(finding.measured), wanted, verdict, overlay }
     }
+}
+
+/// A strip with what is wanted as a band from −1 to 1, the expected value as a line where there is one, and ours as a dot; what
+/// is further off than the strip is long sits at its end.
+fn overlay(place: f64, expected: bool) -> String {
+    const END: f64 = 2.0;
+    const WIDTH: f64 = 120.0;
+    let x = |place: f64| 0.5 * WIDTH * (1.0 + place.clamp(-END, END) / (END + 0.2));
+    let line = if expected {
+        format!(r#"<line class="expected" x1="{0:.1}" x2="{0:.1}" y1="1" y2="13"/>"#, x(0.0))
+    } else {
+        String::new()
+    };
+    let class = if (-1.0..=1.0).contains(&place) { "ok" } else { "FAIL" };
+    format!(
+        r#"<svg class="overlay" viewBox="0 0 {WIDTH} 14" role="img" aria-label="{place:.2} of the tolerance off"><rect class="band" x="{:.1}" y="2" width="{:.1}" height="10"/>{line}<circle class="{class}" cx="{:.1}" cy="7" r="3.4"/></svg>"#,
+        x(-1.0),
+        x(1.0) - x(-1.0),
+        x(if place.is_nan() { END } else { place }),
+    )
 }
 
 /// Four significant digits.
