@@ -9,6 +9,8 @@
 //! threads work together depends on how far apart their cores are, and a virtual machine's cores may be moved at any time; so each
 //! such row tells how long a message from one thread to the other took just then.
 
+#![allow(unsafe_code)] // it counts what is allocated
+
 mod cells;
 mod states;
 

@@ -5,6 +5,8 @@
 //! until none is left. Which thread takes which part does not matter for the result. Outside [`gather`] every stretch is
 //! worked off by the calling thread alone.
 
+#![allow(unsafe_code)]
+
 use std::cell::{Cell, UnsafeCell};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};

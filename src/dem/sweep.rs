@@ -3,6 +3,8 @@
 //! The first block of a pair owns it. So once a block and all before it are loaded, nobody asks any more where its grains
 //! were, all their loads are there, and they may be moved; later blocks are loaded at the same time.
 
+#![allow(unsafe_code)]
+
 use std::sync::{PoisonError, RwLock};
 
 use crate::dem::contact::grain_pairs::{PairConstants, PairContext, load_border, load_inner};

@@ -1,5 +1,7 @@
 //! Runs a piece of work with the widest vectors this processor has.
 
+#![allow(unsafe_code)]
+
 use crate::dem::simd::eight::Eight;
 use crate::dem::simd::plain::Plain;
 #[cfg(target_arch = "x86_64")]

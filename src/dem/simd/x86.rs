@@ -3,6 +3,8 @@
 //! The types here may be used only on a processor that has their instructions; `widest` alone makes use of them, after it
 //! has asked the processor. That is what every SAFETY note below refers to.
 
+#![allow(unsafe_code)]
+
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

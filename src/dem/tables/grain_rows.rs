@@ -1,5 +1,7 @@
 //! Sight of the grain table, also while some of its rows are being moved.
 
+#![allow(unsafe_code)]
+
 use std::marker::PhantomData;
 use std::ops::Range;
 

@@ -1,5 +1,7 @@
 //! Tells the processor what will be wanted soon.
 
+#![allow(unsafe_code)]
+
 /// Asks for the line at `place` to be brought near, into the second-level cache. Nothing is read, so the address may be any
 /// and it does not matter who else writes there. Does nothing where the processor has no such instruction.
 #[inline(always)]
