@@ -274,3 +274,24 @@ fn a_full_disk_spoils_nothing() {
     assert_eq!(output.status.code(), Some(2));
     assert!(error(&output).contains("could not be written"), "{}", error(&output));
 }
+
+/// A link in the place of a folder or a file of ours is not followed out of the folder of the report.
+#[test]
+fn links_do_not_lead_out_of_the_folder() {
+    let (out, elsewhere) = (folder("linked"), folder("elsewhere"));
+    std::fs::create_dir_all(&out).expect("a folder");
+    std::fs::create_dir_all(&elsewhere).expect("a folder");
+    std::fs::write(elsewhere.join("precious"), "as it was").expect("a file");
+    std::os::unix::fs::symlink(&elsewhere, out.join("checkpoint")).expect("a link");
+    std::os::unix::fs::symlink(elsewhere.join("precious"), out.join("report.html")).expect("a link");
+    let path = out.display().to_string();
+    let output = run(&[DESIGN, "--out", &path, "--keep-every", "0"]);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", error(&output));
+    assert!(error(&output).contains("it is a link; a folder is wanted"), "{}", error(&output));
+    assert_eq!(std::fs::read_to_string(elsewhere.join("precious")).expect("a file"), "as it was");
+    assert_eq!(std::fs::read_dir(&elsewhere).expect("a folder").count(), 1);
+    std::os::unix::fs::symlink(&elsewhere, out.join("vtk")).expect("a link");
+    let output = run(&["report", &path, "--vtk"]);
+    assert_eq!(output.status.code(), Some(2), "{}", error(&output));
+    assert_eq!(std::fs::read_dir(&elsewhere).expect("a folder").count(), 1);
+}

@@ -61,9 +61,13 @@ pub fn write<T: Serialize>(path: &Path, kind: Kind, design: Option<[u8; 32]>, co
     let label = Label { kind, program: PROGRAM.to_string(), design };
     let body = postcard::to_stdvec(&(label, content)).map_err(io::Error::other)?;
     let folder = path.parent().unwrap_or(Path::new("."));
+    if fs::symlink_metadata(folder).is_ok_and(|found| found.is_symlink()) {
+        return Err(io::Error::other("it is a link; a folder is wanted"));
+    }
     fs::create_dir_all(folder)?;
     let temporary = path.with_extension("tmp");
-    let mut file = File::create(&temporary)?;
+    let _ = fs::remove_file(&temporary);
+    let mut file = File::create_new(&temporary)?;
     let written = file.write_all(&seal(NAME, FORMAT, &body)).and_then(|()| file.sync_all());
     drop(file);
     let renamed = written.and_then(|()| {

@@ -49,6 +49,8 @@ pub struct Vault {
     every: Duration,
     /// Whether simulations that are done are kept too, because others follow.
     several: bool,
+    /// Whether the order is there; starts that run side by side write it once.
+    ordered: Mutex<bool>,
     /// Whether anything has been kept, and whether it was told that nothing can be.
     kept: AtomicBool,
     warned: AtomicBool,
@@ -57,7 +59,8 @@ pub struct Vault {
 impl Vault {
     /// A vault in `folder`, which is made when first something is kept; `every` is the time between two times that a simulation is.
     pub fn new(folder: PathBuf, order: Order, every: Duration, several: bool) -> Self {
-        Self { folder, order, every, several, kept: AtomicBool::new(false), warned: AtomicBool::new(false) }
+        let no = || AtomicBool::new(false);
+        Self { folder, order, every, several, ordered: Mutex::new(false), kept: no(), warned: no() }
     }
 
     /// The order of the vault in `folder`.
@@ -86,10 +89,18 @@ impl Vault {
         Shelf { vault: self, name: format!("{name}.bin"), last: Mutex::new(Instant::now()) }
     }
 
+    fn put_order(&self) -> std::io::Result<()> {
+        let mut ordered = self.ordered.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if !*ordered {
+            write(&self.folder.join(ORDER), Kind::Order, None, &self.order)?;
+            *ordered = true;
+        }
+        Ok(())
+    }
+
     fn put<T: Serialize>(&self, name: &str, kind: Kind, content: &T) {
         let print = self.order.print();
-        let result = write(&self.folder.join(ORDER), Kind::Order, None, &self.order)
-            .and_then(|()| write(&self.folder.join(name), kind, Some(print), content));
+        let result = self.put_order().and_then(|()| write(&self.folder.join(name), kind, Some(print), content));
         match result {
             Ok(()) => self.kept.store(true, Ordering::Relaxed),
             Err(error) => {

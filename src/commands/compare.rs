@@ -9,7 +9,7 @@ use crate::commands::output::{exit_code, write_report};
 use crate::commands::report::read_recording;
 use crate::pipeline::Run;
 use crate::report::compare::{Variant, files};
-use crate::report::write::write_all;
+use crate::report::write::{inner, write_all};
 
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report and the page
 /// that holds them side by side below `out`. Ends by the worst verdict.
@@ -74,7 +74,7 @@ impl Source {
 
 fn write(variants: &[Variant], out: &Path, with_vtk: bool) -> Result<(), Failure> {
     for variant in variants {
-        write_report(&variant.run, &out.join(&variant.folder), with_vtk)?;
+        write_report(&variant.run, &inner(out, &variant.folder)?, with_vtk)?;
     }
     let page = files(variants).map_err(|error| error.to_string())?;
     Ok(write_all(out, &page)?)

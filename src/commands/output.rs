@@ -12,7 +12,7 @@ use crate::report::render::render;
 use crate::report::series;
 use crate::report::view::View;
 use crate::report::vtk;
-use crate::report::write::{ReportFile, write_all};
+use crate::report::write::{ReportFile, inner, write_all};
 
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
@@ -39,7 +39,7 @@ fn write_all_of(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failur
     let view = View::of(run);
     let files = files(run, &view)?;
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
-        write_all(&folder.join(vtk::FOLDER), &vtk::files(&seen.histories.film))?;
+        write_all(&inner(folder, vtk::FOLDER)?, &vtk::files(&seen.histories.film))?;
     }
     // The report last: who finds it finds all.
     write_all(folder, &files)?;

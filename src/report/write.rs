@@ -1,7 +1,7 @@
 //! Writes all files of a report, whole or not at all.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// A file of the report by its name.
@@ -21,7 +21,12 @@ impl ReportFile {
 pub fn write_all(folder: &Path, files: &[ReportFile]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let temporary = |name: &str| -> PathBuf { folder.join(format!(".{name}.{}.tmp", std::process::id())) };
-    let written = files.iter().try_for_each(|file| fs::write(temporary(&file.name), &file.bytes));
+    let written = files.iter().try_for_each(|file| {
+        // Never through a link that somebody has put there.
+        let place = temporary(&file.name);
+        let _ = fs::remove_file(&place);
+        fs::File::create_new(&place)?.write_all(&file.bytes)
+    });
     let renamed = written
         .and_then(|()| files.iter().try_for_each(|file| fs::rename(temporary(&file.name), folder.join(&file.name))));
     if renamed.is_err() {
@@ -30,4 +35,15 @@ pub fn write_all(folder: &Path, files: &[ReportFile]) -> io::Result<()> {
         }
     }
     renamed
+}
+
+/// The folder `name` within `folder`; refused where it is a link that leads elsewhere.
+pub fn inner(folder: &Path, name: &str) -> io::Result<PathBuf> {
+    let inner = folder.join(name);
+    match fs::symlink_metadata(&inner) {
+        Ok(found) if found.is_symlink() => {
+            Err(io::Error::other(format!("{} is a link; a folder is wanted", inner.display())))
+        }
+        _ => Ok(inner),
+    }
 }
