@@ -1,10 +1,11 @@
 //! What a reviewer should know before the numbers, each with what to do about it. One function for each warning.
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::dem::recorders::histories::{peak, smoothed};
 use crate::design::{BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::{RUNGS, Rung};
 use crate::pipeline::Run;
-use crate::report::numbers::{figures, with_unit};
+use crate::report::numbers::with_unit;
 use crate::report::validation::Kept;
 use crate::simulated::Simulated;
 
@@ -16,6 +17,7 @@ const WARNINGS: &[Warning] = &[
     force_beyond_the_guideline,
     faster_flow_than_the_guideline_was_given,
     dissipators_used_up,
+    ropes_broken,
     sag_beyond_the_equations,
     bolts_not_judged,
     loads_without_factor,
@@ -73,12 +75,15 @@ const WORTH_A_WORD: f64 = 1.1;
 
 fn force_beyond_the_guideline(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref()?;
-    let (simulated, guideline) = (seen.spread(|seen| seen.force_peak).mean, run.guideline.largest_force);
+    // The guideline speaks of the force along the channel: the share of it that the first start shows.
+    let along: Vec<f64> = seen.histories.force.iter().map(|force| force.x).collect();
+    let (_, along) = peak(&smoothed(&along, crate::scene::build::SAMPLES_PER_WINDOW as usize));
+    let share = along / seen.first().force_peak;
+    let (simulated, guideline) = (share * seen.spread(|seen| seen.force_peak).mean, run.guideline.largest_force);
     let ratio = simulated / guideline;
     (ratio > WORTH_A_WORD).then(|| {
         format!(
-            "The simulated flow pushes with {:.2} times the guideline's largest force ({} against {}, without partial factors): K or λ of the design are low for it. Checks take the larger of both; compare K and λ with what the simulation shows before they are used elsewhere.",
-            ratio,
+            "The simulated flow pushes along the channel with {ratio:.2} times the guideline's largest force ({} against {}, without partial factors): the guideline's loads are low for it. Checks take the larger of both; compare K and λ with what the simulation shows before they are used elsewhere.",
             with_unit(simulated, "N"),
             with_unit(guideline, "N")
         )
@@ -121,24 +126,32 @@ fn dissipators_used_up(run: &Run) -> Option<String> {
     ))
 }
 
-/// Strain and share of the span from which a rope's state by the equations is no number to rely on.
-const LARGE_SAG: f64 = 0.3;
+/// Strain from which a rope's state by the equations is no number to rely on.
 const LARGE_STRAIN: f64 = 0.1;
 
 fn sag_beyond_the_equations(run: &Run) -> Option<String> {
     let rope = &net(run)?.main_ropes.rope;
     let axial = rope.modulus * std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
     let width = run.file.design.channel.width;
-    let worst = run.guideline.ropes.iter().enumerate().max_by(|a, b| a.1.state.sag.total_cmp(&b.1.state.sag))?;
+    let worst =
+        run.guideline.ropes.iter().enumerate().max_by(|a, b| a.1.state.tension.total_cmp(&b.1.state.tension))?;
     let (number, state) = (worst.0 + 1, &worst.1.state);
     let (sag, strain) = (state.sag / width, state.tension / axial);
-    (sag > LARGE_SAG || strain > LARGE_STRAIN).then(|| {
+    (strain > LARGE_STRAIN).then(|| {
         format!(
-            "By the equations main rope {number} sags {:.0} % of its span and stretches by {:.0} %: beyond what they hold for. Read its utilisation by the guideline as \"fails by far\", not as a number.",
-            100.0 * sag,
-            100.0 * strain
+            "By the equations main rope {number} stretches by {:.0} % and sags {:.0} % of its span: more than a wire rope can and small strains allow. What they say of its tension and anchors is an order of size, not a number.",
+            100.0 * strain,
+            100.0 * sag
         )
     })
+}
+
+/// From when on ropes have broken in the first start.
+fn ropes_broken(run: &Run) -> Option<String> {
+    let first = run.simulated.as_ref()?.first().first_break?;
+    Some(format!(
+        "From {first:.2} s on ropes have broken: what the simulation shows later is no load of the barrier as it was designed. Strengthen what broke first and run again."
+    ))
 }
 
 fn bolts_not_judged(run: &Run) -> Option<String> {
@@ -187,28 +200,38 @@ fn validation_case_like_this(run: &Run) -> Option<String> {
     ))
 }
 
-/// What is left in the check that uses most by the simulation.
+/// What is left in the check that uses most by the simulation; nothing where it fails one. What a dissipator caps does not
+/// grow, and is left out: its stroke tells.
 pub fn left_by_simulation(run: &Run) -> Option<String> {
     run.simulated.as_ref()?;
-    let used = |outcome: &&Outcome| {
-        let (simulation, capacity) = (outcome.demand.simulation?, outcome.capacity?);
-        (outcome.resistance.is_some() && outcome.utilisation.is_some() && capacity > 0.0)
-            .then_some(simulation / capacity)
+    let judged = run.outcomes.iter().filter(|outcome| !matches!(outcome.verdict, CheckVerdict::Info));
+    let used: Vec<(&Outcome, f64)> =
+        judged.filter_map(|outcome| Some((outcome, used_by_simulation(outcome)?))).collect();
+    if used.iter().any(|(_, used)| *used > 1.0) {
+        return None;
+    }
+    let (most, share) = used.into_iter().filter(|(_, used)| *used > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let grow = match most.unit {
+        "N" | "N/m" | "N m/m" => format!(
+            ": it may grow by {:.0} % until it fails, and if it grows with the square of the velocity, the velocity by {:.0} %",
+            100.0 * (1.0 / share - 1.0),
+            100.0 * ((1.0 / share).sqrt() - 1.0)
+        ),
+        _ => String::new(),
     };
-    let judged = run.outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info);
-    let most = judged
-        .filter(|outcome| used(outcome).is_some())
-        .max_by(|a, b| used(a).unwrap_or(0.0).total_cmp(&used(b).unwrap_or(0.0)))?;
-    let share = used(&most)?;
-    (share <= 1.0 && share > 0.0).then(|| {
-        format!(
-            "By the simulation {} uses most, {} %: it may grow by {} % until it fails; a load that grows with the square of the velocity leaves {} % in the velocity.",
-            lower_first(&most.title),
-            figures(100.0 * share),
-            figures(100.0 * (1.0 / share - 1.0)),
-            figures(100.0 * ((1.0 / share).sqrt() - 1.0))
-        )
-    })
+    Some(format!("By the simulation {} uses most, {:.0} %{grow}.", lower_first(&most.title), 100.0 * share))
+}
+
+/// Demand of the simulation over capacity; of a least share, what is missing over what may be missing.
+fn used_by_simulation(outcome: &Outcome) -> Option<f64> {
+    let (simulation, capacity) = (outcome.demand.simulation?, outcome.capacity?);
+    if outcome.utilisation.is_none() || outcome.demand.cap.is_some_and(|cap| simulation >= 0.99 * cap) {
+        return None;
+    }
+    match outcome.resistance {
+        Some(_) => Some(simulation / capacity),
+        None => Some((1.0 - simulation) / (1.0 - capacity).max(1e-9)),
+    }
 }
 
 /// Why a run as fine as this is enough, or what a finer one could change, where the design pins the fineness.

@@ -84,6 +84,10 @@ impl Ongoing {
                 Err(unstable) => break Ending::BrokeDown(unstable),
                 Ok(sampled) => sampled,
             };
+            // Before the run is kept, or what this sample says would be lost with it.
+            if let Some(ending) = sampled.then(|| self.judge(longest, watch)).flatten() {
+                break ending;
+            }
             if self.simulation.at_stop() {
                 let asked = watch.stop.load(Ordering::Relaxed);
                 keep(&self, asked);
@@ -91,31 +95,32 @@ impl Ongoing {
                     break Ending::Interrupted;
                 }
             }
-            if !sampled {
-                continue;
-            }
-            let histories = &self.recorder.histories;
-            let error = self.simulation.ledger.relative_error(&histories.ledger[0]);
-            if error.abs() > self.energy_error.abs() || error.is_nan() {
-                self.energy_error = error;
-            }
-            let force = histories.force.last().map_or(0.0, |force| force.norm());
-            let time = self.simulation.time;
-            (watch.progress)(ProgressReport { time, share: (time / self.expected_time).min(0.99), force });
-            if watch.vault.is_none() && watch.stop.load(Ordering::Relaxed) {
-                break Ending::Interrupted;
-            }
-            if steady(histories, self.stretch) {
-                break Ending::Steady;
-            }
-            if time >= longest {
-                break Ending::OutOfTime;
-            }
         };
         self.recorder.finish(&self.simulation);
         let Self { simulation, recorder, energy_error, .. } = self;
         let strays = recorder.strays.len() as u32;
         Event { histories: recorder.histories, ending, simulation, energy_error, strays }
+    }
+}
+
+impl Ongoing {
+    /// Takes in the sample just made; tells whether the run ends with it.
+    fn judge(&mut self, longest: f64, watch: &Watch) -> Option<Ending> {
+        let histories = &self.recorder.histories;
+        let error = self.simulation.ledger.relative_error(&histories.ledger[0]);
+        if error.abs() > self.energy_error.abs() || error.is_nan() {
+            self.energy_error = error;
+        }
+        let force = histories.force.last().map_or(0.0, |force| force.norm());
+        let time = self.simulation.time;
+        (watch.progress)(ProgressReport { time, share: (time / self.expected_time).min(0.99), force });
+        if watch.vault.is_none() && watch.stop.load(Ordering::Relaxed) {
+            return Some(Ending::Interrupted);
+        }
+        if steady(histories, self.stretch) {
+            return Some(Ending::Steady);
+        }
+        (time >= longest).then_some(Ending::OutOfTime)
     }
 }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::checks::credibility::{ENERGY_LIMIT, Numerics, doubts};
 use crate::dem::Vec3;
+use crate::dem::contact::law::contact_stiffness;
 use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::elements::dissipator::Dissipator;
 use crate::dem::elements::strength::Strength;
@@ -45,8 +46,9 @@ impl Fate {
 pub struct Trial {
     pub share: f64,
     pub fate: Fate,
-    /// Energy unaccounted for over the energy there was.
+    /// Energy unaccounted for over the energy there was: the largest, and the largest that was made from nothing.
     pub imbalance: f64,
+    pub made: f64,
     /// What the program's own guards say; empty if they see nothing.
     pub noticed: Vec<String>,
 }
@@ -55,7 +57,7 @@ impl Trial {
     /// Whether there was clearly more energy than there could be: the step is above the true limit.
     fn makes_energy(&self) -> bool {
         // Asked so that a NaN counts.
-        let within = self.imbalance <= MADE;
+        let within = self.made <= MADE;
         self.fate == Fate::Unstable || !within
     }
 }
@@ -173,13 +175,13 @@ pub const SCENES: [Scene; 16] = [
     Scene {
         name: "slack to taut",
         what: "a knot on a slack rope that snaps taut at 10 m/s, again and again",
-        linear: true,
+        linear: false,
         build: snap,
     },
     Scene {
         name: "rope that breaks",
         what: "a taut rope of 70 mm segments, one of which breaks",
-        linear: true,
+        linear: false,
         build: breaking,
     },
     Scene {
@@ -253,7 +255,7 @@ fn trial(scene: &Scene, share: f64, estimated: f64, steps: usize) -> Trial {
     let mut simulation = Simulation::new((scene.build)(), share * estimated, 0.01, 1e6);
     simulation.audited = false;
     let mut numerics = Numerics { step_ratio: share, ..Numerics::default() };
-    let mut imbalance: f64 = 0.0;
+    let (mut imbalance, mut made): (f64, f64) = (0.0, 0.0);
     let mut start = None;
     for step in 0..steps {
         let look = step % STEPS_PER_LOOK == 0;
@@ -270,6 +272,7 @@ fn trial(scene: &Scene, share: f64, estimated: f64, steps: usize) -> Trial {
             });
             let now = (ledger.total() - first) / scale;
             imbalance = if now.abs() > imbalance.abs() || now.is_nan() { now } else { imbalance };
+            made = if now > made || now.is_nan() { now } else { made };
             if imbalance.is_nan() || imbalance.abs() > 1e6 {
                 break;
             }
@@ -291,7 +294,7 @@ fn trial(scene: &Scene, share: f64, estimated: f64, steps: usize) -> Trial {
     if share > 1.0 {
         noticed.push("the audit would have cut the step".into());
     }
-    Trial { share, fate, imbalance, noticed }
+    Trial { share, fate, imbalance, made, noticed }
 }
 
 /// Overlap over radius with which things are pressed together.
@@ -455,13 +458,13 @@ fn grain_on_rope(speed: f64) -> Model {
     model
 }
 
-/// A taut rope, and a knot beside its middle on a rope of its own that is slack.
+/// A taut rope, and a light knot beside its middle on a rope of its own that is slack: once taut, that is the stiffest there is.
 fn snap() -> Model {
     let mut barrier = taut(0.07, 1.0, 1, 0.016);
     let middle = barrier.nodes.len() / 2;
     let like = barrier.segments[0].clone();
     let beside = barrier.nodes[middle].position + Vec3::x() * 0.06;
-    let mut knot = node(beside, barrier.nodes[middle].mass, false, 0);
+    let mut knot = node(beside, 0.2 * barrier.nodes[middle].mass, false, 0);
     knot.velocity = Vec3::x() * 10.0;
     barrier.nodes.push(knot);
     barrier.segments.push(Segment { nodes: [middle as u32, barrier.nodes.len() as u32 - 1], ..like });
@@ -475,17 +478,32 @@ fn breaking() -> Model {
     let middle = barrier.segments.len() / 2;
     let segment = &mut barrier.segments[middle];
     let tension = segment.stiffness * (0.07 - segment.rest_length);
-    segment.strength.breaking = 1.05 * tension;
+    segment.strength.breaking = 1.02 * tension;
     let node = segment.nodes[0] as usize;
-    barrier.nodes[node].velocity = Vec3::x() * 5.0;
+    barrier.nodes[node].velocity = Vec3::new(5.0, 5.0, 0.0);
     with_barrier(barrier, far_ball())
 }
 
-/// A grain on a taut rope, with the bed behind it.
+/// A grain that a taut rope, drawn aside by it, presses on the bed; nearly in balance.
 fn squeezed() -> Model {
-    let mut model = grain_on_rope(0.0);
-    let grain = &model.grains[0];
-    let bed = grain.position - Vec3::x() * (grain.body.radius * (1.0 - PRESSED));
+    const ASIDE: f64 = 0.05;
+    let (radius, rope_radius, half) = (0.225, 0.008, 1.05);
+    let mut barrier = taut(0.07, 1.0, 1, rope_radius);
+    for node in &mut barrier.nodes {
+        node.position.x = ASIDE * (1.0 - (node.position.y - half).abs() / half);
+    }
+    let segment = &barrier.segments[0];
+    let [a, b] = segment.nodes.map(|node| barrier.nodes[node as usize].position);
+    let tension = segment.stiffness * ((b - a).norm() - segment.rest_length);
+    let push = 2.0 * tension * ASIDE / half;
+    let grain_stiffness = MODULUS * radius;
+    let on_rope = push / contact_stiffness(grain_stiffness, ROPE_MODULUS * rope_radius);
+    let place = ASIDE - radius - rope_radius + on_rope;
+    let mut grain = ball(0, Vec3::new(place, half, 0.0), radius, DENSITY);
+    grain.velocity = nudge(3);
+    let mut model = with_barrier(barrier, grain);
+    model.material.modulus = MODULUS;
+    let bed = Vec3::x() * (place - radius + push / grain_stiffness);
     model.surfaces = vec![plane(SurfaceRole::Base, bed, Vec3::x(), 0.4)];
     model
 }
@@ -522,6 +540,34 @@ fn stop() -> Model {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The scenes do what they say, at a tenth of the limit.
+    #[test]
+    fn what_should_break_snap_or_stay_squeezed_does() {
+        let run = |build: fn() -> Model, look: &mut dyn FnMut(&Simulation)| {
+            let step = 0.1 * Simulation::new(build(), 1e-6, 0.01, 1e6).time_step.max(7e-5);
+            let mut simulation = Simulation::new(build(), step, 0.01, 1e6);
+            for _ in 0..20_000 {
+                simulation.step().expect("stable");
+                look(&simulation);
+            }
+            simulation
+        };
+        let broken = run(breaking, &mut |_| ());
+        assert_eq!(broken.model.barrier.iter().flat_map(Barrier::strengths).filter(|piece| piece.broken).count(), 1);
+        let (mut taut, mut slack) = (0, 0);
+        run(snap, &mut |simulation| {
+            let pulls = simulation.sums.net.tensions.last().is_some_and(|tension| *tension > 0.0);
+            *(if pulls { &mut taut } else { &mut slack }) += 1;
+        });
+        assert!(taut > 20 && slack > 500, "{taut} {slack}");
+        let mut both = 0;
+        run(squeezed, &mut |simulation| {
+            let block = &simulation.neighbours.blocks[0];
+            both += usize::from(!block.surfaces.touching.is_empty() && !block.ropes.list.touching.is_empty());
+        });
+        assert!(both > 15_000, "{both}");
+    }
 
     #[test]
     fn the_estimate_of_a_row_is_that_of_the_closed_form() {

@@ -21,6 +21,7 @@ use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, minus, negati
 use crate::dem::simd::widest::{Work, with_widest};
 use crate::dem::tables::barrier::{Barrier, Frame, Node, SegmentKind};
 use crate::dem::tables::grain_table::Quad;
+use crate::dem::time::integrate::small_turn;
 
 /// Rounds over the two ends of a cylinder that yields in bending; each leaves a quarter of what is wrong.
 const HINGE_ROUNDS: usize = 12;
@@ -188,13 +189,11 @@ impl Cylinder {
         let torque = before.twisting / before.rest_length * twist;
         let beyond = |moment: Triple<f64>| scaled(moment, (1.0 - most_across / dot(moment, moment).sqrt()).max(0.0));
         let over_twist = twist * (1.0 - most_along / torque.abs()).max(0.0);
-        // A hinge at one end eases the other by half, so that a few rounds settle both.
+        // A hinge at one end eases the other by half, so that a few rounds settle both; a turn may shrink again.
         let (mut turn1, mut turn2) = ([0.0; 3], [0.0; 3]);
         for _ in 0..HINGE_ROUNDS {
-            let (eased, _) = bending_moments(k, along, turn1, turn2);
-            turn1 = plus(turn1, scaled(beyond(minus(moment1, eased)), 0.25 / k));
-            let (_, eased) = bending_moments(k, along, turn1, turn2);
-            turn2 = plus(turn2, scaled(beyond(minus(moment2, eased)), 0.25 / k));
+            turn1 = scaled(beyond(add_scaled(moment1, -2.0 * k, turn2)), 0.25 / k);
+            turn2 = scaled(beyond(add_scaled(moment2, -2.0 * k, turn1)), 0.25 / k);
         }
         let half_twist = scaled(along, 0.5 * over_twist);
         let turns = [minus(turn1, half_twist), plus(turn2, half_twist)];
@@ -203,7 +202,7 @@ impl Cylinder {
         }
         for ((rest, node), turn) in self.rest_frames.iter_mut().zip(self.nodes).zip(turns) {
             let orientation = frames[node as usize].orientation;
-            let back = UnitQuaternion::from_scaled_axis(-Vec3::from(turn));
+            let back = small_turn(&-Vec3::from(turn));
             *rest = orientation.inverse() * back * orientation * *rest;
         }
     }

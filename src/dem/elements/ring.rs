@@ -68,9 +68,12 @@ impl RingSide {
         let towards = nearest.points[1] - nearest.points[0];
         let distance = towards.norm();
         let radii = [side.section.radius, rope.section.radius];
-        let overlap = radii[0] + radii[1] - distance;
+        // A ring at a piece that has broken has come off its rope.
+        let off = side.strength.broken || rope.strength.broken;
+        let overlap = if off { -distance } else { radii[0] + radii[1] - distance };
         let normal = if distance > 0.0 { towards / distance } else { Vec3::zeros() };
-        let arms = [normal * (radii[0] - 0.5 * overlap), normal * -(radii[1] - 0.5 * overlap)];
+        let inside = 0.5 * overlap.max(0.0);
+        let arms = [normal * (radii[0] - inside), normal * -(radii[1] - inside)];
         let bodies = [side, rope];
         let [mine, theirs] = [0, 1].map(|body| {
             let ([a, b], share) = (bodies[body].nodes.map(|node| &context.nodes[node as usize]), nearest.shares[body]);
@@ -95,6 +98,7 @@ impl RingSide {
 
     /// The rope's cylinder that is nearest to the side, and where. Only when the nearest point is an end of the one that was nearest
     /// last can a neighbour be nearer.
+    /// From a piece that has broken it moves to no other.
     fn nearest(&self, context: &RingContext) -> (u32, BetweenSegments) {
         let places = |cylinder: u32| {
             context.cylinders[cylinder as usize].nodes.map(|node| &context.nodes[node as usize].position)
@@ -102,6 +106,7 @@ impl RingSide {
         let side = places(self.side);
         let here = nearest_of_segments(side, places(self.near));
         let next = match here.shares[1] {
+            _ if context.cylinders[self.near as usize].strength.broken => None,
             share if share <= 0.0 => self.near.checked_sub(1),
             share if share >= 1.0 => Some(self.near + 1),
             _ => None,

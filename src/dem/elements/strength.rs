@@ -14,14 +14,21 @@ pub struct Strength {
     pub elastic: f64,
     /// Tension at which it breaks (N); infinite if it never does.
     pub breaking: f64,
-    /// Permanent elongation so far (m).
+    /// Permanent elongation so far (m), and the length that the piece had at first (m), whatever has slid in and out since.
     pub drawn_out: f64,
+    pub first_length: f64,
     pub broken: bool,
 }
 
 impl Default for Strength {
     fn default() -> Self {
-        Self { elastic: f64::INFINITY, breaking: f64::INFINITY, drawn_out: 0.0, broken: false }
+        Self {
+            elastic: f64::INFINITY,
+            breaking: f64::INFINITY,
+            drawn_out: 0.0,
+            first_length: f64::INFINITY,
+            broken: false,
+        }
     }
 }
 
@@ -32,9 +39,9 @@ impl Strength {
         self.elastic.min(self.breaking)
     }
 
-    /// Largest elastic moments across and along a round piece of `radius` (m): (N m).
+    /// Largest elastic moments across and along a round piece of `radius` (m): (N m). What breaks without yielding before has none.
     pub fn moments(&self, radius: f64) -> [f64; 2] {
-        [self.least() * radius / 4.0, self.least() * radius / (2.0 * 3.0_f64.sqrt())]
+        [self.elastic * radius / 4.0, self.elastic * radius / (2.0 * 3.0_f64.sqrt())]
     }
 
     /// Rest length (m) with which a piece of axial stiffness EA (N), now `length` long, has just its elastic limit.

@@ -260,7 +260,8 @@ impl Neighbours {
     fn fill(&mut self, bodies: &Bodies, memories: &Memories) {
         let grains = bodies.grains.rows();
         let (skin, fixed_skin) = (self.skin, self.fixed_skin());
-        if self.blocks.last().map_or(0, |block| block.grains.end) != bodies.grains.len() {
+        let covered = self.blocks.last().map_or(0, |block| block.grains.end);
+        if covered != bodies.grains.len() || self.outboxes.len() != self.blocks.len() {
             self.blocks = make_blocks(bodies.grains.len(), grains.shape);
             self.outboxes = make_outboxes(&self.blocks);
         }

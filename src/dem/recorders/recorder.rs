@@ -391,8 +391,8 @@ fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, net: &NetForces, ropes
 /// How many pieces of rope have broken, and the largest permanent elongation of one over its first length.
 fn wear(barrier: Option<&Barrier>) -> [f64; 2] {
     let pieces = barrier.into_iter().flat_map(Barrier::strengths);
-    pieces.fold([0.0, 0.0], |[broken, drawn_out], (_, strength, length)| {
-        let elongation = strength.drawn_out / (length - strength.drawn_out);
+    pieces.fold([0.0, 0.0], |[broken, drawn_out], strength| {
+        let elongation = strength.drawn_out / strength.first_length;
         [broken + f64::from(u8::from(strength.broken)), f64::max(drawn_out, elongation)]
     })
 }

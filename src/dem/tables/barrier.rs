@@ -141,10 +141,10 @@ impl Barrier {
         }
     }
 
-    /// What every piece of rope has suffered, with the part it belongs to and its length at rest now (m).
-    pub fn strengths(&self) -> impl Iterator<Item = (SegmentKind, &Strength, f64)> {
-        let segments = self.segments.iter().map(|segment| (segment.kind, &segment.strength, segment.rest_length));
-        segments.chain(self.cylinders.iter().map(|piece| (piece.kind, &piece.strength, piece.rest_length)))
+    /// What every piece of rope withstands and has suffered.
+    pub fn strengths(&self) -> impl Iterator<Item = &Strength> {
+        let cylinders = self.cylinders.iter().map(|cylinder| &cylinder.strength);
+        self.segments.iter().map(|segment| &segment.strength).chain(cylinders)
     }
 
     /// Lists the lines that grains can touch, and at every node those that end there. Call once all elements stand.

@@ -261,7 +261,7 @@ pub fn turn_frames(frames: &mut [Frame], torques: &[Vec3], step: f64) {
 
 /// The turn about and by a small vector φ (rad): (φ sin(φ/2)/φ, cos(φ/2)) by their series up to φ⁴, which are the same on every
 /// machine.
-fn small_turn(by: &Vec3) -> UnitQuaternion<f64> {
+pub fn small_turn(by: &Vec3) -> UnitQuaternion<f64> {
     let square = by.norm_squared();
     let sine = 0.5 - square * (1.0 / 48.0 - square / 3840.0);
     let cosine = 1.0 - square * (0.125 - square / 384.0);

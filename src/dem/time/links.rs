@@ -154,7 +154,8 @@ impl Linked<'_> {
             let link = Link::between(ends.flatten());
             self.contact(link, Vec3::from(touch.point.normal), &touch.point.spring)
         };
-        barrier.rings.iter().map(link).collect()
+        let whole = |cylinder: u32| !barrier.cylinders[cylinder as usize].strength.broken;
+        barrier.rings.iter().filter(|ring| whole(ring.side) && whole(ring.near)).map(link).collect()
     }
 
     fn add_pairs(&self, block: &Block, links: &mut Vec<Link>) {

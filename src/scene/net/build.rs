@@ -272,7 +272,7 @@ impl Builder<'_> {
             node.mass += half_mass;
         }
         let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
-        let strength = strength_of(rope);
+        let strength = Strength { first_length: rest_length, ..strength_of(rope) };
         self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius, strength });
     }
 

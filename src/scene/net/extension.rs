@@ -3,7 +3,7 @@
 //!
 //! A strip goes on from the knots at the side of the net with the same mesh, and lies downstream of the barrier, flat on the side
 //! wall. What holds it there, friction on the wall and the deposit, is a small force on each of its knots, towards the place where
-//! the knot first lay (Albaba 2015, section 5.5.2, holds its extensions by small forces too; how large is not printed).
+//! the knot first lay; a knot that comes back from where it has slipped to is not pulled on (Albaba 2015, section 5.5.2, holds its extensions by small forces too; how large is not printed).
 
 use std::collections::BTreeMap;
 

@@ -108,7 +108,7 @@ impl Builder<'_> {
         let places = ends.map(|end| barrier.nodes[end].position);
         let frames = ends.map(|end| &barrier.frames[end]);
         let mut cylinder = Cylinder::between(nodes, kind, section, [&places[0], &places[1]], frames);
-        cylinder.strength = strength;
+        cylinder.strength = Strength { first_length: cylinder.rest_length, ..strength };
         let (length, radius) = (cylinder.rest_length, section.radius);
         let half_mass = 0.5 * ROPE_DENSITY * PI * radius * radius * length;
         cylinder.damping_time = 2.0 * ROPE_DAMPING_RATIO * (half_mass * length / section.axial).sqrt();
