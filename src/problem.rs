@@ -45,8 +45,26 @@ pub struct Problems {
     pub list: Vec<Problem>,
 }
 
+/// Text of a file as a terminal may show it: what would steer the terminal, or turn the text round, is made visible.
+fn harmless(text: &str) -> String {
+    let steers = |letter: char| {
+        letter.is_control() && letter != '\n'
+            || ('\u{202a}'..='\u{202e}').contains(&letter)
+            || ('\u{2066}'..='\u{2069}').contains(&letter)
+    };
+    text.chars().map(|letter| if steers(letter) { '\u{fffd}' } else { letter }).collect()
+}
+
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = String::new();
+        self.write(&mut text)?;
+        f.write_str(&harmless(&text))
+    }
+}
+
+impl Problems {
+    fn write(&self, f: &mut impl fmt::Write) -> fmt::Result {
         for problem in &self.list {
             write!(f, "error: {}", self.file)?;
             if let Some(Position { line, column }) = problem.position {

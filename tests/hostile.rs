@@ -157,3 +157,14 @@ fn windows_line_ends_and_names_in_any_script_are_read() {
     let rendered = render(&View::of(&by_equations(file))).expect("a report");
     assert!(rendered.html.contains("土石流") && rendered.markdown.contains("🪨"));
 }
+
+#[test]
+fn deep_brackets_are_refused_at_once_and_nothing_steers_the_terminal() {
+    let started = std::time::Instant::now();
+    for deep in ["a: ".to_string() + &"[".repeat(400_000), "{a: ".repeat(200_000)] {
+        assert!(read_design("deep", deep.as_bytes()).is_err());
+    }
+    assert!(started.elapsed().as_secs_f64() < 2.0, "{:?}", started.elapsed());
+    let told = read_design("x", "\"\\e[31mevil\\u202e\": 1".as_bytes()).expect_err("bad").to_string();
+    assert!(told.contains("evil") && !told.contains('\u{1b}') && !told.contains('\u{202e}'), "{told:?}");
+}

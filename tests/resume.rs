@@ -229,7 +229,11 @@ fn what_is_spoilt_is_told_and_the_one_before_is_used() {
         let _ = child.wait();
         std::fs::copy(simulation_in(&other.join("checkpoint"), "before"), simulation_in(kept, "bin")).expect("copied");
     });
-    assert!(error(&output).contains("belongs to another design; the one before it is used"), "{}", error(&output));
+    assert!(
+        error(&output).contains("belongs to another design or simulation; the one before it is used"),
+        "{}",
+        error(&output)
+    );
     assert_eq!(whole, numbers(&out));
     // Without the order nobody knows what to go on with.
     let (out, output) = spoilt("order", |kept| flip_a_bit(&kept.join("order.bin")));
@@ -294,4 +298,71 @@ fn links_do_not_lead_out_of_the_folder() {
     let output = run(&["report", &path, "--vtk"]);
     assert_eq!(output.status.code(), Some(2), "{}", error(&output));
     assert_eq!(std::fs::read_dir(&elsewhere).expect("a folder").count(), 1);
+}
+
+/// What one start has kept is not taken for another's, though both are of one design.
+#[test]
+fn simulations_of_one_run_are_not_taken_for_each_other() {
+    let whole = undisturbed("whole_of_swapped", &["--seeds", "3"]);
+    let out = folder("swapped");
+    let mut child = start(&out, &["--seeds", "3", "--threads", "1"]);
+    assert!(wait_until_kept(&mut child, &out));
+    let kept = out.join("checkpoint");
+    let files = || -> Vec<PathBuf> {
+        let files = std::fs::read_dir(&kept).into_iter().flatten().flatten().map(|file| file.path());
+        files.filter(|path| path.extension().is_some_and(|end| end == "bin") && !path.ends_with("order.bin")).collect()
+    };
+    while files().len() < 2 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let _ = child.kill();
+    let _ = child.wait();
+    let files = files();
+    let [one, two] = [&files[0], &files[1]].map(|file| std::fs::read(file).expect("bytes"));
+    std::fs::write(&files[0], two).expect("written");
+    std::fs::write(&files[1], one).expect("written");
+    let output = run(&["resume", &out.display().to_string()]);
+    assert!(error(&output).contains("another design or simulation"), "{}", error(&output));
+    assert_eq!(whole, numbers(&out));
+}
+
+/// Several starts side by side are all kept, without a word; files that are not ours stay, whatever their names end in.
+#[test]
+fn starts_side_by_side_are_kept_without_a_word() {
+    let out = folder("quiet");
+    let kept = out.join("checkpoint");
+    std::fs::create_dir_all(&kept).expect("a folder");
+    std::fs::write(kept.join("pytorch_model.bin"), "mine").expect("a file");
+    let path = out.display().to_string();
+    let output = run(&[DESIGN, "--out", &path, "--keep-every", "0", "--seeds", "4", "--threads", "4"]);
+    assert!(matches!(output.status.code(), Some(0 | 1)));
+    assert_eq!(error(&output), "");
+    assert_eq!(std::fs::read_to_string(kept.join("pytorch_model.bin")).expect("a file"), "mine");
+    assert_eq!(std::fs::read_dir(&kept).expect("a folder").count(), 1);
+}
+
+/// A design that is refused, or dies at once, takes nothing of what an earlier run has kept.
+#[test]
+fn what_is_kept_stays_until_something_takes_its_place() {
+    let whole = undisturbed("whole_of_kept", &[]);
+    let out = folder("kept");
+    let mut child = start(&out, &[]);
+    assert!(wait_until_kept(&mut child, &out));
+    let _ = child.kill();
+    let _ = child.wait();
+    let path = out.display().to_string();
+    let huge = out.join("huge.yaml");
+    let text = std::fs::read_to_string("designs/site_a.yaml").expect("a design");
+    std::fs::write(&huge, text.replace("289 mm", "61 mm").replace("579 mm", "125 mm").replace("12 s", "600 s"))
+        .expect("written");
+    let refused = run(&[&huge.display().to_string(), "--out", &path, "--dry-run"]);
+    assert!(refused.status.code().is_some());
+    let mut child =
+        program().args([DESIGN, "--out", &path]).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("a start");
+    std::thread::sleep(Duration::from_millis(40));
+    let _ = child.kill();
+    let _ = child.wait();
+    let resumed = run(&["resume", &path]);
+    assert!(matches!(resumed.status.code(), Some(0 | 1)), "{}", error(&resumed));
+    assert_eq!(whole, numbers(&out));
 }

@@ -34,7 +34,7 @@ pub enum CheckpointError {
     Damaged,
     #[error("it was kept by version {0}, but this is {PROGRAM}, which would go on differently")]
     Program(String),
-    #[error("it belongs to another design")]
+    #[error("it belongs to another design or simulation")]
     Design,
 }
 
@@ -103,19 +103,30 @@ pub fn read<T: DeserializeOwned>(path: &Path, kind: Kind, design: Option<[u8; 32
     if label.kind != kind || label.design != design {
         return Err(CheckpointError::Design);
     }
-    postcard::from_bytes(rest).map_err(|_| CheckpointError::Damaged)
+    match postcard::take_from_bytes(rest) {
+        Ok((content, [])) => Ok(content),
+        _ => Err(CheckpointError::Damaged),
+    }
 }
 
-/// Removes a vault's folder with what the program has put there, and nothing else.
+/// Removes a vault's folder with what the program has put there, and nothing else; a link is left alone.
 pub fn clear(folder: &Path) {
+    if fs::symlink_metadata(folder).map_or(true, |found| !found.is_dir()) {
+        return;
+    }
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        let ours = path.extension().is_some_and(|end| ["bin", "before", "tmp"].iter().any(|our| end == *our));
-        if ours {
-            let _ = fs::remove_file(path);
+        if is_ours(&entry.file_name().to_string_lossy()) {
+            let _ = fs::remove_file(entry.path());
         }
     }
     let _ = fs::remove_dir(folder);
+}
+
+/// Whether a file's name is one that the program gives: `order`, or sixteen hexadecimal digits, with one of three endings.
+fn is_ours(name: &str) -> bool {
+    let Some((stem, end)) = name.rsplit_once('.') else { return false };
+    let hexadecimal = stem.len() == 16 && stem.bytes().all(|letter| letter.is_ascii_hexdigit());
+    ["bin", "before", "tmp"].contains(&end) && (stem == "order" || hexadecimal)
 }
 
 #[cfg(test)]
@@ -125,7 +136,7 @@ mod tests {
     fn place(name: &str) -> PathBuf {
         let folder = std::env::temp_dir().join(format!("barrier-check-{}-{name}", std::process::id()));
         clear(&folder);
-        folder.join("a.bin")
+        folder.join("0123456789abcdef.bin")
     }
 
     #[test]
@@ -152,7 +163,7 @@ mod tests {
             read::<Vec<f64>>(&path, Kind::Simulation, Some(design)).err().map(|error| error.to_string())
         };
         assert_eq!(told(&good, [1; 32]), None);
-        assert_eq!(told(&good, [2; 32]).as_deref(), Some("it belongs to another design"));
+        assert_eq!(told(&good, [2; 32]).as_deref(), Some("it belongs to another design or simulation"));
         for length in 0..good.len() {
             assert!(told(&good[..length], [1; 32]).is_some(), "{length}");
         }

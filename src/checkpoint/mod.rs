@@ -35,9 +35,9 @@ pub struct Order {
 }
 
 impl Order {
-    /// What the files of a vault must have been kept for.
-    fn print(&self) -> [u8; 32] {
-        sha2::Sha256::digest(&self.design).into()
+    /// What a file of a vault must have been kept for: the design, and which of its simulations.
+    fn print(&self, identity: &str) -> [u8; 32] {
+        sha2::Sha256::new().chain_update(&self.design).chain_update([0]).chain_update(identity).finalize().into()
     }
 }
 
@@ -47,8 +47,11 @@ pub struct Vault {
     folder: PathBuf,
     order: Order,
     every: Duration,
-    /// Whether simulations that are done are kept too, because others follow.
+    /// Whether simulations that are done are kept too: because others follow, or because the report of before must not get lost
+    /// while the new one is written.
     several: bool,
+    /// Whether what is there is of an earlier run, which goes when first something of this one is kept.
+    fresh: bool,
     /// Whether the order is there; starts that run side by side write it once.
     ordered: Mutex<bool>,
     /// Whether anything has been kept, and whether it was told that nothing can be.
@@ -58,9 +61,10 @@ pub struct Vault {
 
 impl Vault {
     /// A vault in `folder`, which is made when first something is kept; `every` is the time between two times that a simulation is.
-    pub fn new(folder: PathBuf, order: Order, every: Duration, several: bool) -> Self {
+    /// A `fresh` one takes nothing of what is there.
+    pub fn new(folder: PathBuf, order: Order, every: Duration, several: bool, fresh: bool) -> Self {
         let no = || AtomicBool::new(false);
-        Self { folder, order, every, several, ordered: Mutex::new(false), kept: no(), warned: no() }
+        Self { folder, order, every, several, fresh, ordered: Mutex::new(false), kept: no(), warned: no() }
     }
 
     /// The order of the vault in `folder`.
@@ -86,21 +90,25 @@ impl Vault {
     pub fn shelf(&self, identity: &str) -> Shelf<'_> {
         let digest = sha2::Sha256::digest(identity.as_bytes());
         let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-        Shelf { vault: self, name: format!("{name}.bin"), last: Mutex::new(Instant::now()) }
+        let print = self.order.print(identity);
+        Shelf { vault: self, name: format!("{name}.bin"), print, last: Mutex::new(Instant::now()) }
     }
 
     fn put_order(&self) -> std::io::Result<()> {
         let mut ordered = self.ordered.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if !*ordered {
+            if self.fresh {
+                file::clear(&self.folder);
+            }
             write(&self.folder.join(ORDER), Kind::Order, None, &self.order)?;
             *ordered = true;
         }
         Ok(())
     }
 
-    fn put<T: Serialize>(&self, name: &str, kind: Kind, content: &T) {
-        let print = self.order.print();
-        let result = self.put_order().and_then(|()| write(&self.folder.join(name), kind, Some(print), content));
+    fn put<T: Serialize>(&self, name: &str, print: [u8; 32], content: &T) {
+        let result =
+            self.put_order().and_then(|()| write(&self.folder.join(name), Kind::Simulation, Some(print), content));
         match result {
             Ok(()) => self.kept.store(true, Ordering::Relaxed),
             Err(error) => {
@@ -117,16 +125,21 @@ impl Vault {
 pub struct Shelf<'a> {
     vault: &'a Vault,
     name: String,
+    /// What its files must have been kept for.
+    print: [u8; 32],
     last: Mutex<Instant>,
 }
 
 impl Shelf<'_> {
     /// What was kept last and can be read. What cannot is told, and the one before it taken, or none.
     pub fn take<T: DeserializeOwned>(&self) -> Option<T> {
+        if self.vault.fresh {
+            return None;
+        }
         let path = self.vault.folder.join(&self.name);
         let before = file::previous(&path);
         for (path, otherwise) in [(&path, "the one before it is used"), (&before, "this simulation begins anew")] {
-            match read(path, Kind::Simulation, Some(self.vault.order.print())) {
+            match read(path, Kind::Simulation, Some(self.print)) {
                 Ok(content) => return Some(content),
                 Err(CheckpointError::Missing) => {}
                 Err(error) => eprintln!("warning: {} cannot be used: {error}; {otherwise}", path.display()),
@@ -145,14 +158,14 @@ impl Shelf<'_> {
             due
         });
         if due {
-            self.vault.put(&self.name, Kind::Simulation, content);
+            self.vault.put(&self.name, self.print, content);
         }
     }
 
-    /// Keeps what is done, if others follow.
+    /// Keeps what is done, where that is worth it.
     pub fn finish<T: Serialize>(&self, content: &T) {
         if self.vault.several {
-            self.vault.put(&self.name, Kind::Simulation, content);
+            self.vault.put(&self.name, self.print, content);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `barrier-check DESIGN`: from a design file to a report and an exit code.
 
-use std::io::{IsTerminal, Read};
+use std::io::{IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -49,14 +49,13 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
     };
     let Wishes { starts, vary, vtk, .. } = wishes;
     let order = Order { name: file.name.clone(), design: file.text.clone(), starts, vary, vtk };
-    let vault = open_vault(&folder, order, &file, keep_every);
+    let vault = open_vault(&folder, order, &file, keep_every, true);
     if Vault::order_in(vault.folder()).is_ok() {
         eprintln!(
-            "note: an interrupted run is kept in {}; this one begins anew (`barrier-check resume {}` would go on with it)",
+            "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
             vault.folder().display(),
             folder.display()
         );
-        vault.clear();
     }
     run_kept(file, &folder, wishes, &vault)
 }
@@ -78,18 +77,19 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
     let file = match read_design(&format!("{}.yaml", order.name), &order.design) {
         Ok(file) => file,
         Err(problems) => {
-            eprint!("{problems}");
+            let _ = write!(std::io::stderr(), "{problems}");
             return ExitCode::Undecided;
         }
     };
     let Order { starts, vary, vtk, .. } = order;
-    let vault = open_vault(folder, order, &file, keep_every);
+    let vault = open_vault(folder, order, &file, keep_every, false);
     run_kept(file, folder, Wishes { threads, starts, vary, vtk }, &vault)
 }
 
-fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Duration) -> Vault {
+fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Duration, fresh: bool) -> Vault {
     let several = order.starts > 1 || order.vary || file.design.simulation.fidelity == FidelityWish::Auto;
-    Vault::new(folder.join(checkpoint::FOLDER), order, keep_every, several)
+    let reported = folder.join("result.json").exists();
+    Vault::new(folder.join(checkpoint::FOLDER), order, keep_every, several || reported, fresh)
 }
 
 /// Runs a design whose simulations are kept in `vault`, and writes its report into `folder`.
@@ -119,7 +119,7 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let file = match load(path) {
         Ok(file) => file,
         Err(problems) => {
-            eprint!("{problems}");
+            let _ = write!(std::io::stderr(), "{problems}");
             return ExitCode::Undecided;
         }
     };
@@ -128,18 +128,20 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate;
     let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let starts = f64::from(wishes.starts);
-    println!("grains            {grains:.0} of {spheres:.0} spheres");
-    println!("barrier           {elements:.0} elements");
-    println!("event             about {simulated:.1} s in {steps:.0} steps of {:.2e} s", fidelity.time_step);
-    println!("time              about {} on one core, to a factor of two", duration(seconds * starts));
+    // A pipe that nobody reads to its end is no error.
+    let say = |line: String| drop(writeln!(std::io::stdout(), "{line}"));
+    say(format!("grains            {grains:.0} of {spheres:.0} spheres"));
+    say(format!("barrier           {elements:.0} elements"));
+    say(format!("event             about {simulated:.1} s in {steps:.0} steps of {:.2e} s", fidelity.time_step));
+    say(format!("time              about {} on one core, to a factor of two", duration(seconds * starts)));
     if cores > 1 {
-        println!("                  about {} on {cores} cores", duration(seconds * starts / (0.8 * cores as f64)));
+        say(format!("                  about {} on {cores} cores", duration(seconds * starts / (0.8 * cores as f64))));
     }
-    println!("memory            about {:.0} MB for each start", bytes / 1e6);
+    say(format!("memory            about {:.0} MB for each start", bytes / 1e6));
     if file.design.simulation.fidelity == FidelityWish::Auto {
-        println!(
+        say(format!(
             "fidelity: auto    this is one start; a marginal design takes up to eleven, five of them of the finest model"
-        );
+        ));
     }
     match estimate.too_much() {
         Some(reason) => {
@@ -185,7 +187,7 @@ fn prepare(path: &Path, out: Option<&Path>, suffix: &str) -> Result<(DesignFile,
             Ok((file, folder))
         }
         Err(problems) => {
-            eprint!("{problems}");
+            let _ = write!(std::io::stderr(), "{problems}");
             tell_of_earlier_run(&folder_of(&path.file_stem().unwrap_or_default().to_string_lossy()));
             Err(ExitCode::Undecided)
         }

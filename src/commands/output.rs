@@ -12,7 +12,7 @@ use crate::report::render::render;
 use crate::report::series;
 use crate::report::view::View;
 use crate::report::vtk;
-use crate::report::write::{ReportFile, inner, write_all};
+use crate::report::write::{ReportFile, inner, remove_unless, write_all};
 
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
@@ -41,6 +41,9 @@ fn write_all_of(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failur
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
         write_all(&inner(folder, vtk::FOLDER)?, &vtk::files(&seen.histories.film))?;
     }
+    // What an earlier run has left and this one does not write would pass for its own.
+    let written: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+    remove_unless(folder, &["histories.csv", "histories.parquet"], &written);
     // The report last: who finds it finds all.
     write_all(folder, &files)?;
     Ok(view)

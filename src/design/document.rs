@@ -47,6 +47,25 @@ pub struct Document {
     pub root: Node,
 }
 
+/// Brackets open at once beyond which a text is refused unread: the parser takes time with the square of them.
+const DEEPEST: usize = 1000;
+
+/// Whether more brackets are ever open at once than any design needs, wherever they stand.
+fn brackets_are_too_deep(text: &str) -> bool {
+    let mut open = 0_usize;
+    for letter in text.bytes() {
+        match letter {
+            b'[' | b'{' => open += 1,
+            b']' | b'}' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        if open > DEEPEST {
+            return true;
+        }
+    }
+    false
+}
+
 impl Document {
     /// Parses the bytes of a file. On failure says where and why.
     pub fn parse(bytes: &[u8]) -> Result<Self, Problem> {
@@ -65,6 +84,9 @@ impl Document {
         if let Some(line) = text.lines().position(|line| line.starts_with('\t')) {
             let position = Position { line: line + 1, column: 1 };
             return Err(whole("a tab at the beginning of the line", "spaces").at(Some(position)));
+        }
+        if brackets_are_too_deep(&text) {
+            return Err(whole("brackets within brackets within brackets", "at most a few levels"));
         }
         BUDGET.set(MOST_VALUES);
         let parsed = serde_yaml::Deserializer::from_str(&text);
