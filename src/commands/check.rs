@@ -139,9 +139,8 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     }
     say(format!("memory            about {:.0} MB for each start", bytes / 1e6));
     if file.design.simulation.fidelity == FidelityWish::Auto {
-        say(format!(
-            "fidelity: auto    this is one start; a marginal design takes up to eleven, five of them of the finest model"
-        ));
+        let most = "this is one start; a marginal design takes up to eleven, five of them of the finest model";
+        say(format!("fidelity: auto    {most}"));
     }
     match estimate.too_much() {
         Some(reason) => {
