@@ -530,3 +530,25 @@ fn a_cylinder_yields_in_bending_and_twisting_at_the_limits_of_its_surface() {
         assert_relative_eq!(work, stored + plastic, max_relative = 0.02);
     }
 }
+
+/// In several steps of the barrier within one of the grains' the account closes at every instant, that of the break too.
+#[test]
+fn a_rope_that_breaks_within_a_step_is_booked_at_its_instant() {
+    let mut barrier = Barrier::default();
+    barrier.nodes = vec![node(Vec3::zeros(), 1.0, true), node(Vec3::new(0.0, 0.0, -1.0), 1000.0, false)];
+    let mut rope = segment([0, 1], 1.0, 0.0);
+    rope.strength.breaking = 15e3;
+    barrier.segments = vec![rope];
+    let mut simulation = simulate(barrier, Vec3::new(0.0, 0.0, -9.81), 1e-4);
+    simulation.barrier_parts = 8;
+    simulation.step_and_account().expect("stable");
+    let opened = simulation.ledger;
+    let mut worst: f64 = 0.0;
+    for _ in 0..2000 {
+        simulation.step_and_account().expect("stable");
+        worst = worst.max((simulation.ledger.total() - opened.total()).abs());
+    }
+    assert!(simulation.ledger.lost_ropes > 30.0);
+    // Of 35 J that the rope had stored.
+    assert!(worst < 0.5, "{worst}");
+}

@@ -202,16 +202,18 @@ impl NetForces {
         }
     }
 
-    /// Adds what happened in a later part of the same step of the grains; losses add up, energy stored stays that of the first.
+    /// What was lost: in ropes, by rings, in dissipators (J).
+    pub fn losses(&self) -> [f64; 3] {
+        [self.lost_ropes, self.lost_rings, self.lost_dissipators]
+    }
+
+    /// Adds what happened in a later part of the same step of the grains; energy stored and lost stay those of the first.
     pub fn go_on(&mut self, later: &Self) {
         let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         self.forces.iter_mut().zip(&later.forces).for_each(|(sum, more)| *sum += more);
         add(&mut self.tensions, &later.tensions);
         add(&mut self.brakes, &later.brakes);
         add(&mut self.axial, &later.axial);
-        self.lost_ropes += later.lost_ropes;
-        self.lost_rings += later.lost_rings;
-        self.lost_dissipators += later.lost_dissipators;
     }
 
     /// Turns sums over `parts` parts of a step into means.

@@ -107,8 +107,9 @@ pub struct Simulation {
     pub step_cuts: u32,
     /// Steps of the barrier in one of the grains'.
     pub barrier_parts: u32,
-    /// Motion of the barrier when the last step began.
+    /// Motion of the barrier when the last step began, and what it has lost since, which is booked with the next step.
     barrier_motion: MotionEnergy,
+    lost_since: [f64; 3],
     first_time_step: f64,
     law: LawConstants,
     /// Speed no grain or node can have by honest means (m/s).
@@ -133,6 +134,7 @@ impl Simulation {
             step_cuts: 0,
             barrier_parts: 1,
             barrier_motion: MotionEnergy::default(),
+            lost_since: [0.0; 3],
             first_time_step: time_step,
             law: LawConstants::new(model.material.restitution, model.material.tangential_ratio, time_step),
             speed_limit,
@@ -208,6 +210,7 @@ impl Simulation {
     pub fn start_account(&mut self) {
         self.time = 0.0;
         self.ledger = Ledger::default();
+        self.lost_since = [0.0; 3];
         self.extremes = Extremes::default();
     }
 
@@ -375,12 +378,14 @@ impl Simulation {
     fn advance_barrier(&mut self, net: NetForces, own: &LawConstants, time: &Stretch, account: bool) -> f64 {
         let Some(barrier) = &mut self.model.barrier else { return 0.0 };
         let pushes = self.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
-        let BarrierStep { net, motion, fastest } =
+        let BarrierStep { net, motion, fastest, lost_later } =
             step_barrier(barrier, net, pushes, own, time, self.barrier_parts, account);
         self.ledger.stored_barrier = net.stored;
-        self.ledger.lost_ropes += net.lost_ropes;
-        self.ledger.lost_friction += net.lost_rings;
-        self.ledger.lost_dissipators += net.lost_dissipators;
+        for [ropes, rings, dissipators] in [std::mem::replace(&mut self.lost_since, lost_later), net.losses()] {
+            self.ledger.lost_ropes += ropes;
+            self.ledger.lost_friction += rings;
+            self.ledger.lost_dissipators += dissipators;
+        }
         self.barrier_motion = motion;
         self.sums.net = net;
         fastest

@@ -27,6 +27,9 @@ pub struct BarrierStep {
     pub motion: MotionEnergy,
     /// Largest mean speed of a node (m/s).
     pub fastest: f64,
+    /// Lost in the parts after the first, which belong to the time after the instant of `motion`: in ropes, by rings, in
+    /// dissipators (J).
+    pub lost_later: [f64; 3],
 }
 
 /// Moves the barrier through one step of the grains, in `parts` steps of its own. `net` holds the forces at the start; `law` the
@@ -51,15 +54,17 @@ pub fn step_barrier<'a>(
     go(barrier, &first, &own);
     let motion = at_start
         .map_or(MotionEnergy::default(), |(nodes, frames)| motion_since(&nodes, &frames, barrier, &time.gravity));
+    let mut lost_later = [0.0; 3];
     for _ in 1..parts {
         let later = pull_all(barrier, law);
         later.take_over(barrier);
         go(barrier, &later, &own);
         first.go_on(&later);
+        lost_later.iter_mut().zip(later.losses()).for_each(|(sum, lost)| *sum += lost);
     }
     first.share_out(parts);
     let fastest = if several { note_paces(barrier, &before, time.step) } else { note_velocities(barrier) };
-    BarrierStep { net: first, motion, fastest }
+    BarrierStep { net: first, motion, fastest, lost_later }
 }
 
 /// Moves nodes and frames through one step.
