@@ -12,7 +12,7 @@ use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::Guideline;
 use crate::design::Design;
 use crate::fidelity::Fidelity;
-use crate::scene::build::{SAMPLES_PER_WINDOW, build};
+use crate::scene::build::{SAMPLES_PER_WINDOW, build_unless};
 use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
 use crate::scene::flow::packing::PackingError;
@@ -125,8 +125,11 @@ enum Kept<Unfinished, Done> {
 }
 
 impl Halfway<Ongoing> {
-    fn begin(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Self, PackingError> {
-        let scene = build(design, fidelity, seed)?;
+    fn begin(design: &Design, fidelity: &Fidelity, seed: u64, watch: &Watch) -> Result<Self, RunError> {
+        let scene = build_unless(watch.stop, design, fidelity, seed).map_err(|error| match error {
+            PackingError::Interrupted => RunError::Interrupted,
+            other => other.into(),
+        })?;
         let facts = Facts {
             grains: scene.simulation.grains.len(),
             spheres: scene.simulation.grains.members(),
@@ -166,7 +169,7 @@ pub fn simulate(
         let started = Instant::now();
         let Halfway { mut facts, samples, ongoing } = match halfway {
             Some(halfway) => halfway,
-            None => Halfway::begin(design, fidelity, seed)?,
+            None => Halfway::begin(design, fidelity, seed, watch)?,
         };
         let before = facts.wall_clock;
         let spent = || before + started.elapsed().as_secs_f64();

@@ -353,10 +353,21 @@ fn what_is_kept_stays_until_something_takes_its_place() {
     let path = out.display().to_string();
     let huge = out.join("huge.yaml");
     let text = std::fs::read_to_string("designs/site_a.yaml").expect("a design");
-    std::fs::write(&huge, text.replace("289 mm", "61 mm").replace("579 mm", "125 mm").replace("12 s", "600 s"))
-        .expect("written");
-    let refused = run(&[&huge.display().to_string(), "--out", &path, "--dry-run"]);
-    assert!(refused.status.code().is_some());
+    let changes = [
+        ("289 mm", "54 mm"),
+        ("579 mm", "111 mm"),
+        ("contact_modulus: 0.1 GPa", "contact_modulus: 100 GPa"),
+        ("base_friction: 25 deg", "base_friction: 39 deg"),
+        ("fidelity: standard", "fidelity: fine"),
+    ];
+    std::fs::write(&huge, changes.iter().fold(text, |text, (from, to)| text.replace(from, to))).expect("written");
+    let refused = run(&[&huge.display().to_string(), "--out", &path]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        error(&refused).contains("is not run") && !error(&refused).contains("goes on where"),
+        "{}",
+        error(&refused)
+    );
     let mut child =
         program().args([DESIGN, "--out", &path]).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("a start");
     std::thread::sleep(Duration::from_millis(40));
@@ -365,4 +376,29 @@ fn what_is_kept_stays_until_something_takes_its_place() {
     let resumed = run(&["resume", &path]);
     assert!(matches!(resumed.status.code(), Some(0 | 1)), "{}", error(&resumed));
     assert_eq!(whole, numbers(&out));
+}
+
+/// Asked to end while the flow still settles, of which nothing is kept, a run ends soon.
+#[test]
+fn a_run_that_settles_ends_when_it_is_asked_to() {
+    let out = folder("settling");
+    std::fs::create_dir_all(&out).expect("a folder");
+    let design = out.join("stiff.yaml");
+    let text = std::fs::read_to_string("designs/site_a.yaml").expect("a design");
+    let text = text.replace("contact_modulus: 0.1 GPa", "contact_modulus: 50 GPa");
+    std::fs::write(&design, text).expect("a design");
+    let arguments = [&design.display().to_string(), "--out", &out.join("report").display().to_string()];
+    let mut child = program().args(arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("a start");
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(child.try_wait().expect("a child").is_none(), "it was done before it was asked to end");
+    signal(&child, "-TERM");
+    let asked = Instant::now();
+    while child.try_wait().expect("a child").is_none() && asked.elapsed() < Duration::from_secs(5) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let ended = child.try_wait().expect("a child").and_then(|status| status.code());
+    let _ = child.kill();
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(ended, Some(2), "it goes on");
+    assert!(error(&output).contains("interrupted") && !error(&output).contains("goes on where"), "{}", error(&output));
 }

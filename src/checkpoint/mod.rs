@@ -47,9 +47,9 @@ pub struct Vault {
     folder: PathBuf,
     order: Order,
     every: Duration,
-    /// Whether simulations that are done are kept too: because others follow, or because the report of before must not get lost
+    /// Whether simulations are kept when they are done, too: because others follow, or because the report of before must not get lost
     /// while the new one is written.
-    several: bool,
+    keep_done: bool,
     /// Whether what is there is of an earlier run, which goes when first something of this one is kept.
     fresh: bool,
     /// Whether the order is there; starts that run side by side write it once.
@@ -62,9 +62,9 @@ pub struct Vault {
 impl Vault {
     /// A vault in `folder`, which is made when first something is kept; `every` is the time between two times that a simulation is.
     /// A `fresh` one takes nothing of what is there.
-    pub fn new(folder: PathBuf, order: Order, every: Duration, several: bool, fresh: bool) -> Self {
+    pub fn new(folder: PathBuf, order: Order, every: Duration, keep_done: bool, fresh: bool) -> Self {
         let no = || AtomicBool::new(false);
-        Self { folder, order, every, several, fresh, ordered: Mutex::new(false), kept: no(), warned: no() }
+        Self { folder, order, every, keep_done, fresh, ordered: Mutex::new(false), kept: no(), warned: no() }
     }
 
     /// The order of the vault in `folder`.
@@ -72,9 +72,9 @@ impl Vault {
         read(&folder.join(ORDER), Kind::Order, None)
     }
 
-    /// Whether anything has been kept since the vault was opened.
-    pub fn has_kept(&self) -> bool {
-        self.kept.load(Ordering::Relaxed)
+    /// Whether there is something of this run to go on with.
+    pub fn can_be_resumed(&self) -> bool {
+        self.kept.load(Ordering::Relaxed) || (!self.fresh && Self::order_in(&self.folder).is_ok())
     }
 
     pub fn folder(&self) -> &Path {
@@ -164,7 +164,7 @@ impl Shelf<'_> {
 
     /// Keeps what is done, where that is worth it.
     pub fn finish<T: Serialize>(&self, content: &T) {
-        if self.vault.several {
+        if self.vault.keep_done {
             self.vault.put(&self.name, self.print, content);
         }
     }

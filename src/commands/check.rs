@@ -106,7 +106,7 @@ fn run_kept(file: DesignFile, folder: &Path, wishes: Wishes, vault: &Vault) -> E
         }
         Err(error) => {
             eprintln!("error: {error}");
-            if vault.has_kept() || Vault::order_in(vault.folder()).is_ok() {
+            if vault.can_be_resumed() {
                 eprintln!("note: `barrier-check resume {}` goes on where the run was kept last", folder.display());
             }
             give_up(folder, there_before)

@@ -41,11 +41,11 @@ fn write_all_of(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failur
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
         write_all(&inner(folder, vtk::FOLDER)?, &vtk::files(&seen.histories.film))?;
     }
-    // What an earlier run has left and this one does not write would pass for its own.
-    let written: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
-    remove_unless(folder, &["histories.csv", "histories.parquet"], &written);
     // The report last: who finds it finds all.
     write_all(folder, &files)?;
+    // What an earlier run has left and this one has not written would pass for its own.
+    let written: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+    remove_unless(folder, &["histories.csv", "histories.parquet"], &written);
     Ok(view)
 }
 

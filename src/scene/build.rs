@@ -1,9 +1,11 @@
 //! `Design` + `Fidelity` → a simulation ready to be released, and what its recorder must know.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::dem::Vec3;
 use crate::dem::model::{Material, Model};
 use crate::dem::recorders::recorder::{GaugeWindow, RecorderSetup};
-use crate::dem::simulation::{Simulation, Unstable};
+use crate::dem::simulation::Simulation;
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::Fidelity;
@@ -64,6 +66,11 @@ fn gravity(slope: f64) -> Vec3 {
 
 /// Builds the scene: packs the flow, lets it settle behind the gate, puts the barrier up.
 pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
+    build_unless(&AtomicBool::new(false), design, fidelity, seed)
+}
+
+/// The same, given up when `stop` is set while the flow settles, which takes long where grains are many.
+pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
     let net = match &design.barrier {
         BarrierDesign::FlexibleNet(net) => Some(build_net(net, &design.channel, design.simulation.barrier_model)),
         BarrierDesign::RigidWall(_) => None,
@@ -94,7 +101,7 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
     let mut simulation =
         Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, &block));
     if matches!(flow.arrival, Arrival::DamBreak(_)) {
-        settle(&mut simulation, &block)?;
+        settle(&mut simulation, &block, stop)?;
     }
     simulation.remove_surfaces(SurfaceRole::Gate);
     if let Some(net) = &net {
@@ -131,10 +138,13 @@ fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
 }
 
 /// Lets the block settle behind the gate under gravity, slowed by drag.
-fn settle(simulation: &mut Simulation, block: &Block) -> Result<(), Unstable> {
+fn settle(simulation: &mut Simulation, block: &Block, stop: &AtomicBool) -> Result<(), PackingError> {
     let fall = (block.height / GRAVITY).sqrt();
     simulation.drag = SETTLING_DRAG / fall;
     while simulation.time < SETTLING * fall {
+        if stop.load(Ordering::Relaxed) {
+            return Err(PackingError::Interrupted);
+        }
         simulation.step()?;
     }
     simulation.drag = 0.0;

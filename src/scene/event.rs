@@ -101,9 +101,7 @@ impl Ongoing {
         let strays = recorder.strays.len() as u32;
         Event { histories: recorder.histories, ending, simulation, energy_error, strays }
     }
-}
 
-impl Ongoing {
     /// Takes in the sample just made; tells whether the run ends with it.
     fn judge(&mut self, longest: f64, watch: &Watch) -> Option<Ending> {
         let histories = &self.recorder.histories;

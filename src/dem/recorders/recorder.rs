@@ -158,12 +158,12 @@ impl Recorder {
         push_rows(&mut histories.rope_mean, &self.sum.rope_mean, mean);
         push_rows(&mut histories.rope_largest, &self.sum.rope_largest, mean);
         push_rows(&mut histories.anchors, &self.sum.anchors, mean);
-        if simulation.model.barrier.is_some() {
+        if let Some(barrier) = &simulation.model.barrier {
             push_rows(&mut histories.brakes, &self.sum.brakes, mean);
             histories.net_largest.push(self.sum.net_largest * mean);
             histories.lateral_largest.push(self.sum.lateral_largest * mean);
             histories.bed_force.push(self.sum.bed_force.norm() * mean);
-            let [broken, drawn_out] = wear(simulation.model.barrier.as_ref());
+            let [broken, drawn_out] = wear(barrier);
             histories.broken_pieces.push(broken);
             histories.drawn_out.push(drawn_out);
         }
@@ -389,9 +389,8 @@ fn add_tensions(sum: &mut IntervalSum, barrier: &Barrier, net: &NetForces, ropes
 }
 
 /// How many pieces of rope have broken, and the largest permanent elongation of one over its first length.
-fn wear(barrier: Option<&Barrier>) -> [f64; 2] {
-    let pieces = barrier.into_iter().flat_map(Barrier::strengths);
-    pieces.fold([0.0, 0.0], |[broken, drawn_out], strength| {
+fn wear(barrier: &Barrier) -> [f64; 2] {
+    barrier.strengths().fold([0.0, 0.0], |[broken, drawn_out], strength| {
         let elongation = strength.drawn_out / strength.first_length;
         [broken + f64::from(u8::from(strength.broken)), f64::max(drawn_out, elongation)]
     })

@@ -38,6 +38,8 @@ pub enum PackingError {
     DoesNotFit { steps: usize, overlap: f64 },
     #[error(transparent)]
     Unstable(#[from] Unstable),
+    #[error("it was interrupted")]
+    Interrupted,
 }
 
 /// Packs `bodies` into `room`; grain numbers follow the order of `bodies`. Where they do not fit, as happens when grains
