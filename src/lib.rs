@@ -60,6 +60,7 @@ pub mod dem;
 pub mod demand;
 pub mod design;
 pub mod fidelity;
+pub mod load_cases;
 pub mod loads;
 pub mod pipeline;
 pub mod problem;

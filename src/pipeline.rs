@@ -4,14 +4,14 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::checks::wall::unheld;
+use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
-use crate::demand::from_histories::Observed;
 use crate::demand::from_loads::{Guideline, guideline};
 use crate::design::Design;
 use crate::design::read::DesignFile;
 use crate::fidelity::choose;
-use crate::fidelity::ladder::{RUNGS, Rung, Step};
+use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
+use crate::load_cases::{LoadCase, cases};
 use crate::scene::estimate::estimate;
 use crate::scene::event::Watch;
 use crate::sensitivity::simulated::{swings, variants};
@@ -60,34 +60,38 @@ pub fn by_equations(file: DesignFile) -> Run {
     finish(file, guideline, None)
 }
 
-/// Runs one design from words to verdict, with as many packings as `starts` asks for, from the design's seed on. Call inside
-/// the thread pool that shall do the work: one start uses all its threads, several run side by side.
+/// Runs one design from words to verdict, with as many packings as `starts` asks for, from the design's seed on, under each of its
+/// load cases. Call inside the thread pool that shall do the work: one simulation uses all its threads, several run side by side.
 pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
     let design = &file.design;
-    let fidelity = choose(design);
     let guideline = guideline(design);
-    let seed = |index: usize| design.simulation.seed.wrapping_add(index as u64);
     let threads = rayon::current_num_threads();
     let (started, began) = (Instant::now(), SystemTime::now());
-    let runs = if starts < 2 {
-        vec![simulate(design, &fidelity, &guideline, seed(0), Detail::Full, watch)]
-    } else {
-        side_by_side(threads, starts as usize, |index| {
-            // The first start is told in full; of the others what was observed.
-            let detail = if index == 0 { Detail::Full } else { Detail::Observed };
-            simulate(design, &fidelity, &guideline, seed(index), detail, watch)
-        })
+    let cases = cases(design);
+    let jobs: Vec<(u32, &(LoadCase, Design))> =
+        (0..starts.max(1)).flat_map(|start| cases.iter().map(move |case| (start, case))).collect();
+    let one = |index: usize| {
+        let (start, (_, design)) = jobs[index];
+        // The first is told in full; of the others what was observed.
+        let detail = if index == 0 { Detail::Full } else { Detail::Observed };
+        let seed = design.simulation.seed.wrapping_add(u64::from(start));
+        simulate(design, &choose(design), &crate::demand::from_loads::guideline(design), seed, detail, watch)
     };
-    let mut runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let doubts = runs.iter().flat_map(|run| doubts_of(run, runs.len())).collect();
-    let mut simulated = runs.remove(0);
+    let runs = if jobs.len() == 1 { vec![one(0)] } else { side_by_side(threads, jobs.len(), one) };
+    let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut runs: Vec<(LoadCase, Simulated)> = jobs.iter().map(|(_, (case, _))| *case).zip(runs).collect();
+    let doubts = runs.iter().flat_map(|(case, run)| doubts_of(*case, run, starts)).collect();
+    let (_, mut simulated) = runs.remove(0);
     simulated.doubts = doubts;
     simulated.facts.threads = threads;
     simulated.facts.began = began.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs() as i64);
     simulated.facts.wall_clock = started.elapsed().as_secs_f64().max(simulated.facts.wall_clock);
-    for other in runs {
+    for (case, other) in runs {
         simulated.numerics = simulated.numerics.worst(&other.numerics);
-        simulated.starts.extend(other.starts);
+        match case {
+            LoadCase::Characteristic => simulated.starts.extend(other.starts),
+            LoadCase::Factored => simulated.factored.extend(other.starts),
+        }
     }
     Ok(finish(file, guideline, Some(simulated)))
 }
@@ -152,11 +156,14 @@ fn governing(outcomes: &[Outcome]) -> String {
 pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     let variants = variants(&run.file.design);
     let answer = |design: &Design| -> Result<Point, RunError> {
-        let guideline = guideline(design);
-        let simulated = simulate(design, &choose(design), &guideline, design.simulation.seed, Detail::Observed, watch)?;
-        let mut demands = Demands::meet(&guideline, &[simulated.first()], design.factors.load);
+        // Forces and strokes are designed for the factored flow alone.
+        let (_, design) = cases(design).pop().unwrap_or((LoadCase::Characteristic, design.clone()));
+        let guideline = guideline(&design);
+        let seed = design.simulation.seed;
+        let simulated = simulate(&design, &choose(&design), &guideline, seed, Detail::Observed, watch)?;
+        let mut demands = Demands::meet(&guideline, &simulated.seen(), &design.factors);
         demands.leave_out_guideline();
-        let point = Point::of(simulated.first().force_peak, &check_all(design, &demands));
+        let point = Point::of(simulated.first().force_peak, &check_all(&design, &demands));
         Ok(if simulated.doubts.is_empty() { point } else { point.unreliable() })
     };
     let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| {
@@ -167,30 +174,72 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     Ok(())
 }
 
-fn doubts_of(run: &Simulated, starts: usize) -> Vec<String> {
-    let named =
-        |doubt: &String| if starts > 1 { format!("seed {}: {doubt}", run.starts[0].seed) } else { doubt.clone() };
+fn doubts_of(case: LoadCase, run: &Simulated, starts: u32) -> Vec<String> {
+    let named = |doubt: &String| {
+        let seed = if starts > 1 { format!("seed {}: ", run.starts[0].seed) } else { String::new() };
+        let flow = if case == LoadCase::Factored { "factored flow: " } else { "" };
+        format!("{seed}{flow}{doubt}")
+    };
     run.doubts.iter().map(named).collect()
 }
 
 fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) -> Run {
-    let observed: Vec<&Observed> =
-        simulated.iter().flat_map(|simulated| &simulated.starts).map(|start| &start.observed).collect();
-    let demands = Demands::meet(&guideline, &observed, file.design.factors.load);
-    let outcomes = check_all(&file.design, &demands);
-    let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
-    doubts.extend(unheld(&file.design));
+    let design = &file.design;
+    let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
+    let demands = Demands::meet(&guideline, &seen, &design.factors);
+    let mut outcomes = check_all(design, &demands);
+    leave_open_outside_range(design, &guideline, &mut outcomes);
+    if let Some(simulated) = &simulated {
+        rung_of(design, simulated.starts.len()).leave_open_what_is_too_close(&mut outcomes);
+    }
+    let doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
 
-/// Doubt comes before everything; then a single failed check fails the design.
+/// What the guideline fails, no simulation can make hold, however doubtful it is. Then doubt comes before everything; then a single
+/// failed check fails the design, and a single open one leaves it undecided.
 fn verdict(outcomes: &[Outcome], doubts: &[String]) -> Verdict {
-    if !doubts.is_empty() {
-        Verdict::Undecided
-    } else if outcomes.iter().any(|outcome| outcome.verdict == CheckVerdict::Fail) {
+    let any = |verdict: CheckVerdict| outcomes.iter().any(|outcome| outcome.verdict == verdict);
+    if outcomes.iter().any(Outcome::fails_by_equations) {
         Verdict::Fail
+    } else if !doubts.is_empty() {
+        Verdict::Undecided
+    } else if any(CheckVerdict::Fail) {
+        Verdict::Fail
+    } else if any(CheckVerdict::Open) {
+        Verdict::Undecided
     } else {
         Verdict::Pass
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::outcome::{CheckName, Opening, Resistance};
+    use crate::demand::Demand;
+
+    fn check(guideline: f64, simulation: f64) -> Outcome {
+        let demand = Demand { guideline: Some(guideline), simulation: Some(simulation), ..Demand::default() };
+        let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
+        Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, resistance, 1.0)
+    }
+
+    #[test]
+    fn doubt_holds_back_a_pass_and_a_fail_of_the_simulation_but_not_one_of_the_equations() {
+        let doubt = ["why".to_string()];
+        let mut open = check(0.1, 0.1);
+        open.leave_open(Opening::NotGiven("x".into()));
+        for (outcomes, doubts, expected) in [
+            (vec![check(0.5, 0.5)], &[][..], Verdict::Pass),
+            (vec![check(0.5, 0.5)], &doubt[..], Verdict::Undecided),
+            (vec![check(0.5, 0.5), open.clone()], &[][..], Verdict::Undecided),
+            (vec![check(0.5, 1.5), open.clone()], &[][..], Verdict::Fail),
+            (vec![check(0.5, 1.5)], &doubt[..], Verdict::Undecided),
+            (vec![check(1.5, 0.5), open], &doubt[..], Verdict::Fail),
+        ] {
+            assert_eq!(verdict(&outcomes, doubts), expected, "{outcomes:?} {doubts:?}");
+        }
     }
 }

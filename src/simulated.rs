@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::checks::credibility::{Numerics, doubts};
 use crate::dem::crew;
+use crate::dem::ledger::Ledger;
 use crate::dem::recorders::histories::Histories;
 use crate::dem::time::stable_step::StepRatio;
+use crate::demand::Seen;
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::Guideline;
-use crate::design::Design;
+use crate::design::{Arrival, Design};
 use crate::fidelity::Fidelity;
 use crate::scene::build::{SAMPLES_PER_WINDOW, build_unless};
 use crate::scene::estimate::estimate;
@@ -29,6 +31,8 @@ pub struct Simulated {
     /// Worst over the starts.
     pub numerics: Numerics,
     pub starts: Vec<Start>,
+    /// What the factored flow showed, packing by packing, where it was simulated ([`crate::load_cases`]).
+    pub factored: Vec<Start>,
     /// Why runs cannot be relied on.
     pub doubts: Vec<String>,
 }
@@ -44,6 +48,14 @@ impl Simulated {
     /// What the first start showed.
     pub fn first(&self) -> &Observed {
         &self.starts[0].observed
+    }
+
+    /// What checks are made of.
+    pub fn seen(&self) -> Seen<'_> {
+        fn observed(starts: &[Start]) -> Vec<&Observed> {
+            starts.iter().map(|start| &start.observed).collect()
+        }
+        Seen { characteristic: observed(&self.starts), factored: observed(&self.factored) }
     }
 
     /// A quantity over the starts.
@@ -184,7 +196,15 @@ pub fn simulate(
         }
         facts.take(&event);
         facts.wall_clock = spent();
-        let numerics = numerics(&event);
+        let numerics = Numerics {
+            packing_shortfall: 1.0 - facts.packed_share,
+            stored_at_release: match design.flow.arrival {
+                Arrival::Surge(_) => stored_at_release(&event.histories.at_release),
+                // One at rest leans on its gate and is to store what it does.
+                Arrival::DamBreak(_) => 0.0,
+            },
+            ..numerics(&event)
+        };
         let [window, tail] = samples;
         let observed = Observed::read(&event.histories, design, guideline, Reading { window, tail });
         let histories = match detail {
@@ -192,7 +212,8 @@ pub fn simulate(
             Detail::Observed => Histories::default(),
         };
         let (starts, doubts) = (vec![Start { seed, observed }], doubts(&numerics));
-        let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, doubts };
+        let factored = Vec::new();
+        let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, factored, doubts };
         if let Some(shelf) = &shelf {
             shelf.finish(&Kept::<Halfway<Ongoing>, _>::Done(&simulated));
         }
@@ -208,6 +229,10 @@ pub fn numerics(event: &Event) -> Numerics {
         step_ratio: event.simulation.extremes.step_ratio.value,
         crossings: event.simulation.extremes.crossings,
         strays: event.strays,
+        stray_share: event.stray_share,
+        packing_shortfall: 0.0,
+        stored_at_release: 0.0,
+        stopped_upstream: event.histories.stopped_upstream,
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
             _ => None,
@@ -215,6 +240,11 @@ pub fn numerics(event: &Event) -> Numerics {
         missed: event.ending == Ending::Steady && event.histories.force.iter().all(|force| force.norm() == 0.0),
         unfinished: event.ending == Ending::OutOfTime,
     }
+}
+
+/// Energy stored in the contacts of a moving flow, over its energy of motion.
+fn stored_at_release(ledger: &Ledger) -> f64 {
+    if ledger.kinetic > 0.0 { ledger.stored_contacts / ledger.kinetic } else { 0.0 }
 }
 
 impl Facts {

@@ -88,10 +88,11 @@
   const ballArray = attach(balls, 5, [["ball", 4], ["value", 1]], 0);
   const ropeArray = attach(ropes, 8, [["from", 3], ["to", 3], ["rope", 2]], 1);
   const w = head.width, back = head.origin[0], front = head.origin[0] + head.extent;
-  const h = head.wall || 0.08 * head.extent;
+  const h = head.wall[1] || 0.08 * head.extent;
   const quad = (a, b, c, d) => [...a, ...b, ...c, ...a, ...c, ...d];
   const bed = quad([back, 0, 0], [front, 0, 0], [front, w, 0], [back, w, 0]);
-  const wall = quad([0, 0, 0], [0, w, 0], [0, w, h], [0, 0, h]);
+  const top = head.wall[0];
+  const wall = quad([0, 0, 0], [0, w, 0], [top, w, h], [top, 0, h]);
   const sides = [0, w].flatMap(y => quad([back, y, 0], [front, y, 0], [front, y, h], [back, y, h]));
   const planeArray = attach(planes, 3, [["corner", 3]], 0);
   gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([...bed, ...sides, ...wall]), gl.STATIC_DRAW);
@@ -166,7 +167,7 @@
     gl.bindVertexArray(planeArray.array);
     gl.uniform4f(planes.place("paint"), 0.82, 0.80, 0.76, 1);
     gl.drawArrays(gl.TRIANGLES, 0, 6);
-    if (head.wall) { gl.uniform4f(planes.place("paint"), 0.55, 0.57, 0.6, 1); gl.drawArrays(gl.TRIANGLES, 18, 6); }
+    if (head.wall[1]) { gl.uniform4f(planes.place("paint"), 0.55, 0.57, 0.6, 1); gl.drawArrays(gl.TRIANGLES, 18, 6); }
     use(balls);
     gl.uniform1f(balls.place("tall"), tall);
     gl.bindVertexArray(ballArray.array);

@@ -33,7 +33,7 @@ fn run(name: &str, changes: &[(&str, &str)]) -> (Option<i32>, Vec<String>, Strin
 
 #[test]
 fn a_clear_failure_needs_no_simulation() {
-    let (code, rungs, report) = run("fail", &[("resistance: 110 kN", "resistance: 20 kN")]);
+    let (code, rungs, report) = run("fail", &[("resistance: 160 kN", "resistance: 20 kN")]);
     assert_eq!((code, rungs), (Some(1), vec!["equations".to_string()]));
     assert!(report.contains("How fine the model had to be"));
 }
@@ -47,8 +47,10 @@ fn a_clear_pass_needs_one_start() {
 
 #[test]
 fn a_marginal_design_climbs() {
-    // On one start the net uses 93 % of what it holds.
-    let (code, rungs, _) = run("marginal", &[("breaking_load: 69.8 kN", "breaking_load: 30 kN")]);
+    // On one start the net uses some 90 % of what it holds.
+    let (code, rungs, report) = run("marginal", &[("breaking_load: 137 kN", "breaking_load: 60 kN")]);
     assert!(rungs.len() >= 3 && rungs[2] == "starts", "{rungs:?}");
-    assert!(matches!(code, Some(0 | 1)));
+    // What the last rung cannot tell either is neither passed nor failed.
+    let open = report.contains("this model cannot tell on which side");
+    assert!(code == Some(2) && open || matches!(code, Some(0 | 1)) && !open, "{code:?} {open}");
 }

@@ -51,7 +51,7 @@ fn strip(value: &mut serde_json::Value) {
 fn undisturbed(name: &str, more: &[&str]) -> (serde_json::Value, Vec<u8>) {
     let out = folder(name);
     let output = run(&[&[DESIGN, "--out", &out.display().to_string()], more].concat());
-    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", error(&output));
+    assert!(matches!(output.status.code(), Some(0..=2)), "{}", error(&output));
     assert!(!out.join("checkpoint").exists());
     numbers(&out)
 }
@@ -110,9 +110,9 @@ fn kill_and_resume(name: &str, times: u64, more: &[&str], seed: u64) {
     let code = child.wait().expect("an end").code();
     if out.join("checkpoint").exists() {
         let last = run(&["resume", &path]);
-        assert!(matches!(last.status.code(), Some(0 | 1)), "{}", error(&last));
+        assert!(matches!(last.status.code(), Some(0..=2)), "{}", error(&last));
     } else {
-        assert!(matches!(code, Some(0 | 1)), "{code:?}");
+        assert!(matches!(code, Some(0..=2)), "{code:?}");
     }
     assert!(!out.join("checkpoint").exists());
 }
@@ -167,7 +167,7 @@ fn a_run_that_is_asked_to_end_can_be_resumed() {
     assert!(error(&output).contains(&format!("barrier-check resume {path}")), "{}", error(&output));
     assert!(!out.join("result.json").exists());
     let resumed = run(&["resume", &path]);
-    assert!(matches!(resumed.status.code(), Some(0 | 1)), "{}", error(&resumed));
+    assert!(matches!(resumed.status.code(), Some(0..=2)), "{}", error(&resumed));
     assert_eq!(whole, numbers(&out));
 }
 
@@ -254,7 +254,7 @@ fn where_nothing_is_kept_there_is_nothing_to_resume() {
 fn a_full_disk_spoils_nothing() {
     let out = folder("full");
     let path = out.display().to_string();
-    assert!(matches!(run(&[DESIGN, "--out", &path]).status.code(), Some(0 | 1)));
+    assert!(matches!(run(&[DESIGN, "--out", &path]).status.code(), Some(0..=2)));
     let all = || -> Vec<(PathBuf, Vec<u8>)> {
         let mut files: Vec<PathBuf> =
             std::fs::read_dir(&out).expect("a folder").map(|file| file.expect("a file").path()).collect();
@@ -290,7 +290,7 @@ fn links_do_not_lead_out_of_the_folder() {
     std::os::unix::fs::symlink(elsewhere.join("precious"), out.join("report.html")).expect("a link");
     let path = out.display().to_string();
     let output = run(&[DESIGN, "--out", &path, "--keep-every", "0"]);
-    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", error(&output));
+    assert!(matches!(output.status.code(), Some(0..=2)), "{}", error(&output));
     assert!(error(&output).contains("it is a link; a folder is wanted"), "{}", error(&output));
     assert_eq!(std::fs::read_to_string(elsewhere.join("precious")).expect("a file"), "as it was");
     assert_eq!(std::fs::read_dir(&elsewhere).expect("a folder").count(), 1);
@@ -335,7 +335,7 @@ fn starts_side_by_side_are_kept_without_a_word() {
     std::fs::write(kept.join("pytorch_model.bin"), "mine").expect("a file");
     let path = out.display().to_string();
     let output = run(&[DESIGN, "--out", &path, "--keep-every", "0", "--seeds", "4", "--threads", "4"]);
-    assert!(matches!(output.status.code(), Some(0 | 1)));
+    assert!(matches!(output.status.code(), Some(0..=2)));
     assert_eq!(error(&output), "");
     assert_eq!(std::fs::read_to_string(kept.join("pytorch_model.bin")).expect("a file"), "mine");
     assert_eq!(std::fs::read_dir(&kept).expect("a folder").count(), 1);
@@ -374,7 +374,7 @@ fn what_is_kept_stays_until_something_takes_its_place() {
     let _ = child.kill();
     let _ = child.wait();
     let resumed = run(&["resume", &path]);
-    assert!(matches!(resumed.status.code(), Some(0 | 1)), "{}", error(&resumed));
+    assert!(matches!(resumed.status.code(), Some(0..=2)), "{}", error(&resumed));
     assert_eq!(whole, numbers(&out));
 }
 

@@ -13,7 +13,7 @@ use barrier_check::dem::model::{Material, Model};
 use barrier_check::dem::simulation::Simulation;
 use barrier_check::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use barrier_check::dem::tables::surfaces::{Span, Surface, SurfaceRole};
-use barrier_check::scene::flow::packing::{PackingBox, pack};
+use barrier_check::scene::flow::packing::{PackingRoom, pack};
 
 /// Radius of the spheres (m).
 pub const RADIUS: f64 = 0.007635;
@@ -148,7 +148,7 @@ impl State {
 
     fn packed(&self) -> Vec<Grain> {
         let bodies: Vec<GrainBody> = (0..self.count).map(|id| self.body(id)).collect();
-        let room = PackingBox { size: Vec3::new(0.44, 0.30, 0.15) * self.scale() };
+        let room = PackingRoom { size: Vec3::new(0.44, 0.30, 0.15) * self.scale(), nose: 0.0, apart: false };
         let (mut grains, length) = pack(&bodies, self.shape, room, 1).expect("fits");
         for grain in &mut grains {
             grain.position.x *= 0.44 * self.scale() / length;

@@ -14,7 +14,7 @@ use crate::sealed::{Broken, seal, unseal};
 
 const NAME: &[u8; 8] = b"BARRKPT\n";
 /// Changes whenever anything that is kept changes.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// The program that writes, down to the commit: another one would go on differently.
 const PROGRAM: &str = concat!(env!("CARGO_PKG_VERSION"), " ", env!("BARRIER_CHECK_COMMIT"));

@@ -2,7 +2,7 @@
 
 use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
-use crate::design::{BarrierDesign, Design, FlexibleNet};
+use crate::design::{BarrierDesign, Design, FlexibleNet, LateralTo};
 use crate::sources::ANCHOR_FACTOR;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
@@ -15,15 +15,22 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         let rope = index + 1;
         let title = format!("Load of the anchors of main rope {rope}");
         let name = CheckName::new(format!("anchor_{rope}_load"), title, "N", ANCHOR_FACTOR);
-        Outcome::at_most(name, *demand, capacity, design.limits.anchor_utilisation)
+        let outcome = Outcome::at_most(name, *demand, capacity, design.limits.anchor_utilisation).of_rope(index);
+        match net.lateral_to {
+            LateralTo::RopeEnds => outcome,
+            LateralTo::Anchors => outcome.only_by_simulation(
+                "the lateral ropes are tied to the anchors, and the equations do not know their load",
+            ),
+        }
     });
     by_load.chain(against_plateau(net, design, capacity)).collect()
 }
 
-/// A dissipator at work loads its anchor with its plateau, whatever the design flow shows.
+/// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
 fn against_plateau(net: &FlexibleNet, design: &Design, capacity: Resistance) -> Option<Outcome> {
     let plateau = net.dissipators?.plateau;
     let name = CheckName::new("anchor_plateau", "Anchors against the plateau of their dissipators", "N", ANCHOR_FACTOR);
-    let demand = Demand { guideline: Some(design.factors.load * plateau), ..Demand::default() };
-    Some(Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation))
+    let demand = Demand { guideline: Some(design.factors.overstrength * plateau), ..Demand::default() };
+    let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation);
+    Some(outcome.whatever_the_pressures())
 }

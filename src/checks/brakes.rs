@@ -26,6 +26,7 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
                 Resistance { characteristic: dissipator.stroke, factor: 1.0 },
                 design.limits.brake_utilisation,
             )
+            .of_rope(index)
         })
         .collect()
 }

@@ -10,6 +10,15 @@ pub const OVERLAP_LIMIT: f64 = 0.20;
 /// above means that contacts stiffened between two audits.
 pub const STEP_LIMIT: f64 = 1.5;
 
+/// Share of the mass that may go through the bed or a side wall; it counts as lost.
+pub const STRAY_LIMIT: f64 = 0.001;
+/// Density that the packing of the flow may fall short of, as a share of the one asked for.
+pub const PACKING_LIMIT: f64 = 0.03;
+/// Energy stored in the contacts of a moving flow at its release, over its energy of motion.
+pub const STORED_LIMIT: f64 = 0.01;
+/// Share of the mass that may stop upstream and never lean on the barrier.
+pub const STOPPED_LIMIT: f64 = 0.5;
+
 /// What a run shows of its own numerics.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Numerics {
@@ -18,8 +27,15 @@ pub struct Numerics {
     pub step_ratio: f64,
     /// Grains whose centre has gone through a rope.
     pub crossings: u32,
-    /// Grains that have left the channel through or over its bed or side walls.
+    /// Grains that have gone through the bed or a side wall, and their share of the mass.
     pub strays: u32,
+    pub stray_share: f64,
+    /// By how much the packing of the flow falls short of the density asked for, as a share of it.
+    pub packing_shortfall: f64,
+    /// Energy stored in contacts at the release of a moving flow, over its energy of motion.
+    pub stored_at_release: f64,
+    /// Share of the mass that stopped upstream.
+    pub stopped_upstream: f64,
     /// Why the run ended early, if it did.
     pub broke_down: Option<String>,
     /// Whether no grain ever touched the barrier.
@@ -38,6 +54,10 @@ impl Numerics {
             step_ratio: larger(self.step_ratio, other.step_ratio),
             crossings: self.crossings + other.crossings,
             strays: self.strays + other.strays,
+            stray_share: larger(self.stray_share, other.stray_share),
+            packing_shortfall: larger(self.packing_shortfall, other.packing_shortfall),
+            stored_at_release: larger(self.stored_at_release, other.stored_at_release),
+            stopped_upstream: larger(self.stopped_upstream, other.stopped_upstream),
             broke_down: self.broke_down.clone().or_else(|| other.broke_down.clone()),
             missed: self.missed || other.missed,
             unfinished: self.unfinished || other.unfinished,
@@ -61,15 +81,33 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     let stiffer = "a larger flow.contact_modulus makes grains stiffer";
     hold("the largest overlap over the grain's radius", numerics.overlap, OVERLAP_LIMIT, stiffer);
     hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT, finer);
+    hold(
+        "the share of the mass that has gone through the bed or a side wall",
+        numerics.stray_share,
+        STRAY_LIMIT,
+        "a larger flow.contact_modulus makes grains stiffer",
+    );
+    hold(
+        "the share by which the packed flow falls short of the bulk density asked for",
+        numerics.packing_shortfall,
+        PACKING_LIMIT,
+        "grains are too large for the block or the density too high: smaller grains, a deeper block or a lower flow.bulk_density",
+    );
+    hold(
+        "the energy stored in contacts at the release, over the energy of motion,",
+        numerics.stored_at_release,
+        STORED_LIMIT,
+        "the flow would start with speed that nobody asked for: a lower flow.bulk_density leaves grains more room",
+    );
+    hold(
+        "the share of the mass that stopped upstream and never leant on the barrier",
+        numerics.stopped_upstream,
+        STOPPED_LIMIT,
+        "this is no test of the barrier: a flow that arrives needs less friction on the bed, more slope or more velocity",
+    );
     if numerics.crossings > 0 {
         let count = numerics.crossings;
         doubts.push(format!("{count} times a grain has slipped through a rope; {stiffer}"));
-    }
-    if numerics.strays > 0 {
-        let count = numerics.strays;
-        doubts.push(format!(
-            "{count} grains have left the channel through its bed or beside its walls; raise channel.wall_height, or {finer}"
-        ));
     }
     if numerics.missed {
         doubts.push("the flow came to rest without ever touching the barrier".to_string());
@@ -103,7 +141,11 @@ mod tests {
             Numerics { overlap: 0.21, ..Numerics::default() },
             Numerics { step_ratio: 2.0, ..Numerics::default() },
             Numerics { crossings: 1, ..Numerics::default() },
-            Numerics { strays: 1, ..Numerics::default() },
+            Numerics { stray_share: 0.002, ..Numerics::default() },
+            Numerics { packing_shortfall: 0.04, ..Numerics::default() },
+            Numerics { stored_at_release: 0.02, ..Numerics::default() },
+            Numerics { stopped_upstream: 0.6, ..Numerics::default() },
+            Numerics { stopped_upstream: f64::NAN, ..Numerics::default() },
             Numerics { missed: true, ..Numerics::default() },
             Numerics { unfinished: true, ..Numerics::default() },
             Numerics { broke_down: Some("x".into()), ..Numerics::default() },

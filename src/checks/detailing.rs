@@ -1,8 +1,23 @@
 //! Rules of detailing, and the range in which the guideline has been used. They warn; they do not fail a design.
 
+use crate::checks::range::LARGEST_SAG;
 use crate::demand::from_loads::Guideline;
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
+use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
+
+/// What hangs on a rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bearing {
+    /// A warning.
+    Advice,
+    /// Beyond it the guideline's pressures are used outside the range they are known for.
+    Pressures,
+    /// Beyond it the equations of a main rope are.
+    Ropes,
+    /// Beyond it the design flow itself is in doubt.
+    Flow,
+}
 
 /// One rule: what was found against what is advised, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +30,7 @@ pub struct Rule {
     pub source: &'static str,
     /// What to do where it does not hold.
     pub advice: &'static str,
+    pub bearing: Bearing,
 }
 
 impl Rule {
@@ -31,7 +47,7 @@ fn most(
     source: &'static str,
     advice: &'static str,
 ) -> Rule {
-    Rule { title, found, least: None, most: Some(most), unit, source, advice }
+    Rule { title, found, least: None, most: Some(most), unit, source, advice, bearing: Bearing::Advice }
 }
 
 fn least(
@@ -42,7 +58,7 @@ fn least(
     source: &'static str,
     advice: &'static str,
 ) -> Rule {
-    Rule { title, found, least: Some(least), most: None, unit, source, advice }
+    Rule { title, found, least: Some(least), most: None, unit, source, advice, bearing: Bearing::Advice }
 }
 
 const ALBABA: &str = "Albaba 2015";
@@ -61,15 +77,20 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             unit: "kg/m³",
             source: "Volkwein 2014 (after Albaba 2015)",
             advice: "K and λ of the guideline were set for flows within this range: compare with \"Other models for the first surge\", and with K and λ of the simulation",
+            // Pressures are proportional to the density; that K or λ hang on it as well is not known.
+            bearing: Bearing::Advice,
         },
-        least(
-            "Froude number",
-            input.froude(),
-            (5.3 / input.dynamic_pressure).powf(1.0 / 1.5),
-            "",
-            "where 5.3 Fr^−1.5 of Cui et al. 2015 equals the design's λ",
-            "a model that follows the Froude number asks for more than the design's λ: compare with \"Other models for the first surge\" and raise λ if they agree",
-        ),
+        Rule {
+            bearing: Bearing::Pressures,
+            ..least(
+                "Froude number",
+                input.froude(),
+                (5.3 / input.dynamic_pressure).powf(1.0 / 1.5),
+                "",
+                "where 5.3 Fr^−1.5 of Cui et al. 2015 equals the design's λ",
+                "a model that follows the Froude number asks for more than the design's λ: compare with \"Other models for the first surge\" and raise λ if they agree",
+            )
+        },
     ];
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
         rules.push(most("Depth of the flow", input.depth, 2.0, "m", RANGE, SPECIAL));
@@ -81,28 +102,54 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
     }
     rules.extend(guideline.retention.map(|held| {
         least(
-            "Volume held against that of the design flow",
+            "Volume held against that of the event",
             held.volume,
-            design.flow.volume(),
+            design.flow.event_volume,
             "m³",
             "derived, with the shares of height and slope of the design",
-            "one flow more than fills the barrier: what comes after goes over it",
+            "the event more than fills the barrier: what comes after goes over it",
         )
     }));
+    rules.push(of_discharge(design, guideline));
+    // What hangs on grains of which nothing is said.
+    rules.retain(|rule| !rule.most.is_some_and(f64::is_nan));
     rules
+}
+
+/// Most that the discharge of the design flow and the estimate from the event's volume may differ, either way.
+const LIKE_DISCHARGES: f64 = 3.0;
+
+/// b h v of the design flow against what flows of the event's volume discharge (Rickenmann 1999): a volume that is one surge of several,
+/// or a wrong depth or velocity, shows here.
+fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
+    let input = &guideline.input;
+    let [estimate, ..] = peak_discharge(design.flow.event_volume);
+    Rule {
+        title: "Discharge b h v over the estimate from the event's volume",
+        found: design.channel.width * input.depth * input.velocity / estimate.value,
+        least: Some(1.0 / LIKE_DISCHARGES),
+        most: Some(LIKE_DISCHARGES),
+        unit: "",
+        source: "Rickenmann 1999, Q = 0.1 V^0.833, from memory; such estimates scatter by a factor of two and more",
+        advice: "volume, depth and velocity do not belong together: is flow.volume one surge of a larger event (flow.event_volume)?",
+        bearing: Bearing::Flow,
+    }
 }
 
 /// Beyond a sag of a third of the span a rope hangs down the channel more than it spans it.
 fn of_sag(design: &Design, guideline: &Guideline) -> Option<Rule> {
     let sag = guideline.ropes.iter().map(|rope| rope.state.sag).reduce(f64::max)?;
-    Some(most(
-        "Largest sag of a main rope over its span, by the equations",
-        sag / design.channel.width,
-        0.3,
-        "-",
-        "derived: the parabola and small strains no longer hold",
-        "shorten the span, stiffen the rope or share the load among more ropes",
-    ))
+    Some(Rule {
+        bearing: Bearing::Ropes,
+        ..most(
+            "Largest sag of a main rope over its span, by the equations",
+            sag / design.channel.width,
+            LARGEST_SAG,
+            "-",
+            "derived: the parabola and small strains no longer hold",
+            "shorten the span, stiffen the rope or share the load among more ropes",
+        )
+    })
 }
 
 fn of_point_load(design: &Design, net: &FlexibleNet) -> Option<Rule> {
@@ -115,7 +162,7 @@ fn of_point_load(design: &Design, net: &FlexibleNet) -> Option<Rule> {
             second,
             "m",
             "derived",
-            "below it a part goes into the rope that the bed holds; give anchors.bed_resistance to have its bolts checked",
+            "below it a part goes into the rope that the bed holds; anchors.bed_bolt_spacing and bed_bolt_resistance have its bolts checked",
         )
     })
 }
@@ -133,7 +180,7 @@ fn of_volume(held: Retention) -> Rule {
 
 fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
     let width = design.channel.width;
-    let coarse = design.flow.sizes.quantile(0.9);
+    let coarse = design.flow.sizes.named(0.9);
     let lean = (design.channel.slope + net.tilt).to_degrees();
     let mut rules = vec![
         most(

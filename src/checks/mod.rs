@@ -7,6 +7,7 @@ pub mod credibility;
 pub mod detailing;
 pub mod height;
 pub mod outcome;
+pub mod range;
 pub mod retained;
 pub mod ropes;
 pub mod total_force;

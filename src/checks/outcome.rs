@@ -12,7 +12,9 @@ pub enum CheckVerdict {
     /// Passes with less than 10 % to spare.
     Warn,
     Fail,
-    /// Nothing to compare with: a demand without a capacity.
+    /// Cannot be judged: something is missing, or the model cannot tell.
+    Open,
+    /// For information: the design sets no limit, and none is needed.
     Info,
 }
 
@@ -22,7 +24,31 @@ impl CheckVerdict {
             Self::Pass => "pass",
             Self::Warn => "warn",
             Self::Fail => "fail",
+            Self::Open => "open",
             Self::Info => "info",
+        }
+    }
+}
+
+/// Why a check is open, with what would close it, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Opening {
+    /// The design gives no resistance for a part that carries load.
+    NotGiven(String),
+    /// The equations cannot make this check.
+    NeedsSimulation(String),
+    /// The demand is closer to the limit than the model is accurate.
+    TooClose(String),
+    /// The formula that governs is used outside its range.
+    OutOfRange(String),
+}
+
+impl Opening {
+    pub fn words(&self) -> &str {
+        match self {
+            Self::NotGiven(words) | Self::NeedsSimulation(words) | Self::TooClose(words) | Self::OutOfRange(words) => {
+                words
+            }
         }
     }
 }
@@ -42,6 +68,12 @@ pub struct Outcome {
     /// SI unit of demand and capacity; `-` for shares.
     pub unit: &'static str,
     pub verdict: CheckVerdict,
+    /// Why the check is open; nothing for any other verdict.
+    pub open: Option<Opening>,
+    /// The main rope, counted from 0, whose parabola by the equations gives the guideline's demand, if one does.
+    pub rope: Option<usize>,
+    /// Whether the guideline's demand follows from its pressures.
+    pub rests_on_pressures: bool,
     pub source: &'static str,
 }
 
@@ -85,12 +117,66 @@ impl Outcome {
             // Nothing may be missing, and something is.
             (missing, _) => 1.0 + missing,
         });
+        if least <= 0.0 && utilisation.is_none() {
+            // Whatever is kept is enough.
+            return Self::informative(name, demand);
+        }
         Self::judged(name, demand, Some(least), utilisation)
     }
 
-    /// A demand that nothing is held against.
+    /// A demand that needs no limit.
     pub fn informative(name: CheckName, demand: Demand) -> Self {
         Self::judged(name, demand, None, None)
+    }
+
+    /// A demand on a part for which the design gives no resistance: open as soon as the part carries load, with what to `give`.
+    pub fn without_resistance(name: CheckName, demand: Demand, give: &str) -> Self {
+        let mut outcome = Self::informative(name, demand);
+        // Asked as "unloaded", so that a demand that is unknown or not a number leaves the check open.
+        let unloaded = demand.largest().is_some_and(|largest| largest <= 0.0);
+        if !unloaded {
+            outcome.leave_open(Opening::NotGiven(format!(
+                "the part carries load and the design gives no resistance for it (give {give})"
+            )));
+        }
+        outcome
+    }
+
+    /// Leaves a check that would otherwise hold open where nothing was simulated, because the equations alone cannot make it.
+    pub fn only_by_simulation(mut self, why: &str) -> Self {
+        if self.demand.simulation.is_none() && matches!(self.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
+            self.leave_open(Opening::NeedsSimulation(format!("{why} (run the simulation)")));
+        }
+        self
+    }
+
+    /// The guideline's demand comes from the parabola of this main rope.
+    pub fn of_rope(self, rope: usize) -> Self {
+        Self { rope: Some(rope), ..self }
+    }
+
+    /// The guideline's demand is a property of a part, whatever presses on the barrier.
+    pub fn whatever_the_pressures(self) -> Self {
+        Self { rests_on_pressures: false, ..self }
+    }
+
+    pub fn leave_open(&mut self, why: Opening) {
+        (self.verdict, self.open) = (CheckVerdict::Open, Some(why));
+    }
+
+    /// Whether the guideline's demand alone is beyond the capacity: no simulation can make such a check hold.
+    pub fn fails_by_equations(&self) -> bool {
+        let limit = self.capacity.filter(|_| self.resistance.is_some());
+        self.verdict == CheckVerdict::Fail
+            && self.demand.guideline.zip(limit).is_some_and(|(demand, capacity)| demand > capacity)
+    }
+
+    /// Whether the guideline's demand decides, because it is the larger one or the only one.
+    pub fn governed_by_equations(&self) -> bool {
+        match (self.demand.guideline, self.demand.simulation) {
+            (Some(guideline), Some(simulation)) => guideline >= simulation,
+            (guideline, _) => guideline.is_some(),
+        }
     }
 
     fn judged(name: CheckName, demand: Demand, capacity: Option<f64>, utilisation: Option<f64>) -> Self {
@@ -102,7 +188,26 @@ impl Outcome {
             Some(_) => CheckVerdict::Fail,
         };
         let CheckName { id, title, unit, source } = name;
-        Self { id, title, demand, capacity, resistance: None, utilisation, unit, verdict, source }
+        let mut outcome = Self {
+            id,
+            title,
+            demand,
+            capacity,
+            resistance: None,
+            utilisation,
+            unit,
+            verdict,
+            open: None,
+            rope: None,
+            rests_on_pressures: true,
+            source,
+        };
+        if capacity.is_some() && utilisation.is_none() {
+            outcome.leave_open(Opening::NeedsSimulation(
+                "the equations give no demand for it (run the simulation)".into(),
+            ));
+        }
+        outcome
     }
 }
 
@@ -110,15 +215,13 @@ impl Outcome {
 mod tests {
     use super::*;
 
+    fn name() -> CheckName {
+        CheckName::new("x", "x", "N", "x")
+    }
+
     fn verdict(value: f64) -> CheckVerdict {
-        let demand = Demand { guideline: Some(1.0), simulation: Some(value), cap: None };
-        Outcome::at_most(
-            CheckName::new("x", "x", "N", "x"),
-            demand,
-            Resistance { characteristic: 100.0, factor: 1.0 },
-            1.0,
-        )
-        .verdict
+        let demand = Demand { guideline: Some(1.0), simulation: Some(value), ..Demand::default() };
+        Outcome::at_most(name(), demand, Resistance { characteristic: 100.0, factor: 1.0 }, 1.0).verdict
     }
 
     #[test]
@@ -130,7 +233,7 @@ mod tests {
         assert_eq!(verdict(-f64::NAN), CheckVerdict::Fail);
         let demand = Demand { guideline: Some(1.0), ..Demand::default() };
         let none = Resistance { characteristic: -5.0, factor: 1.0 };
-        assert_eq!(Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, none, 1.0).verdict, CheckVerdict::Fail);
+        assert_eq!(Outcome::at_most(name(), demand, none, 1.0).verdict, CheckVerdict::Fail);
     }
 
     #[test]
@@ -144,5 +247,34 @@ mod tests {
         assert_eq!(outcome(1.0, 1.0).verdict, CheckVerdict::Pass);
         assert_eq!(outcome(0.999, 1.0).verdict, CheckVerdict::Fail);
         assert_eq!(outcome(0.0, 0.0).verdict, CheckVerdict::Warn);
+    }
+
+    #[test]
+    fn a_loaded_part_without_resistance_is_open_and_an_unloaded_one_is_not() {
+        let of = |demand| Outcome::without_resistance(name(), demand, "the key x").verdict;
+        let loaded = |value| Demand { simulation: Some(value), ..Demand::default() };
+        assert_eq!(of(loaded(1.0)), CheckVerdict::Open);
+        assert_eq!(of(loaded(f64::NAN)), CheckVerdict::Open);
+        assert_eq!(of(Demand::default()), CheckVerdict::Open);
+        assert_eq!(of(Demand { guideline: Some(5.0), ..loaded(0.0) }), CheckVerdict::Open);
+        assert_eq!(of(loaded(0.0)), CheckVerdict::Info);
+    }
+
+    #[test]
+    fn what_the_equations_cannot_judge_is_open_unless_they_already_fail_it() {
+        let capacity = Resistance { characteristic: 100.0, factor: 1.0 };
+        let by_equations = |guideline: Option<f64>| {
+            let demand = Demand { guideline, ..Demand::default() };
+            Outcome::at_most(name(), demand, capacity, 1.0).only_by_simulation("why").verdict
+        };
+        assert_eq!(by_equations(None), CheckVerdict::Open);
+        assert_eq!(by_equations(Some(10.0)), CheckVerdict::Open);
+        assert_eq!(by_equations(Some(101.0)), CheckVerdict::Fail);
+        let simulated = Demand { guideline: Some(10.0), simulation: Some(20.0), ..Demand::default() };
+        let outcome = Outcome::at_most(name(), simulated, capacity, 1.0).only_by_simulation("why");
+        assert_eq!((outcome.verdict, outcome.open), (CheckVerdict::Pass, None));
+        // A least share needs the simulation, but for one of nothing.
+        let least = |least| Outcome::at_least(CheckName::new("x", "x", "-", "x"), Demand::default(), least).verdict;
+        assert_eq!((least(0.9), least(0.0)), (CheckVerdict::Open, CheckVerdict::Info));
     }
 }

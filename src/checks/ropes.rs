@@ -13,7 +13,7 @@ pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
         .map(|(index, demand)| {
             let number = index + 1;
             let title = format!("Tension of main rope {number}");
-            check(design, &net.main_ropes.rope, format!("rope_{number}_tension"), title, *demand)
+            check(design, &net.main_ropes.rope, format!("rope_{number}_tension"), title, *demand).of_rope(index)
         })
         .collect()
 }

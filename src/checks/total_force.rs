@@ -1,4 +1,5 @@
-//! Total force on the barrier against the resistance of a rigid wall, if that is known.
+//! Total force on the barrier against the resistance of a rigid wall. A net's force is borne by its parts, which are checked one by
+//! one; a wall that stands by its weight is checked against sliding and overturning.
 
 use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::Demands;
@@ -6,14 +7,21 @@ use crate::design::{BarrierDesign, Design};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = CheckName::new("total_force", "Total force on the barrier", "N", DESIGN_LIMIT);
+    let name = |source| CheckName::new("total_force", "Total force on the barrier", "N", source);
     let demand = demands.total_force;
-    let resistance = match &design.barrier {
-        BarrierDesign::RigidWall(wall) => wall.resistance,
-        BarrierDesign::FlexibleNet(_) => None,
+    let BarrierDesign::RigidWall(wall) = &design.barrier else {
+        return vec![Outcome::informative(name(NO_LIMIT), demand)];
     };
-    vec![match resistance {
-        Some(resistance) => Outcome::at_most(name, demand, Resistance { characteristic: resistance, factor: 1.0 }, 1.0),
-        None => Outcome::informative(CheckName { source: NO_LIMIT, ..name }, demand),
+    vec![match (wall.resistance, wall.stability) {
+        (Some(characteristic), _) => {
+            let resistance = Resistance { characteristic, factor: wall.resistance_factor };
+            Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0)
+        }
+        (None, Some(_)) => Outcome::informative(name(NO_LIMIT), demand),
+        (None, None) => Outcome::without_resistance(
+            name(NO_LIMIT),
+            demand,
+            "barrier.rigid_wall.resistance or barrier.rigid_wall.stability",
+        ),
     }]
 }

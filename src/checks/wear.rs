@@ -1,6 +1,6 @@
 //! Ropes that break or draw out in the simulation, where the design lets them.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Outcome};
+use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, FlexibleNet, Rope};
 use crate::sources::{NO_LIMIT, NOTHING_BREAKS};
@@ -18,7 +18,9 @@ pub fn check_broken(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let name = CheckName::new("broken_pieces", "Pieces of rope that broke", "", NOTHING_BREAKS);
     let mut outcome = Outcome::informative(name, demands.broken_pieces);
     match outcome.demand.simulation {
-        None => {}
+        None => outcome.leave_open(Opening::NeedsSimulation(
+            "whether ropes break is seen in the simulation alone (run it)".into(),
+        )),
         Some(0.0) => outcome.verdict = CheckVerdict::Pass,
         Some(count) => (outcome.verdict, outcome.utilisation) = (CheckVerdict::Fail, Some(1.0 + count)),
     }

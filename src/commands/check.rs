@@ -11,10 +11,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, Order, Vault};
 use crate::commands::ExitCode;
-use crate::commands::output::{exit_code, hand_over, summarise, write_report};
+use crate::commands::output::{exit_code, summarise, write_report};
 use crate::design::FidelityWish;
-use crate::design::read::{DesignFile, read_design};
+use crate::design::read::{DesignFile, Purpose, read_design, read_design_for};
 use crate::fidelity::choose;
+use crate::load_cases::{cases, factored};
 use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::scene::estimate::{Estimate, estimate};
@@ -43,7 +44,7 @@ pub struct Wishes {
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given. The run is kept every so often, so
 /// that it can be resumed.
 pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Duration) -> ExitCode {
-    let (file, folder) = match prepare(path, out, "") {
+    let (file, folder) = match prepare(Purpose::Simulation, path, out) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
@@ -87,7 +88,10 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
 }
 
 fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Duration, fresh: bool) -> Vault {
-    let several = order.starts > 1 || order.vary || file.design.simulation.fidelity == FidelityWish::Auto;
+    let several = order.starts > 1
+        || order.vary
+        || file.design.simulation.fidelity == FidelityWish::Auto
+        || factored(&file.design).is_some();
     let reported = folder.join("result.json").exists();
     Vault::new(folder.join(checkpoint::FOLDER), order, keep_every, several || reported, fresh)
 }
@@ -127,7 +131,7 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let estimate = estimate(&file.design, &fidelity);
     let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate;
     let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let starts = f64::from(wishes.starts);
+    let starts = f64::from(wishes.starts) * cases(&file.design).len() as f64;
     // A pipe that nobody reads to its end is no error.
     let say = |line: String| drop(writeln!(std::io::stdout(), "{line}"));
     say(format!("grains            {grains:.0} of {spheres:.0} spheres"));
@@ -136,6 +140,9 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     say(format!("time              about {} on one core, to a factor of two", duration(seconds * starts)));
     if cores > 1 {
         say(format!("                  about {} on {cores} cores", duration(seconds * starts / (0.8 * cores as f64))));
+    }
+    if cases(&file.design).len() > 1 {
+        say("load cases        the flow as it is, and with the partial factor on loads".into());
     }
     say(format!("memory            about {:.0} MB for each start", bytes / 1e6));
     if file.design.simulation.fidelity == FidelityWish::Auto {
@@ -161,7 +168,7 @@ fn duration(seconds: f64) -> String {
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
 pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
-    let (file, folder) = match prepare(path, out, "_loads") {
+    let (file, folder) = match prepare(Purpose::Equations, path, out) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
@@ -169,18 +176,29 @@ pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
     if let Err(code) = make_folder(&folder) {
         return code;
     }
-    match hand_over(&by_equations(file), &folder, false) {
-        ExitCode::Undecided => give_up(&folder, there_before),
-        code => code,
+    let run = by_equations(file);
+    match write_report(&run, &folder, false) {
+        Ok(view) => {
+            summarise(&view, &folder, false);
+            exit_code(run.verdict)
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            give_up(&folder, there_before)
+        }
     }
 }
 
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// The design, and the folder its report goes to.
-fn prepare(path: &Path, out: Option<&Path>, suffix: &str) -> Result<(DesignFile, PathBuf), ExitCode> {
+fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignFile, PathBuf), ExitCode> {
+    let suffix = match purpose {
+        Purpose::Simulation => "",
+        Purpose::Equations => "_loads",
+    };
     let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(format!("{name}{suffix}")), PathBuf::from);
-    match load(path) {
+    match load_for(purpose, path) {
         Ok(file) => {
             let folder = folder_of(&file.name);
             Ok((file, folder))
@@ -222,8 +240,13 @@ fn tell_of_earlier_run(folder: &Path) {
     }
 }
 
-/// Reads and checks a design file.
+/// Reads and checks a design file that is to be simulated.
 pub fn load(path: &Path) -> Result<DesignFile, Problems> {
+    load_for(Purpose::Simulation, path)
+}
+
+/// The same for a purpose.
+fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
     let name = path.display().to_string();
     let mut bytes = Vec::new();
     let opened = std::fs::File::open(path).and_then(|file| file.take(MOST_READ).read_to_end(&mut bytes));
@@ -232,7 +255,7 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
             .hint("the examples are in the folder `designs`");
         return Err(Problems { file: name, list: vec![problem] });
     }
-    read_design(&name, &bytes)
+    read_design_for(purpose, &name, &bytes)
 }
 
 /// Listens for Ctrl-C and for being asked to end: the first time the run is kept at its next stop and ends, the second time the

@@ -21,7 +21,8 @@ pub fn design_schema() -> Value {
 }
 
 fn section(keys: &[Key]) -> Value {
-    let required: Vec<&str> = keys.iter().filter(|key| key.need == Need::Required).map(|key| key.name).collect();
+    let required: Vec<&str> =
+        keys.iter().filter(|key| matches!(key.need, Need::Required | Need::ForGrains)).map(|key| key.name).collect();
     json!({ "type": "object", "additionalProperties": false, "properties": properties(keys), "required": required })
 }
 

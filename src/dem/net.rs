@@ -5,6 +5,7 @@ use crate::dem::contact::law::{LawConstants, Memory};
 use crate::dem::contact::ropes::Push;
 use crate::dem::elements::cylinder::{Cylinder, strain_all};
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::ground::Footing;
 use crate::dem::elements::ring::{RingContext, RingForce, RingSide};
 use crate::dem::elements::rope::{Fate, pull};
 use crate::dem::tables::barrier::Barrier;
@@ -28,7 +29,7 @@ pub struct NetForces {
     pub stored: f64,
     /// Lost in rope damping, and in ropes that draw out or break (J).
     pub lost_ropes: f64,
-    /// Lost by rings sliding on their ropes, in their dashpots, and by side extensions (J).
+    /// Lost by rings sliding on their ropes, in their dashpots, by side extensions, and where the barrier lies on the ground (J).
     pub lost_rings: f64,
     /// Lost in dissipators (J).
     pub lost_dissipators: f64,
@@ -36,6 +37,8 @@ pub struct NetForces {
     slipped: Vec<Dissipator>,
     let_go: Vec<Dissipator>,
     slid: Vec<(u32, Memory)>,
+    /// Where the barrier lies on the ground now.
+    lies: Vec<Footing>,
     /// Pieces of rope that were overloaded.
     overloaded: Vec<(usize, Fate)>,
     bent: Vec<(usize, Cylinder)>,
@@ -55,6 +58,7 @@ pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
     net.pull_segments(barrier, law.time_step);
     net.pull_dissipators(barrier);
     net.hold(barrier);
+    net.rest_on_ground(barrier, law);
     net.strain_cylinders(barrier, law.time_step);
     let context = RingContext {
         nodes: &barrier.nodes,
@@ -112,6 +116,18 @@ impl NetForces {
             self.stored += result.stored;
             self.lost_rings += result.lost;
         }
+    }
+
+    fn rest_on_ground(&mut self, barrier: &Barrier, law: &LawConstants) {
+        let Some(ground) = &barrier.ground else { return };
+        ground.touch(&barrier.nodes, &barrier.footings, law, |footing, response| {
+            self.forces[footing.node as usize] += Vec3::from(response.force);
+            self.stored += response.stored;
+            self.lost_rings += response.lost_friction + response.lost_damping;
+            if ground.holds(&footing, &barrier.nodes) {
+                self.lies.push(footing);
+            }
+        });
     }
 
     fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {
@@ -197,6 +213,7 @@ impl NetForces {
         }
         barrier.dissipators.clone_from_slice(&self.slipped);
         barrier.holds.clone_from_slice(&self.let_go);
+        barrier.footings.clone_from(&self.lies);
         for (ring, (near, memory)) in barrier.rings.iter_mut().zip(&self.slid) {
             (ring.near, ring.memory) = (*near, *memory);
         }

@@ -7,10 +7,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dem::recorders::histories::{Histories, peak, smoothed};
+use crate::demand::from_histories::STANDING;
 use crate::loads::input::GuidelineInput;
 
 /// Time series, one value for each sample; forces per width (N/m). A coefficient is NaN where its depth is less than a grain
-/// or its velocity too small to tell.
+/// or its velocity too small to tell, and with the velocity upstream also where the window in which it is gauged holds grains at rest.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Coefficients {
     pub time: Vec<f64>,
@@ -66,6 +67,7 @@ pub fn coefficients(
         let fixed = weight * deposit * (0.5 * deposit + depth);
         let own = 0.5 * weight * depth * depth;
         let flux = |velocity: f64| input.density * velocity * velocity * depth;
+        let standing = histories.incoming[sample].at_rest > STANDING;
         let lambda = |velocity: f64| {
             if depth > grain && velocity > slow {
                 (second - input.earth_pressure * own) / flux(velocity)
@@ -83,7 +85,7 @@ pub fn coefficients(
         told.guideline_dead.push(input.earth_pressure * fixed);
         told.guideline_moving.push(input.earth_pressure * own + input.dynamic_pressure * flux(mean[sample].max(0.0)));
         told.earth_pressure.push(if deposit > grain { first / fixed } else { f64::NAN });
-        told.dynamic_upstream.push(lambda(upstream[sample]));
+        told.dynamic_upstream.push(if standing { f64::NAN } else { lambda(upstream[sample]) });
         told.dynamic_mean.push(lambda(mean[sample]));
     }
     told

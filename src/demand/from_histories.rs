@@ -20,8 +20,10 @@ pub struct Observed {
     /// Highest mean velocity of all grains along the channel (m/s), and its time (s).
     pub velocity_peak: f64,
     pub velocity_peak_time: f64,
-    /// Share of the mass that has not passed the barrier.
+    /// Of the mass that has come to the barrier, the share that it holds.
     pub retained: f64,
+    /// Share of the mass that came to rest upstream, without leaning on the barrier.
+    pub stopped_upstream: f64,
     /// Shares that went through, under, beside, over.
     pub lost: [f64; 4],
     /// Lowest height of the top rope at the end over its initial height; 1 for a wall.
@@ -31,6 +33,8 @@ pub struct Observed {
     /// Largest mean tension along each main rope, and its mean at the end (N).
     pub rope_mean_peak: Vec<f64>,
     pub rope_mean_residual: Vec<f64>,
+    /// How far downstream each main rope bulged at the most (m).
+    pub extension: Vec<f64>,
     /// Largest load of each rope's higher loaded anchor (N).
     pub anchor_force_peak: Vec<f64>,
     /// Larger stroke used by each rope's two dissipators (m).
@@ -43,6 +47,9 @@ pub struct Observed {
     pub lateral_tension_peak: f64,
     /// Largest force on what holds the lowest rope to the bed (N).
     pub bed_force_peak: f64,
+    /// Largest force on one of its bolts, and the largest lift of one (N); 0 where their distance is not known.
+    pub bolt_force_peak: f64,
+    pub bolt_lift_peak: f64,
     pub net_tension_peak: f64,
     /// Largest tension of the net at the end (N).
     pub net_tension_residual: f64,
@@ -56,9 +63,11 @@ pub struct Observed {
     pub segment_residual: Vec<f64>,
     /// Largest moment about the toe (N m/m).
     pub moment_peak: f64,
-    /// The incoming flow when its momentum flux was largest.
+    /// The flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there.
     pub incoming: Gauge,
-    /// The same window when the total force peaked: thickness and velocity as the laboratory measured them.
+    /// Speed of the front on the last stretch before the gauge just upstream of the barrier (m/s); absent where it was not seen there.
+    pub front_velocity: Option<f64>,
+    /// The flow a barrier's height upstream when the total force peaked: thickness and velocity as the laboratory measured them.
     pub incoming_at_peak: Gauge,
     /// Depth of the deposit at the barrier at the end, at bulk density (m).
     pub deposit_depth: f64,
@@ -87,6 +96,8 @@ impl Observed {
         let velocity: Vec<f64> = histories.velocity.iter().map(|velocity| velocity[0]).collect();
         let (at_fastest, velocity_peak) = peak(&velocity);
         let lost = histories.lost.last().copied().unwrap_or_default();
+        let all_lost = lost.iter().sum::<f64>();
+        let held = 1.0 - all_lost - histories.stopped_upstream;
         let time = |index: usize| histories.time.get(index).copied().unwrap_or(0.0);
         let raw_peaks = |rows: &[Vec<f64>]| rows.iter().map(|row| peak(row).1).collect::<Vec<_>>();
         let width = design.channel.width;
@@ -97,18 +108,22 @@ impl Observed {
             force_residual: tail_mean(&force, reading.tail),
             velocity_peak,
             velocity_peak_time: time(at_fastest),
-            retained: 1.0 - lost.iter().sum::<f64>(),
+            retained: held / (held + all_lost),
+            stopped_upstream: histories.stopped_upstream,
             lost,
             residual_height: residual_height(histories),
             rope_tension_peak: raw_peaks(&histories.rope_largest),
             rope_mean_peak: raw_peaks(&histories.rope_mean),
             rope_mean_residual: histories.rope_mean.iter().map(|row| tail_mean(row, reading.tail)).collect(),
+            extension: raw_peaks(&histories.extension),
             anchor_force_peak: raw_peaks(&histories.anchors),
             brake_stroke: raw_peaks(&histories.strokes),
             brake_stroke_mean: raw_peaks(&histories.strokes_mean),
             brake_force_peak: raw_peaks(&histories.brakes),
             lateral_tension_peak: peak(&histories.lateral_largest).1,
             bed_force_peak: peak(&histories.bed_force).1,
+            bolt_force_peak: peak(&histories.bolt_largest).1,
+            bolt_lift_peak: peak(&histories.bolt_lift).1,
             net_tension_peak: peak(&histories.net_largest).1,
             net_tension_residual: tail_mean(&histories.net_largest, reading.tail),
             broken_pieces: peak(&histories.broken_pieces).1,
@@ -117,8 +132,9 @@ impl Observed {
             segment_peak: histories.segments.iter().map(|row| peak(&smoothed(row, reading.window)).1 / width).collect(),
             segment_residual: histories.segments.iter().map(|row| tail_mean(row, reading.tail) / width).collect(),
             moment_peak: peak(&smoothed(&histories.moment, reading.window)).1 / width,
-            incoming_at_peak: histories.incoming.get(at_peak).copied().unwrap_or_default(),
+            incoming_at_peak: histories.approaching.get(at_peak).copied().unwrap_or_default(),
             deposit_depth: histories.barrier_depth.last().copied().unwrap_or(0.0),
+            front_velocity: front_velocity(histories),
             ..Self::default()
         };
         observed.measure_coefficients(histories, design, guideline, reading);
@@ -145,15 +161,31 @@ impl Observed {
             let at_rest = tail_mean(&along, reading.tail);
             self.k_effective = Some(2.0 * at_rest / width / (unit * self.deposit_depth.powi(2)));
         }
-        let flux: Vec<f64> = histories.incoming.iter().map(|gauge| gauge.flux).collect();
+        // Grains at rest in the window are deposit, no flow that comes.
+        let flux = |gauge: &Gauge| if gauge.at_rest > STANDING { 0.0 } else { gauge.flux };
+        let flux: Vec<f64> = histories.incoming.iter().map(flux).collect();
         let (at_largest, largest_flux) = peak(&smoothed(&flux[..flux.len().min(at_peak + 1)], reading.window));
         self.incoming = histories.incoming.get(at_largest).copied().unwrap_or_default();
-        if self.incoming.depth > 0.5 * thin && largest_flux > 0.0 {
+        if self.incoming.depth > 0.5 * thin && self.incoming.at_rest <= STANDING && largest_flux > 0.0 {
             let standing = histories.barrier_depth.get(at_peak).copied().unwrap_or(0.0);
             let fixed = 0.5 * guideline.input.earth_pressure * unit * standing.powi(2);
             self.lambda_effective = Some((peak_along / width - fixed) / (guideline.input.density * largest_flux));
         }
     }
+}
+
+/// Share of the mass in a gauge that may be at rest without the gauge telling of a deposit.
+pub const STANDING: f64 = 0.01;
+
+/// Way of the front between the two places over its time; from where it started, if that is nearer than the far one.
+fn front_velocity(histories: &Histories) -> Option<f64> {
+    let [far, near] = histories.gauges;
+    let reached = |place: f64| {
+        let sample = histories.front.iter().position(|front| *front >= -place)?;
+        Some((*histories.time.get(sample)?, histories.front[sample]))
+    };
+    let ((from, start), (to, end)) = (reached(far)?, reached(near)?);
+    (to > from).then(|| (end - start) / (to - from))
 }
 
 fn residual_height(histories: &Histories) -> f64 {

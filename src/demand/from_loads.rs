@@ -5,9 +5,10 @@ use std::f64::consts::FRAC_PI_4;
 use crate::demand::larger;
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet};
 use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope, later_surge};
-use crate::loads::fill::{Deposit, Retention, level_deposit_height};
+use crate::loads::fill::{Deposit, Retention, deposit_height};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
+use crate::loads::run_up;
 use crate::units::GRAVITY;
 
 /// Guideline loads and what follows for the ropes.
@@ -25,6 +26,8 @@ pub struct Guideline {
     pub ropes: Vec<RopeLoad>,
     /// On what holds the lowest rope to the bed, in all, with the partial factor on loads (N); nothing where it is free.
     pub bed_force: Option<f64>,
+    /// Of it on one bolt, spread evenly, where the distance of the bolts is known (N).
+    pub bolt_force: Option<f64>,
     /// Plateau (N) and stroke (m) of the dissipators, if there are any.
     pub dissipator: Option<[f64; 2]>,
     /// What the barrier holds; nothing on a level bed.
@@ -45,8 +48,9 @@ pub struct RopeLoad {
     pub anchor: [f64; 2],
 }
 
-/// Depth of the wave at the gate over the height behind it (Ritter 1892).
-const RITTER: f64 = 4.0 / 9.0;
+/// Depth of the wave at the gate over the height behind it, and speed of its front over √(g' h) (Ritter 1892).
+const RITTER_DEPTH: f64 = 4.0 / 9.0;
+const RITTER_FRONT: f64 = 2.0;
 
 pub fn guideline(design: &Design) -> Guideline {
     guideline_for(design, input(design))
@@ -69,6 +73,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         input,
         width,
         bed_force,
+        bolt_force: bed_force.zip(bolt_spaces(design)).map(|(force, spaces)| force / spaces),
         cases: all(&input, &extras),
         largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger),
         largest_moment: stages.iter().map(|case| case.mean_moment(width)).fold(0.0, larger),
@@ -86,27 +91,53 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
 pub fn input(design: &Design) -> GuidelineInput {
     let (depth, velocity) = incoming(design);
     let slope = design.channel.slope;
-    let level = level_fill(design);
     let barrier_height = height_over_bed(design);
-    GuidelineInput {
+    let empty = GuidelineInput {
         density: design.flow.bulk_density,
         gravity_normal: GRAVITY * slope.cos(),
         earth_pressure: design.factors.earth_pressure,
         dynamic_pressure: design.factors.dynamic_pressure,
         depth,
         velocity,
-        fill_height: if design.loads.to_the_top || design.loads.overflow_depth.is_some() {
-            barrier_height
-        } else {
-            barrier_height.min(level.max(depth))
-        },
+        fill_height: barrier_height,
         barrier_height,
+    };
+    if design.loads.to_the_top || design.loads.overflow_depth.is_some() {
+        return empty;
+    }
+    let event = event_fill(design, &empty);
+    GuidelineInput { fill_height: barrier_height.min(event.height().max(depth)), ..empty }
+}
+
+/// How high one event may fill behind the barrier, normal to the bed (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EventFill {
+    /// With a level surface.
+    pub level: f64,
+    /// With a surface that falls upstream at the angle of repose.
+    pub heap: f64,
+    /// To which the flow runs up at the most.
+    pub run_up: f64,
+}
+
+impl EventFill {
+    /// What the loads are worked out with: a heap, no higher than the flow runs up, and no lower than a level deposit.
+    pub fn height(&self) -> f64 {
+        self.level.max(self.heap.min(self.run_up))
     }
 }
 
-/// Height that one event fills, to a level surface (m); 0 on a level bed.
-pub fn level_fill(design: &Design) -> f64 {
-    level_deposit_height(design.flow.volume() / design.channel.width, design.channel.slope, lean(design))
+pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
+    let volume_per_width = design.flow.event_volume / design.channel.width;
+    let repose = design.flow.grain_friction.atan();
+    let height = |falls: f64| deposit_height(volume_per_width, design.channel.slope, falls, lean(design));
+    EventFill { level: height(0.0), heap: height(repose), run_up: run_up::bound(input) }
+}
+
+/// Spaces between the bolts of the lowest rope, where their distance is known.
+fn bolt_spaces(design: &Design) -> Option<f64> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    Some(net.bed_bolts?.spaces(design.channel.width) as f64)
 }
 
 fn extras(design: &Design) -> Extras {
@@ -121,7 +152,7 @@ fn extras(design: &Design) -> Extras {
 }
 
 /// The height that the filled barrier keeps, and the volume behind it.
-fn held(design: &Design) -> Option<Retention> {
+pub fn held(design: &Design) -> Option<Retention> {
     let slope = design.channel.slope;
     // A wall does not sag.
     let share = match &design.barrier {
@@ -137,7 +168,7 @@ fn held(design: &Design) -> Option<Retention> {
 /// Height of the barrier's top above the bed, normal to it (m).
 pub fn height_over_bed(design: &Design) -> f64 {
     match &design.barrier {
-        BarrierDesign::RigidWall(wall) => wall.height,
+        BarrierDesign::RigidWall(wall) => wall.height * wall.lean.cos(),
         BarrierDesign::FlexibleNet(net) => {
             let gap = match net.bottom {
                 Bottom::Fixed => 0.0,
@@ -149,22 +180,27 @@ pub fn height_over_bed(design: &Design) -> f64 {
 }
 
 /// Depth and velocity with which the flow reaches the barrier. A surge has them; for a dam break the designer
-/// may give them, else the depth is Ritter's and the velocity that of a block sliding on the bed with its friction.
+/// may give them, else the depth is Ritter's at the gate and the velocity the larger of two: that of a block that slides on the bed
+/// with its friction, and that of the front of a collapse.
 fn incoming(design: &Design) -> (f64, f64) {
     match design.flow.arrival {
-        Arrival::Surge { depth, velocity, .. } => (depth, velocity),
+        Arrival::Surge(surge) => (surge.depth, surge.velocity),
         Arrival::DamBreak(block) => (
-            block.depth_at_barrier.unwrap_or(RITTER * block.height),
-            block.velocity_at_barrier.unwrap_or_else(|| sliding_velocity(design, &block)),
+            block.depth_at_barrier.unwrap_or(RITTER_DEPTH * block.height),
+            block.velocity_at_barrier.unwrap_or_else(|| front_velocity(design, &block)),
         ),
     }
 }
 
-/// √(2 a s) with a = g (sin α − tan φ cos α), s from the block's centre to the barrier.
-fn sliding_velocity(design: &Design, block: &DamBreak) -> f64 {
+/// With a = g (sin α − tan φ cos α): the block's centre, at √(2 a s) after its way s to the barrier; and the front of a wave without
+/// friction inside, which starts at 2 √(g cos α h) (Ritter 1892) and speeds up on its way d from the gate, √(4 g cos α h + 2 a d)
+/// (Mangeney, Heinrich & Roche 2000). No granular front is faster, so this is an upper bound.
+fn front_velocity(design: &Design, block: &DamBreak) -> f64 {
     let slope = design.channel.slope;
     let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
-    (2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length)).sqrt()
+    let sliding = 2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length);
+    let start = RITTER_FRONT.powi(2) * GRAVITY * slope.cos() * block.height;
+    sliding.max(start + 2.0 * acceleration.max(0.0) * block.distance).sqrt()
 }
 
 /// Plateau (N) and stroke (m) of the dissipators, if there are any.
@@ -176,7 +212,7 @@ fn dissipator(design: &Design) -> Option<[f64; 2]> {
 /// Angle by which the barrier leans upstream from the bed's normal (rad).
 fn lean(design: &Design) -> f64 {
     match &design.barrier {
-        BarrierDesign::RigidWall(_) => 0.0,
+        BarrierDesign::RigidWall(wall) => wall.lean,
         BarrierDesign::FlexibleNet(net) => design.channel.slope + net.tilt,
     }
 }

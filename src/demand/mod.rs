@@ -5,7 +5,8 @@ pub mod from_histories;
 pub mod from_loads;
 
 use self::from_histories::Observed;
-use self::from_loads::Guideline;
+use self::from_loads::{Guideline, RopeLoad};
+use crate::design::Factors;
 use crate::starts::Spread;
 
 /// One quantity by both routes; a route that says nothing about it is absent.
@@ -13,6 +14,8 @@ use crate::starts::Spread;
 pub struct Demand {
     pub guideline: Option<f64>,
     pub simulation: Option<f64>,
+    /// Of the simulation of the characteristic flow, without partial factors, where loads carry one; for information.
+    pub characteristic: Option<f64>,
     /// What the simulation's demand cannot exceed while a dissipator that caps it has stroke left; absent where none does, and
     /// where one is used up.
     pub cap: Option<f64>,
@@ -24,17 +27,22 @@ impl Demand {
         self.guideline.into_iter().chain(self.simulation).reduce(larger)
     }
 
-    /// Both multiplied by a partial factor.
+    /// Both multiplied by a factor.
     pub fn times(&self, factor: f64) -> Self {
-        let [guideline, simulation, cap] =
-            [self.guideline, self.simulation, self.cap].map(|value| value.map(|value| value * factor));
-        Self { guideline, simulation, cap }
+        let [guideline, simulation, characteristic, cap] =
+            [self.guideline, self.simulation, self.characteristic, self.cap]
+                .map(|value| value.map(|value| value * factor));
+        Self { guideline, simulation, characteristic, cap }
     }
 }
 
-/// Demands for every check, with the partial factor on loads. Lists go from the lowest main rope to the highest. The
-/// guideline's rope states are computed under factored loads; forces of the simulation are multiplied by the factor, its
-/// strokes are not, because a dissipator does not scale.
+/// Demands for every check, under factored actions. Lists go from the lowest main rope to the highest.
+///
+/// Guideline and simulation follow one rule: the partial factor is on the action, so that what yields, stretches or is used up does
+/// so under the factored load. The guideline's rope states are computed under factored pressures; the simulation runs the factored
+/// flow beside the characteristic one ([`crate::load_cases`]). Where the response is proportional to the action, as on a rigid
+/// wall, the characteristic result times the factor is the same. A dissipator that yields pulls with its plateau times the
+/// overstrength: what is beyond the plateau is added to the load of its rope and anchor, by both routes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Demands {
     /// N
@@ -48,7 +56,9 @@ pub struct Demands {
     pub anchor_force: Vec<Demand>,
     /// On what holds the lowest rope to the bed, in all (N).
     pub bed_force: Demand,
-    /// Tension of the dissipators (N): by the guideline under factored loads, of the simulation without factor.
+    /// On the worst bolt of the lowest rope (N).
+    pub bolt_force: Demand,
+    /// Tension of the dissipators, without overstrength (N).
     pub brake_force: Demand,
     /// m
     pub brake_stroke: Vec<Demand>,
@@ -59,77 +69,78 @@ pub struct Demands {
     /// Pieces of rope that broke, and the largest permanent elongation of one: of the worst start.
     pub broken_pieces: Demand,
     pub drawn_out: Demand,
-    /// Share of the mass held.
+    /// Share of the mass held, the smaller of the characteristic and the factored case.
     pub retained: Demand,
-    /// Final over initial height.
+    /// Final over initial height, likewise.
     pub residual_height: Demand,
 }
 
+/// What the simulations showed, packing by packing.
+#[derive(Clone, Debug, Default)]
+pub struct Seen<'a> {
+    /// The flow as it is.
+    pub characteristic: Vec<&'a Observed>,
+    /// The flow with factored actions, where that was simulated; else forces are proportional to the action.
+    pub factored: Vec<&'a Observed>,
+}
+
+impl Seen<'_> {
+    /// The case that forces and strokes are designed for, and the factor that is still to be put on its forces.
+    fn governing(&self, load_factor: f64) -> (&[&Observed], f64) {
+        if self.factored.is_empty() { (&self.characteristic, load_factor) } else { (&self.factored, 1.0) }
+    }
+}
+
+type Quantity<'q> = &'q dyn Fn(&Observed) -> f64;
+
+fn spread(observed: &[&Observed], quantity: Quantity) -> Option<Spread> {
+    (!observed.is_empty()).then(|| Spread::of(&observed.iter().map(|seen| quantity(seen)).collect::<Vec<_>>()))
+}
+
 impl Demands {
-    /// `observed` holds what each start of the simulation showed; with several, a demand is the value that the next start
-    /// exceeds (or, for what must be kept, falls below) with a probability of 5 %; what a dissipator caps stays at its cap as long
-    /// as no start has gone beyond. None: equations alone.
-    pub fn meet(guideline: &Guideline, observed: &[&Observed], load_factor: f64) -> Self {
-        let [plateau, stroke] = guideline.dissipator.unwrap_or([f64::INFINITY; 2]);
-        let tensions: Vec<f64> = guideline.ropes.iter().map(|rope| rope.state.tension).collect();
-        let strokes: Vec<f64> = guideline.ropes.iter().map(|rope| rope.state.stroke).collect();
-        let highest = |values: &[f64]| values.iter().copied().reduce(larger);
-        let spread = |quantity: &dyn Fn(&Observed) -> f64| {
-            (!observed.is_empty()).then(|| Spread::of(&observed.iter().map(|seen| quantity(seen)).collect::<Vec<_>>()))
-        };
-        let most = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.upper());
-        let least = |quantity: &dyn Fn(&Observed) -> f64| spread(quantity).map(|spread| spread.lower());
-        let worst = |quantity: &dyn Fn(&Observed) -> f64| observed.iter().map(|seen| quantity(seen)).reduce(larger);
+    /// By the equations alone.
+    pub fn by_equations(guideline: &Guideline, factors: &Factors) -> Self {
+        Self::meet(guideline, &Seen::default(), factors)
+    }
+
+    /// With several packings a demand is the value that the next one exceeds (or, for what must be kept, falls below) with a
+    /// probability of 5 %; what a dissipator caps stays at its cap as long as no packing has gone beyond.
+    pub fn meet(guideline: &Guideline, seen: &Seen, factors: &Factors) -> Self {
+        let (governing, factor) = seen.governing(factors.load);
+        let meeting = Meeting { guideline, seen, governing, factor, overstrength: factors.overstrength };
         let simulated = |simulation: Option<f64>| Demand { simulation, ..Demand::default() };
-        // The factor goes on the simulation alone: the guideline's ropes have it already.
-        let by_rope =
-            |by_guideline: &[f64], quantity: &dyn Fn(&Observed) -> &Vec<f64>, factor: f64, cap: f64| -> Vec<Demand> {
-                let of = |rope: usize| {
-                    let largest = observed.iter().map(|seen| quantity(seen)[rope]).fold(0.0, larger);
-                    let within = largest <= cap * CAP_TOLERANCE;
-                    let capped = |value: f64| if value > cap && within { largest.max(cap) } else { value };
-                    Demand {
-                        guideline: by_guideline.get(rope).copied(),
-                        simulation: most(&|seen| quantity(seen)[rope]).map(|value| factor * capped(value)),
-                        cap: (within && cap.is_finite() && !observed.is_empty()).then_some(factor * largest.max(cap)),
-                    }
-                };
-                let ropes = observed.first().map_or(by_guideline.len(), |seen| quantity(seen).len());
-                (0..ropes).map(of).collect()
-            };
-        let total_force =
-            Demand { guideline: Some(guideline.largest_force), simulation: most(&|seen| seen.force_peak), cap: None };
-        let wall_force = Demand {
-            guideline: Some(guideline.largest_force / guideline.width),
-            simulation: most(&|seen| seen.force_peak / guideline.width),
-            cap: None,
-        };
-        let wall_moment =
-            Demand { guideline: Some(guideline.largest_moment), simulation: most(&|seen| seen.moment_peak), cap: None };
+        let worst = |quantity: Quantity| governing.iter().map(|seen| quantity(seen)).reduce(larger);
+        let per_width = 1.0 / guideline.width;
+        let by_guideline = |value: f64| Some(factors.load * value);
         Self {
-            wall_force: wall_force.times(load_factor),
-            wall_moment: wall_moment.times(load_factor),
-            total_force: total_force.times(load_factor),
-            rope_tension: by_rope(&tensions, &|seen| &seen.rope_tension_peak, load_factor, f64::INFINITY),
-            anchor_force: by_rope(&tensions, &|seen| &seen.anchor_force_peak, load_factor, plateau),
+            total_force: meeting.force(by_guideline(guideline.largest_force), &|seen| seen.force_peak),
+            wall_force: meeting.force(by_guideline(guideline.largest_force), &|seen| seen.force_peak).times(per_width),
+            wall_moment: meeting.force(by_guideline(guideline.largest_moment), &|seen| seen.moment_peak),
+            rope_tension: meeting.by_rope(&RopeQuantity {
+                guideline: |rope| rope.state.tension,
+                observed: |seen| &seen.rope_tension_peak,
+                capped: false,
+            }),
+            anchor_force: meeting.by_rope(&RopeQuantity {
+                guideline: |rope| rope.state.tension,
+                observed: |seen| &seen.anchor_force_peak,
+                capped: true,
+            }),
             brake_force: Demand {
-                guideline: highest(&tensions),
-                // Capped at the plateau, and so judged by the largest of the starts.
-                simulation: observed.iter().map(|seen| highest(&seen.brake_force_peak).unwrap_or(0.0)).reduce(larger),
-                cap: None,
+                guideline: guideline.ropes.iter().map(|rope| rope.state.tension).reduce(larger),
+                // Capped at the plateau, and so judged by the largest of the packings.
+                simulation: worst(&|seen| seen.brake_force_peak.iter().copied().reduce(larger).unwrap_or(0.0)),
+                ..Demand::default()
             },
-            brake_stroke: uncapped(by_rope(&strokes, &|seen| &seen.brake_stroke, 1.0, stroke)),
-            bed_force: Demand {
-                guideline: guideline.bed_force,
-                simulation: most(&|seen| seen.bed_force_peak).map(|force| load_factor * force),
-                cap: None,
-            },
-            net_tension: simulated(most(&|seen| seen.net_tension_peak)).times(load_factor),
-            lateral_tension: simulated(most(&|seen| seen.lateral_tension_peak)).times(load_factor),
+            brake_stroke: meeting.strokes(),
+            bed_force: meeting.force(guideline.bed_force, &|seen| seen.bed_force_peak),
+            bolt_force: meeting.force(guideline.bolt_force, &|seen| seen.bolt_force_peak),
+            net_tension: meeting.force(None, &|seen| seen.net_tension_peak),
+            lateral_tension: meeting.force(None, &|seen| seen.lateral_tension_peak),
             broken_pieces: simulated(worst(&|seen| seen.broken_pieces)),
             drawn_out: simulated(worst(&|seen| seen.drawn_out)),
-            retained: simulated(least(&|seen| seen.retained)),
-            residual_height: simulated(least(&|seen| seen.residual_height)),
+            retained: meeting.kept(&|seen| seen.retained),
+            residual_height: meeting.kept(&|seen| seen.residual_height),
         }
     }
 
@@ -140,6 +151,7 @@ impl Demands {
             &mut self.wall_force,
             &mut self.wall_moment,
             &mut self.bed_force,
+            &mut self.bolt_force,
             &mut self.brake_force,
             &mut self.net_tension,
             &mut self.lateral_tension,
@@ -151,9 +163,117 @@ impl Demands {
     }
 }
 
-/// A stroke that ends at its stop is used up: that caps nothing.
-fn uncapped(demands: Vec<Demand>) -> Vec<Demand> {
-    demands.into_iter().map(|demand| Demand { cap: None, ..demand }).collect()
+/// A quantity of every main rope by both routes.
+struct RopeQuantity {
+    guideline: fn(&RopeLoad) -> f64,
+    observed: fn(&Observed) -> &Vec<f64>,
+    /// Whether a dissipator at its plateau caps it.
+    capped: bool,
+}
+
+/// Where the two routes meet.
+struct Meeting<'a> {
+    guideline: &'a Guideline,
+    seen: &'a Seen<'a>,
+    /// What the factored actions did, and the factor still to be put on its forces.
+    governing: &'a [&'a Observed],
+    factor: f64,
+    overstrength: f64,
+}
+
+impl Meeting<'_> {
+    /// Whether the characteristic values differ from those that are judged.
+    fn is_factored(&self) -> bool {
+        !self.seen.factored.is_empty() || self.factor != 1.0
+    }
+
+    fn characteristic(&self, quantity: Quantity) -> Option<f64> {
+        spread(&self.seen.characteristic, quantity).filter(|_| self.is_factored()).map(|spread| spread.upper())
+    }
+
+    /// A force or moment; the guideline's value is factored already.
+    fn force(&self, guideline: Option<f64>, quantity: Quantity) -> Demand {
+        Demand {
+            guideline,
+            simulation: spread(self.governing, quantity).map(|spread| self.factor * spread.upper()),
+            characteristic: self.characteristic(quantity),
+            cap: None,
+        }
+    }
+
+    /// A share that must be kept, in the characteristic and in the factored case.
+    fn kept(&self, quantity: Quantity) -> Demand {
+        let lower = |observed: &[&Observed]| spread(observed, quantity).map(|spread| spread.lower());
+        let smaller = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) };
+        let both = lower(self.governing).into_iter().chain(lower(&self.seen.characteristic));
+        let characteristic = lower(&self.seen.characteristic).filter(|_| !self.seen.factored.is_empty());
+        Demand { simulation: both.reduce(smaller), characteristic, ..Demand::default() }
+    }
+
+    /// What a dissipator of a rope may pull with beyond its plateau (N).
+    fn excess(&self) -> f64 {
+        self.guideline.dissipator.map_or(0.0, |[plateau, _]| (self.overstrength - 1.0) * plateau)
+    }
+
+    fn plateau(&self) -> f64 {
+        self.guideline.dissipator.map_or(f64::INFINITY, |[plateau, _]| plateau)
+    }
+
+    /// Whether a load of this size means that a dissipator yields.
+    fn yields(&self, load: f64) -> bool {
+        load >= self.plateau() / CAP_TOLERANCE
+    }
+
+    fn ropes(&self, observed: fn(&Observed) -> &Vec<f64>) -> usize {
+        self.governing.first().map_or(self.guideline.ropes.len(), |seen| observed(seen).len())
+    }
+
+    fn by_rope(&self, quantity: &RopeQuantity) -> Vec<Demand> {
+        let observed = quantity.observed;
+        let cap = if quantity.capped { self.plateau() } else { f64::INFINITY };
+        let of = |rope: usize| {
+            let most = |quantity: fn(&Observed) -> &Vec<f64>| {
+                self.governing.iter().map(|seen| quantity(seen).get(rope).copied().unwrap_or(0.0)).fold(0.0, larger)
+            };
+            let largest = most(observed);
+            let excess = if self.yields(most(|seen| &seen.brake_force_peak)) { self.excess() } else { 0.0 };
+            let within = largest <= cap * CAP_TOLERANCE;
+            let capped = |value: f64| if value > cap && within { largest.max(cap) } else { value };
+            Demand {
+                guideline: self.by_equations(rope, quantity.guideline),
+                simulation: spread(self.governing, &|seen| observed(seen)[rope])
+                    .map(|spread| self.factor * capped(spread.upper()) + excess),
+                characteristic: self.characteristic(&|seen| observed(seen)[rope]),
+                cap: (within && cap.is_finite() && !self.governing.is_empty())
+                    .then_some(self.factor * largest.max(cap) + excess),
+            }
+        };
+        (0..self.ropes(observed)).map(of).collect()
+    }
+
+    /// By the equations, with the overstrength of a dissipator that yields; nothing where they put no load on the rope.
+    fn by_equations(&self, rope: usize, quantity: fn(&RopeLoad) -> f64) -> Option<f64> {
+        let rope = self.guideline.ropes.get(rope).filter(|rope| rope.load > 0.0)?;
+        let excess = if self.yields(rope.state.tension) { self.excess() } else { 0.0 };
+        Some(quantity(rope) + excess)
+    }
+
+    /// Strokes end at their stop, whatever the scatter says.
+    fn strokes(&self) -> Vec<Demand> {
+        let stop = self.guideline.dissipator.map_or(f64::INFINITY, |[_, stroke]| stroke);
+        let of = |rope: usize| {
+            let quantity = |seen: &Observed| seen.brake_stroke[rope];
+            // Asked so that what is not a number stays so.
+            let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
+            Demand {
+                guideline: self.guideline.ropes.get(rope).filter(|rope| rope.load > 0.0).map(|rope| rope.state.stroke),
+                simulation: spread(self.governing, &quantity).map(|spread| stopped(spread.upper())),
+                characteristic: self.characteristic(&quantity).map(stopped),
+                cap: None,
+            }
+        };
+        (0..self.ropes(|seen| &seen.brake_stroke)).map(of).collect()
+    }
 }
 
 /// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
@@ -172,7 +292,7 @@ mod tests {
     use crate::starts::k_n;
     use approx::assert_relative_eq;
 
-    /// Starts on `small_net`, whose dissipators have a plateau of 60 kN: its net's tension, the load of anchor 2, the share held.
+    /// Starts on `small_net`, whose dissipators have a plateau of 80 kN: its net's tension, the load of anchor 2, the share held.
     fn demands(starts: &[[f64; 3]]) -> Demands {
         let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         let observed: Vec<Observed> = starts
@@ -187,7 +307,8 @@ mod tests {
                 ..Observed::default()
             })
             .collect();
-        Demands::meet(&guideline(&design), &observed.iter().collect::<Vec<_>>(), 1.0)
+        let seen = Seen { characteristic: observed.iter().collect(), factored: Vec::new() };
+        Demands::meet(&guideline(&design), &seen, &design.factors)
     }
 
     #[test]
@@ -199,17 +320,17 @@ mod tests {
 
     #[test]
     fn scatter_does_not_lift_a_dissipator_above_its_plateau_unless_a_start_went_there() {
-        let at_work = demands(&[[0.0, 60e3, 1.0], [0.0, 60e3, 1.0], [0.0, 40e3, 1.0]]);
-        assert_eq!(at_work.anchor_force[1].simulation, Some(60e3));
-        assert_eq!(at_work.brake_force.simulation, Some(60e3));
-        let used_up = demands(&[[0.0, 60e3, 1.0], [0.0, 90e3, 1.0], [0.0, 60e3, 1.0]]);
-        assert!(used_up.anchor_force[1].simulation.unwrap() > 90e3);
-        assert_eq!(used_up.brake_force.simulation, Some(90e3));
+        let at_work = demands(&[[0.0, 80e3, 1.0], [0.0, 80e3, 1.0], [0.0, 40e3, 1.0]]);
+        assert_eq!(at_work.anchor_force[1].simulation, Some(80e3));
+        assert_eq!(at_work.brake_force.simulation, Some(80e3));
+        let used_up = demands(&[[0.0, 80e3, 1.0], [0.0, 120e3, 1.0], [0.0, 80e3, 1.0]]);
+        assert!(used_up.anchor_force[1].simulation.unwrap() > 120e3);
+        assert_eq!(used_up.brake_force.simulation, Some(120e3));
     }
 
     #[test]
     fn a_start_that_is_not_a_number_is_seen() {
-        let demands = demands(&[[1e3, 60e3, 1.0], [f64::NAN, f64::NAN, 1.0]]);
+        let demands = demands(&[[1e3, 80e3, 1.0], [f64::NAN, f64::NAN, 1.0]]);
         assert!(demands.net_tension.simulation.unwrap().is_nan());
         assert!(demands.anchor_force[1].simulation.unwrap().is_nan());
         assert!(demands.brake_force.simulation.unwrap().is_nan());

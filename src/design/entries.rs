@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::design::document::Node;
 use crate::design::grain_lengths;
 use crate::design::key::{Key, Kind, Need, names};
+use crate::design::read::Purpose;
 use crate::problem::{Problem, nearest};
 use crate::units::{self, Dimension};
 
@@ -92,14 +93,15 @@ impl Entries {
 }
 
 /// Reads a whole design by its table of keys; problems go to `problems`.
-pub fn read(root: &Node, keys: &'static [Key], problems: &mut Vec<Problem>) -> Entries {
-    let mut reader = Reader { entries: Entries::default(), problems };
+pub fn read(root: &Node, keys: &'static [Key], purpose: Purpose, problems: &mut Vec<Problem>) -> Entries {
+    let mut reader = Reader { entries: Entries::default(), purpose, problems };
     reader.section(root, keys, "");
     reader.entries
 }
 
 struct Reader<'a> {
     entries: Entries,
+    purpose: Purpose,
     problems: &'a mut Vec<Problem>,
 }
 
@@ -107,7 +109,9 @@ impl Reader<'_> {
     fn section(&mut self, node: &Node, keys: &'static [Key], path: &str) {
         self.entries.sections.push(path.to_string());
         let Node::Map(map) = node else {
-            if !(matches!(node, Node::Nothing) && keys.iter().all(|key| key.need != Need::Required)) {
+            if !(matches!(node, Node::Nothing)
+                && keys.iter().all(|key| !matches!(key.need, Need::Required | Need::ForGrains)))
+            {
                 let allowed = Kind::Section(keys).allowed();
                 self.problems.push(Problem::new(path, node.describe(), allowed));
                 return;
@@ -151,12 +155,13 @@ impl Reader<'_> {
     fn absent(&mut self, key: &'static Key, path: &str, here: &str) {
         match (key.need, key.kind) {
             (Need::Optional, _) => {}
+            (Need::ForGrains, _) if self.purpose == Purpose::Equations => {}
             (Need::Default(_), Kind::Section(keys)) => self.section(&Node::Map(Vec::new()), keys, here),
             (Need::Default(typed), _) => {
                 let node = typed.parse().map_or_else(|_| Node::Text(typed.to_string()), Node::Number);
                 self.value(&node, key, here, Origin::Default);
             }
-            (Need::Required, kind) => {
+            (Need::Required | Need::ForGrains, kind) => {
                 let problem = Problem::new(path, format!("no key `{}`", key.name), kind.allowed());
                 self.problems.push(problem.hint(format!("`{}` is {}", key.name, key.meaning)));
             }

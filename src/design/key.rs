@@ -54,6 +54,8 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     Required,
+    /// Required for a simulation; the equations do without it.
+    ForGrains,
     /// May be left out; then it is not there.
     Optional,
     /// May be left out; then it is as if this were typed.
@@ -63,6 +65,10 @@ pub enum Need {
 impl Key {
     pub const fn required(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
         Self { name, kind, need: Need::Required, meaning }
+    }
+
+    pub const fn for_grains(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
+        Self { name, kind, need: Need::ForGrains, meaning }
     }
 
     pub const fn optional(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
@@ -89,7 +95,7 @@ impl Kind {
             }
             Self::LengthOrGrains { low, high } => {
                 let length = Self::Quantity { dimension: Dimension::Length, low, high }.allowed();
-                format!("{length}, or a multiple of a grain size (0.8 D90)")
+                format!("{length}, or a grain size or a multiple of one (D90, 0.8 D90)")
             }
             Self::Quantities { dimension, low, high } => {
                 format!("a list of values, each {}", Self::Quantity { dimension, low, high }.allowed())

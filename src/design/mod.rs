@@ -58,11 +58,16 @@ pub struct Channel {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flow {
     pub mass: f64,
+    /// With pores, of the whole event; the flow is one surge of it, or all (m³).
+    pub event_volume: f64,
     /// kg/m³, grains with pores.
     pub bulk_density: f64,
     /// kg/m³, grains alone.
     pub solid_density: f64,
+    /// As simulated.
     pub sizes: SizeCurve,
+    /// What of the design's curve was made coarser, if anything was.
+    pub cut: Option<CurveCut>,
     /// Length over width of a grain, 1 (sphere) to 2.
     pub aspect: f64,
     pub grain_friction: f64,
@@ -70,6 +75,15 @@ pub struct Flow {
     /// Contact modulus of the grains (Pa).
     pub modulus: f64,
     pub arrival: Arrival,
+}
+
+/// The fine end of a grain-size curve that is not simulated as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveCut {
+    /// Share of the mass below the cut.
+    pub share: f64,
+    /// The whole curve.
+    pub whole: SizeCurve,
 }
 
 impl Flow {
@@ -83,12 +97,20 @@ impl Flow {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Arrival {
     DamBreak(DamBreak),
-    /// A block just upstream, already moving down the channel.
-    Surge {
-        length: f64,
-        depth: f64,
-        velocity: f64,
-    },
+    Surge(Surge),
+}
+
+/// A body of grains upstream of the barrier, already moving down the channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surge {
+    /// Of the even flow with its volume (m); with a sloping front it is longer at the bed and shorter at the surface.
+    pub length: f64,
+    pub depth: f64,
+    pub velocity: f64,
+    /// Angle between the front face and the bed (rad).
+    pub front_angle: f64,
+    /// From the foot of the front to the most upstream point of the barrier at the release (m).
+    pub run_in: f64,
 }
 
 /// A block at rest behind a gate that opens at once.
@@ -109,14 +131,18 @@ pub enum BarrierDesign {
     FlexibleNet(Box<FlexibleNet>),
 }
 
-/// A wall across the channel, normal to the bed.
+/// A wall across the channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidWall {
+    /// Along its face (m).
     pub height: f64,
+    /// By which its face leans upstream from the bed's normal (rad).
+    pub lean: f64,
     /// Tops of the segments whose force is reported, from the bottom up.
     pub segment_tops: Vec<f64>,
-    /// Resistance of the whole wall to the total force (N), if known.
+    /// Resistance of the whole wall to the total force (N), if known, and the partial factor on it.
     pub resistance: Option<f64>,
+    pub resistance_factor: f64,
     pub stability: Option<Stability>,
 }
 
@@ -156,10 +182,26 @@ pub struct FlexibleNet {
     pub dissipators: Option<DissipatorDesign>,
     /// Characteristic resistance of each anchor (N).
     pub anchor_resistance: f64,
-    /// Characteristic resistance of all that holds the lowest rope to the bed (N), if known.
-    pub bed_resistance: Option<f64>,
+    /// What holds the lowest rope to the bed, where the bed does, if known.
+    pub bed_bolts: Option<BedBolts>,
     pub bottom: Bottom,
     pub side_extension: Option<SideExtension>,
+}
+
+/// Bolts at even distances along the lowest rope, the first and the last at its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BedBolts {
+    /// About how far apart they are (m).
+    pub spacing: f64,
+    /// Characteristic resistance of one (N), if known.
+    pub resistance: Option<f64>,
+}
+
+impl BedBolts {
+    /// Spaces between the bolts of a rope of this length.
+    pub fn spaces(&self, length: f64) -> usize {
+        (length / self.spacing).round().max(1.0) as usize
+    }
 }
 
 /// Strips of net along the side walls, downstream of the barrier.
@@ -247,6 +289,16 @@ pub struct Limits {
     pub anchor_utilisation: f64,
     /// Greatest share of the stroke that may be used.
     pub brake_utilisation: f64,
+    pub outside_range: OutsideRange,
+}
+
+/// What becomes of a check that a formula governs outside the range it is known for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutsideRange {
+    /// The check stays open.
+    Undecided,
+    /// The report says so, and the check stands.
+    Warn,
 }
 
 /// Coefficients of the guideline and partial factors.
@@ -264,6 +316,10 @@ pub struct Factors {
     pub anchor: f64,
     /// Share of a rope's breaking load that its ends hold.
     pub rope_end: f64,
+    /// Largest force of a dissipator that yields, over its plateau: what ropes and anchors must bear.
+    pub overstrength: f64,
+    /// Whether the overstrength is the designer's; else it is the factor on loads.
+    pub overstrength_given: bool,
 }
 
 /// Loads beside those of the design flow; absent where the designer gives none.

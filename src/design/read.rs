@@ -6,7 +6,7 @@ use crate::design::entries::{Entries, Origin, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
-use crate::design::rules::RULES;
+use crate::design::rules::{GRAIN_RULES, RULES};
 use crate::design::schema::DESIGN;
 use crate::problem::{Problem, Problems};
 
@@ -23,16 +23,33 @@ pub struct DesignFile {
     pub entries: Entries,
 }
 
-/// Reads the bytes of the file called `file`.
+/// What a design is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Grains must be described, and be such that they can be simulated.
+    Simulation,
+    /// The equations alone, which need no grains and refuse none.
+    Equations,
+}
+
+/// Reads the bytes of the file called `file`, to be simulated.
 pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
+    read_design_for(Purpose::Simulation, file, bytes)
+}
+
+/// The same for a purpose.
+pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
     let document = Document::parse(bytes).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
-    let mut entries = read(&document.root, DESIGN, &mut problems);
+    let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
     take_remarks(&mut entries, &document, bytes);
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
+    if purpose == Purpose::Simulation {
+        problems.extend(GRAIN_RULES.iter().filter_map(|rule| rule(&entries)));
+    }
     if problems.is_empty() {
         if let Some(design) = resolve(&entries) {
             return Ok(DesignFile { name: stem(file), sha256: sha256(bytes), text: bytes.to_vec(), design, entries });

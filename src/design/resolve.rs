@@ -1,11 +1,12 @@
 //! From checked entries to the design, in SI.
 
 use crate::design::entries::Entries;
-use crate::design::rules::{flow_volume, rope_heights, size_curve};
+use crate::design::rules::{coarsened, flow_volume, rope_heights, size_curve};
+use crate::design::sizes::SizeCurve;
 use crate::design::{
-    Arrival, BarrierDesign, BarrierModel, Bottom, Channel, DamBreak, Design, DissipatorDesign, Factors, FidelityWish,
-    FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, Project, RigidWall, Rope, SideExtension,
-    SimulationWishes, Stability,
+    Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
+    Factors, FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, Project,
+    RigidWall, Rope, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -41,26 +42,44 @@ fn channel(e: &Entries) -> Option<Channel> {
         width: value("width")?,
         slope: value("slope")?,
         wall_height: value("wall_height")?,
-        base_friction: value("base_friction")?.tan(),
-        side_friction: value("side_friction")?.tan(),
-        barrier_friction: value("barrier_friction")?.tan(),
+        base_friction: value("base_friction").map_or(f64::NAN, f64::tan),
+        side_friction: value("side_friction").map_or(f64::NAN, f64::tan),
+        barrier_friction: value("barrier_friction").map_or(f64::NAN, f64::tan),
     })
 }
 
 fn flow(e: &Entries) -> Option<Flow> {
     let value = |key: &str| e.number(&format!("flow.{key}"));
     let bulk_density = value("bulk_density")?;
+    // Without grains the design was read for the equations; nothing of them is used there.
+    let whole = size_curve(e).unwrap_or(SizeCurve::Unknown);
+    let cut = coarsened(e, &whole).map(|share| CurveCut { share, whole: whole.clone() });
     Some(Flow {
         mass: flow_volume(e)? * bulk_density,
+        event_volume: value("event_volume").or_else(|| flow_volume(e))?,
         bulk_density,
-        solid_density: value("solid_density")?,
-        sizes: size_curve(e)?,
+        solid_density: value("solid_density").unwrap_or(f64::NAN),
+        sizes: cut.as_ref().map_or(whole, |cut| cut.whole.cut_below(cut.share)),
+        cut,
         aspect: value("grain_aspect")?,
-        grain_friction: value("grain_friction")?.tan(),
+        grain_friction: value("grain_friction").map_or(f64::NAN, f64::tan),
         restitution: value("restitution")?,
         modulus: value("contact_modulus")?,
         arrival: arrival(e)?,
     })
+}
+
+/// Way that a surge runs before it meets the barrier, over its depth, where the design says none: a block as it is packed moves as one
+/// and hits far too hard; on this way it loosens and its front takes shape.
+const RUN_IN: f64 = 4.0;
+/// Flattest front that is taken where the design says none (rad): 15 degrees.
+const FLATTEST_FRONT: f64 = 0.261_799_387_799_149_4;
+
+/// Angle to the bed of the front of a granular flow, tan = tan φ − tan α, with the friction angle φ of the grains and the slope α
+/// (Pouliquen 1999, for the thin tip of a front on a rough bed).
+fn granular_front(e: &Entries) -> Option<f64> {
+    let steepness = e.number("flow.grain_friction").map_or(0.0, f64::tan) - e.number("channel.slope")?.tan();
+    Some(steepness.atan().max(FLATTEST_FRONT))
 }
 
 fn arrival(e: &Entries) -> Option<Arrival> {
@@ -77,7 +96,13 @@ fn arrival(e: &Entries) -> Option<Arrival> {
         }));
     }
     let depth = value("surge.depth")?;
-    Some(Arrival::Surge { length: area(depth)?, depth, velocity: value("surge.velocity")? })
+    Some(Arrival::Surge(Surge {
+        length: area(depth)?,
+        depth,
+        velocity: value("surge.velocity")?,
+        front_angle: value("surge.front_angle").unwrap_or(granular_front(e)?),
+        run_in: value("surge.run_in").unwrap_or(RUN_IN * depth),
+    }))
 }
 
 fn barrier(e: &Entries) -> Option<BarrierDesign> {
@@ -106,15 +131,18 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             density: value("density")?,
             base_width: value("base_width").unwrap_or(thickness),
             base_slope: value("base_slope")?,
-            base_friction: value("base_friction")?.tan(),
+            base_friction: value("base_friction").map_or(f64::NAN, f64::tan),
             sliding_factor: value("sliding_factor")?,
             overturning_factor: value("overturning_factor")?,
         })
     });
+    let slope = e.number("channel.slope")?;
     Some(RigidWall {
         height,
+        lean: e.number("barrier.rigid_wall.tilt").map_or(0.0, |tilt| slope + tilt),
         segment_tops: segment_tops.collect(),
         resistance: e.number("barrier.rigid_wall.resistance"),
+        resistance_factor: e.number("barrier.rigid_wall.resistance_factor")?,
         stability: match stability {
             Some(stability) => Some(stability?),
             None => None,
@@ -154,12 +182,20 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             None => None,
         },
         anchor_resistance: value("anchors.resistance")?,
-        bed_resistance: value("anchors.bed_resistance"),
+        bed_bolts: bed_bolts(e),
         bottom: value("bottom.opening").map_or(Bottom::Fixed, Bottom::Opening),
         side_extension: value("side_extension.length")
             .zip(value("side_extension.holding_force"))
             .map(|(length, holding_force)| SideExtension { length, holding_force }),
     })
+}
+
+fn bed_bolts(e: &Entries) -> Option<BedBolts> {
+    let value = |key: &str| e.number(&format!("barrier.flexible_net.anchors.{key}"));
+    let bolts = BedBolts { spacing: value("bed_bolt_spacing")?, resistance: value("bed_bolt_resistance") };
+    let number = bolts.spaces(e.number("channel.width")?) + 1;
+    let share = value("bed_resistance").map(|of_all| of_all / number as f64);
+    Some(BedBolts { resistance: bolts.resistance.or(share), ..bolts })
 }
 
 fn rope(e: &Entries, part: &str) -> Option<Rope> {
@@ -182,18 +218,25 @@ fn limits(e: &Entries) -> Option<Limits> {
         rope_utilisation: value("rope_utilisation")?,
         anchor_utilisation: value("anchor_utilisation")?,
         brake_utilisation: value("brake_utilisation")?,
+        outside_range: match e.text("limits.outside_range")? {
+            "warn" => OutsideRange::Warn,
+            _ => OutsideRange::Undecided,
+        },
     })
 }
 
 fn factors(e: &Entries) -> Option<Factors> {
     let value = |key: &str| e.number(&format!("factors.{key}"));
+    let (load, overstrength) = (value("load")?, value("dissipator_overstrength"));
     Some(Factors {
         earth_pressure: value("earth_pressure_k")?,
         dynamic_pressure: value("dynamic_lambda")?,
-        load: value("load")?,
+        load,
         rope: value("rope")?,
         anchor: value("anchor")?,
         rope_end: value("rope_end")?,
+        overstrength: overstrength.unwrap_or(load),
+        overstrength_given: overstrength.is_some(),
     })
 }
 

@@ -9,17 +9,15 @@ use crate::units::Dimension;
 
 type Rule = fn(&Entries) -> Option<Problem>;
 
-/// All rules, in the order of the file.
+/// Rules that every design keeps, in the order of the file.
 pub const RULES: &[Rule] = &[
     schema_version_is_known,
     mass_or_volume,
+    event_is_no_less_than_the_flow,
     solid_is_denser_than_bulk,
-    packing_is_possible,
     sizes_have_an_order,
     curve_has_two_quantiles,
     curve_increases,
-    grains_fit_the_channel,
-    grain_count_is_bearable,
     dam_break_height_agrees,
     surge_length_agrees,
     flow_within_side_walls,
@@ -36,18 +34,27 @@ pub const RULES: &[Rule] = &[
     ropes_leave_room_for_the_mesh,
     mesh_within_the_channel,
     rings_match_the_mesh,
+    bolts_have_one_resistance,
+    bolts_have_their_distance,
     opening_below_the_barrier,
     barrier_leans_within_reach,
     slope_lets_a_dam_break_flow,
-    block_larger_than_the_grains,
     dam_break_clears_the_barrier,
     lateral_ropes_have_their_dissipators,
-    knots_are_bearable,
-    cylinders_are_bearable,
     cylinders_have_no_slack,
     net_rope_draws_out_or_breaks,
     main_rope_draws_out_or_breaks,
     lateral_rope_draws_out_or_breaks,
+];
+
+/// Rules that only a simulation needs.
+pub const GRAIN_RULES: &[Rule] = &[
+    packing_is_possible,
+    grains_fit_the_channel,
+    grain_count_is_bearable,
+    block_larger_than_the_grains,
+    knots_are_bearable,
+    cylinders_are_bearable,
 ];
 
 const NET: &str = "barrier.flexible_net";
@@ -81,6 +88,35 @@ fn mass_or_volume(e: &Entries) -> Option<Problem> {
         _ => return None,
     };
     Some(Problem::new("flow", found, "either mass or volume").hint("the bulk density gives the other"))
+}
+
+fn event_is_no_less_than_the_flow(e: &Entries) -> Option<Problem> {
+    let (event, flow) = (e.number("flow.event_volume")?, flow_volume(e)?);
+    let show = |volume| Dimension::Volume.show(volume);
+    (event < 0.999 * flow).then(|| {
+        Problem::new("flow.event_volume", show(event), format!("no less than the flow itself, {}", show(flow)))
+            .hint("the flow is one surge of the event, or all of it")
+    })
+}
+
+fn bolts_have_one_resistance(e: &Entries) -> Option<Problem> {
+    let [of_all, of_one] = ["bed_resistance", "bed_bolt_resistance"].map(|key| at(&format!("anchors.{key}")));
+    (e.mentions(&of_all) && e.mentions(&of_one)).then(|| {
+        Problem::new(
+            of_all,
+            "the resistance of all bolts and that of one",
+            "either bed_resistance or bed_bolt_resistance",
+        )
+        .hint("keep bed_bolt_resistance, the resistance of one bolt")
+    })
+}
+
+fn bolts_have_their_distance(e: &Entries) -> Option<Problem> {
+    let path = at("anchors.bed_bolt_resistance");
+    (e.mentions(&path) && !e.mentions(&at("anchors.bed_bolt_spacing"))).then(|| {
+        Problem::new(path, "a resistance of one bolt without their distance", "anchors.bed_bolt_spacing beside it")
+            .hint("the load of a bolt follows from how far apart they are")
+    })
 }
 
 fn solid_is_denser_than_bulk(e: &Entries) -> Option<Problem> {
@@ -166,17 +202,47 @@ const MOST_GRAINS: f64 = 400_000.0;
 
 fn grain_count_is_bearable(e: &Entries) -> Option<Problem> {
     let curve = size_curve(e)?;
-    let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
-    let count = curve.count(solid);
-    (count > MOST_GRAINS).then(|| {
-        let finest = length(curve.quantile(0.0));
+    let count = grain_count(e, &curve)?;
+    if count <= MOST_GRAINS || coarsened(e, &curve).is_some() {
+        return None;
+    }
+    let finest = length(curve.quantile(0.0));
+    Some(
         Problem::new(
             "flow.grain_sizes",
             format!("about {count:.2e} grains, the finest {finest}"),
             format!("at most {MOST_GRAINS:.0} grains"),
         )
-        .hint("coarsen the curve: the finest part of a debris flow need not be simulated grain by grain")
-    })
+        .hint("`simulation.coarsen: auto` cuts the fine end of the curve, and the report says where"),
+    )
+}
+
+fn grain_count(e: &Entries, curve: &SizeCurve) -> Option<f64> {
+    let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
+    Some(curve.count(solid))
+}
+
+/// Grains to which `coarsen: auto` cuts a curve down: what runs in minutes.
+const COARSENED: f64 = 20_000.0;
+/// Largest share of the mass that it cuts.
+const MOST_CUT: f64 = 0.9;
+
+/// Below which share of the mass the curve is cut, where the design asks for that and has more grains than run in minutes; nothing
+/// where it does not, or where no cut is enough.
+pub fn coarsened(e: &Entries, curve: &SizeCurve) -> Option<f64> {
+    if e.text("simulation.coarsen") != Some("auto") || grain_count(e, curve)? <= COARSENED {
+        return None;
+    }
+    let enough = |share: f64| grain_count(e, &curve.cut_below(share)).is_some_and(|count| count <= COARSENED);
+    let (mut low, mut high) = (0.0, MOST_CUT);
+    if !enough(high) {
+        return None;
+    }
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if enough(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
 }
 
 fn dam_break_height_agrees(e: &Entries) -> Option<Problem> {

@@ -7,6 +7,7 @@ use crate::units::Dimension as D;
 /// Version of the table below; raised when a file that was good is read differently, or no more.
 pub const SCHEMA_VERSION: f64 = 1.0;
 
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Steepest angle of a slope or of friction (rad): 80 degrees.
 const STEEPEST: f64 = 80.0 * std::f64::consts::PI / 180.0;
 const FRICTION: Kind = quantity(D::Angle, 0.0, STEEPEST);
@@ -45,24 +46,29 @@ const CHANNEL: &[Key] = &[
     Key::required("width", quantity(D::Length, 0.01, 200.0), "width between the side walls"),
     Key::required("slope", quantity(D::Angle, 0.0, STEEPEST), "slope of the bed against the horizontal"),
     Key::required("wall_height", quantity(D::Length, 0.01, 500.0), "height of the side walls, normal to the bed"),
-    Key::required("base_friction", FRICTION, "friction angle between grains and bed"),
-    Key::required("side_friction", FRICTION, "friction angle between grains and side walls"),
-    Key::required("barrier_friction", FRICTION, "friction angle between grains and barrier"),
+    Key::for_grains("base_friction", FRICTION, "friction angle between grains and bed"),
+    Key::for_grains("side_friction", FRICTION, "friction angle between grains and side walls"),
+    Key::for_grains("barrier_friction", FRICTION, "friction angle between grains and barrier"),
 ];
 
 const FLOW: &[Key] = &[
     Key::optional("mass", quantity(D::Mass, 1e-3, 1e9), "mass of the flow; give this or the volume"),
     Key::optional("volume", quantity(D::Volume, 1e-6, 1e6), "volume with pores; give this or the mass"),
+    Key::optional(
+        "event_volume",
+        quantity(D::Volume, 1e-6, 1e7),
+        "volume with pores of the whole event, where the flow is one of its surges; by default the flow's",
+    ),
     Key::required("bulk_density", quantity(D::Density, 300.0, 3500.0), "density of the flow, grains with pores"),
-    Key::required("solid_density", quantity(D::Density, 500.0, 8000.0), "density of the grains alone"),
-    Key::required("grain_sizes", Kind::OneOf(GRAIN_SIZES), "how large the grains are"),
+    Key::for_grains("solid_density", quantity(D::Density, 500.0, 8000.0), "density of the grains alone"),
+    Key::for_grains("grain_sizes", Kind::OneOf(GRAIN_SIZES), "how large the grains are"),
     Key::default(
         "grain_aspect",
         Kind::Number { low: 1.0, high: 2.0 },
         "1.5",
         "length over width of a grain; 1 is a sphere",
     ),
-    Key::required("grain_friction", FRICTION, "friction angle between grains"),
+    Key::for_grains("grain_friction", FRICTION, "friction angle between grains"),
     Key::default("restitution", Kind::Number { low: 0.1, high: 1.0 }, "0.3", "normal restitution of grain contacts"),
     Key::default(
         "contact_modulus",
@@ -95,7 +101,7 @@ const CURVE: &[Key] = &[
 
 const ARRIVAL: &[Key] = &[
     Key::optional("dam_break", Kind::Section(DAM_BREAK), "a block at rest behind a gate that opens at once"),
-    Key::optional("surge", Kind::Section(SURGE), "a block just upstream of the barrier, already moving"),
+    Key::optional("surge", Kind::Section(SURGE), "a body of grains upstream of the barrier, already moving"),
 ];
 
 const DAM_BREAK: &[Key] = &[
@@ -118,21 +124,46 @@ const SURGE: &[Key] = &[
     Key::required("depth", quantity(D::Length, 0.005, 50.0), "depth of the flow, normal to the bed"),
     Key::required("velocity", quantity(D::Velocity, 0.05, 40.0), "velocity of the flow along the bed"),
     Key::optional("length", quantity(D::Length, 0.01, 1e4), "length of the surge; by default what the volume needs"),
+    Key::optional(
+        "front_angle",
+        quantity(D::Angle, 5.0 * DEGREE, 90.0 * DEGREE),
+        "angle between the front face of the surge and the bed; by default that of a granular front, tan = tan(grain_friction) - tan(slope), at least 15 deg (Pouliquen 1999); 90 deg is a vertical face, which hits a barrier everywhere at once",
+    ),
+    Key::optional(
+        "run_in",
+        quantity(D::Length, 0.0, 1e3),
+        "way from the front of the surge at its release to the barrier, on which it loosens; by default four times the depth",
+    ),
 ];
 
 const BARRIER: &[Key] = &[
-    Key::optional("rigid_wall", Kind::Section(RIGID_WALL), "a wall across the channel, normal to the bed"),
+    Key::optional("rigid_wall", Kind::Section(RIGID_WALL), "a wall across the channel"),
     Key::optional("flexible_net", Kind::Section(FLEXIBLE_NET), "a rope net on main ropes"),
 ];
 
 const RIGID_WALL: &[Key] = &[
-    Key::required("height", quantity(D::Length, 0.01, 50.0), "height normal to the bed"),
+    Key::required("height", quantity(D::Length, 0.01, 50.0), "height along the face of the wall"),
+    Key::optional(
+        "tilt",
+        quantity(D::Angle, -STEEPEST, STEEPEST),
+        "angle of the face against plumb, positive leans upstream; by default the face is normal to the bed",
+    ),
     Key::optional(
         "segments",
         Kind::Quantities { dimension: D::Length, low: 0.001, high: 50.0 },
         "heights of the parts whose force is reported, from the bottom; by default six equal parts",
     ),
-    Key::optional("resistance", quantity(D::Force, 1.0, 1e12), "resistance of the whole wall to the total force"),
+    Key::optional(
+        "resistance",
+        quantity(D::Force, 1.0, 1e12),
+        "characteristic resistance of the whole wall to the total force",
+    ),
+    Key::default(
+        "resistance_factor",
+        Kind::Number { low: 1.0, high: 5.0 },
+        "1.5",
+        "partial factor on that resistance (1.5: concrete, EN 1992-1-1); 1 where the resistance is a design value",
+    ),
     Key::optional(
         "stability",
         Kind::Section(STABILITY),
@@ -288,8 +319,14 @@ const ANCHORS: &[Key] = &[
     Key::optional(
         "bed_resistance",
         quantity(D::Force, 1.0, 1e10),
-        "characteristic resistance of all that holds the lowest rope to the bed, together",
+        "characteristic resistance of all bolts of the lowest rope together; give this or bed_bolt_resistance",
     ),
+    Key::optional(
+        "bed_bolt_spacing",
+        quantity(D::Length, 0.01, 100.0),
+        "distance between the bolts that hold the lowest rope to the bed",
+    ),
+    Key::optional("bed_bolt_resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one such bolt"),
 ];
 
 const BOTTOM: &[Key] = &[
@@ -309,6 +346,12 @@ const LIMITS: &[Key] = &[
     Key::default("rope_utilisation", UTILISATION, "100 %", "greatest tension over design resistance of ropes and net"),
     Key::default("anchor_utilisation", UTILISATION, "100 %", "greatest load over design resistance of anchors"),
     Key::default("brake_utilisation", UTILISATION, "90 %", "greatest share of the stroke that may be used"),
+    Key::default(
+        "outside_range",
+        Kind::Choice(&["undecided", "warn"]),
+        "undecided",
+        "what becomes of a check that a formula governs outside the range it is known for: it stays undecided, or it stands with a warning",
+    ),
 ];
 
 const FACTORS: &[Key] = &[
@@ -338,6 +381,11 @@ const FACTORS: &[Key] = &[
         Kind::Number { low: 0.5, high: 1.0 },
         "1",
         "share of a rope's breaking load that its ends hold: 1 for sockets, less for ferrules and grips",
+    ),
+    Key::optional(
+        "dissipator_overstrength",
+        Kind::Number { low: 1.0, high: 3.0 },
+        "largest force of a dissipator that yields, over its plateau, from its tests: ropes and anchors must bear it; by default the partial factor on loads",
     ),
 ];
 
@@ -403,6 +451,12 @@ const SIMULATION: &[Key] = &[
         Kind::Choice(&["pinned_ropes", "sliding_ropes", "cylinders"]),
         "sliding_ropes",
         "ropes fixed to the rings of the net, or running through them with friction; or all of cylinders that bend, with rings as squares that slide on the ropes (some ten times the time)",
+    ),
+    Key::default(
+        "coarsen",
+        Kind::Choice(&["never", "auto"]),
+        "never",
+        "whether the fine end of the grain-size curve is cut where there are more grains than run in minutes; the report says where, and what of it the mesh would let through",
     ),
     Key::default("seed", Kind::Count { low: 0, high: u32::MAX as u64 }, "1", "seed of the packing"),
     Key::default(

@@ -7,6 +7,8 @@ pub enum SizeCurve {
     ByNumber { smallest: f64, largest: f64 },
     /// Cumulative curve by mass: (share of mass that is finer, diameter), both increasing, from 0 to 1.
     ByMass(Vec<(f64, f64)>),
+    /// Nothing is said of the grains, which the equations do not need: every size is NaN.
+    Unknown,
 }
 
 impl SizeCurve {
@@ -36,6 +38,7 @@ impl SizeCurve {
                 let (low, high) = (smallest.powi(4), largest.powi(4));
                 (low + share * (high - low)).powf(0.25)
             }
+            Self::Unknown => f64::NAN,
             Self::ByMass(points) => {
                 let upper = points.iter().position(|point| point.0 >= share).unwrap_or(points.len() - 1).max(1);
                 let ((s0, d0), (s1, d1)) = (points[upper - 1], points[upper]);
@@ -53,7 +56,48 @@ impl SizeCurve {
             Self::ByMass(points) => {
                 Self::ByMass(points.iter().map(|&(share, diameter)| (share, diameter * factor)).collect())
             }
+            Self::Unknown => Self::Unknown,
         }
+    }
+
+    /// D with a number, such as D90: the diameter below which that share of the grains lies, in the measure in which the sizes are given,
+    /// by mass for a curve by mass and by number for a range that is uniform by number.
+    pub fn named(&self, share: f64) -> f64 {
+        match self {
+            Self::ByNumber { smallest, largest } => smallest + share * (largest - smallest),
+            Self::ByMass(_) | Self::Unknown => self.quantile(share),
+        }
+    }
+
+    /// That measure, in words.
+    pub fn measure(&self) -> &'static str {
+        match self {
+            Self::ByNumber { .. } => "by number",
+            Self::ByMass(_) | Self::Unknown => "by mass",
+        }
+    }
+
+    /// Share of the mass that is finer than a diameter.
+    pub fn finer_than(&self, diameter: f64) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.quantile(middle) < diameter { low = middle } else { high = middle }
+        }
+        high
+    }
+
+    /// The curve with its finest part made as coarse as the grains at the given share of the mass.
+    pub fn cut_below(&self, share: f64) -> Self {
+        let finest = self.quantile(share);
+        // A curve must rise: by no more than rounding where it is cut.
+        let mut points = vec![(0.0, finest * (1.0 - 1e-9)), (share, finest)];
+        points.extend(
+            (1..=20)
+                .map(|step| share + (1.0 - share) * f64::from(step) / 20.0)
+                .map(|share| (share, self.quantile(share))),
+        );
+        Self::ByMass(points)
     }
 
     /// About how many grains a solid volume (m³) makes.
@@ -102,6 +146,27 @@ mod tests {
             let finer: f64 = grains.iter().filter(|d| **d <= diameter).map(mass).sum();
             assert!((finer / total - share).abs() < 0.01, "{share}: {}", finer / total);
         }
+    }
+
+    #[test]
+    fn a_cut_curve_keeps_its_coarse_part_and_has_fewer_grains() {
+        let curve = SizeCurve::through(&[(0.3, 0.12), (0.5, 0.15), (0.9, 0.5)]);
+        let cut = curve.cut_below(0.6);
+        for share in [0.6, 0.8, 1.0] {
+            assert_relative_eq!(cut.quantile(share), curve.quantile(share), max_relative = 1e-2);
+        }
+        assert_relative_eq!(cut.quantile(0.0), curve.quantile(0.6), max_relative = 1e-6);
+        assert!(cut.count(100.0) < 0.5 * curve.count(100.0));
+        assert_relative_eq!(curve.finer_than(0.15), 0.5, max_relative = 1e-6);
+    }
+
+    #[test]
+    fn a_named_size_is_in_the_measure_of_the_sizes() {
+        let range = SizeCurve::ByNumber { smallest: 0.289, largest: 0.579 };
+        assert_relative_eq!(range.named(0.3), 0.376, max_relative = 1e-3);
+        assert_relative_eq!(range.quantile(0.3), 0.443, max_relative = 2e-3);
+        let curve = SizeCurve::through(&[(0.3, 0.30), (0.9, 0.80)]);
+        assert_relative_eq!(curve.named(0.3), 0.30, max_relative = 1e-9);
     }
 
     #[test]

@@ -1,11 +1,17 @@
 //! How high and how far a deposit stands behind the barrier, and how many surges fill it.
 
-/// Height normal to the bed of a deposit whose surface is level, for a volume per width V on a bed of slope α behind a
-/// barrier that leans upstream by θ from the bed's normal: V = ½ H² (cot α + tan θ).
-/// A level surface is the highest a deposit can have at the barrier; on a level bed it is 0.
-pub fn level_deposit_height(volume_per_width: f64, slope: f64, lean: f64) -> f64 {
-    let spread = slope.tan().recip() + lean.tan();
-    if spread > 0.0 { (2.0 * volume_per_width / spread).sqrt() } else { f64::INFINITY }
+/// Height normal to the bed, at the barrier, of a deposit of a volume per width V whose plane surface falls upstream at an angle
+/// ψ below the horizontal, on a bed of slope α behind a barrier that leans upstream by θ from the bed's normal:
+/// V = ½ H² (cot(α + ψ) + tan θ). ψ = 0 is the level surface of a fluid; a granular flow that is stopped while it runs up leaves a
+/// heap against the barrier, and ψ may be as much as its angle of repose. Infinite where surface and barrier do not meet the bed in a
+/// triangle.
+pub fn deposit_height(volume_per_width: f64, slope: f64, falls: f64, lean: f64) -> f64 {
+    let spread = (slope + falls).tan().recip() + lean.tan();
+    if spread > 0.0 && slope + falls < std::f64::consts::FRAC_PI_2 + lean {
+        (2.0 * volume_per_width / spread).sqrt()
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// A deposit with a plane surface behind a barrier in a prismatic channel; lengths in m, angles in rad.
@@ -30,7 +36,7 @@ pub struct Retention {
     pub volume: f64,
     /// Length of the deposit, level (m).
     pub length: f64,
-    /// Volume held over that of the design flow: surges until it is full.
+    /// Volume held over that of one surge, the design flow: surges until it is full.
     pub surges: f64,
 }
 
@@ -50,9 +56,21 @@ mod tests {
 
     #[test]
     fn a_level_deposit_fills_the_triangle_behind_the_barrier() {
-        let height = level_deposit_height(10.0, 0.5, 0.3);
+        let height = deposit_height(10.0, 0.5, 0.0, 0.3);
         assert_relative_eq!(0.5 * height * height * (1.0 / 0.5_f64.tan() + 0.3_f64.tan()), 10.0, max_relative = 1e-12);
-        assert_eq!(level_deposit_height(10.0, 0.0, 0.0), 0.0);
+        assert_eq!(deposit_height(10.0, 0.0, 0.0, 0.0), 0.0);
+    }
+
+    #[test]
+    fn a_heap_at_the_angle_of_repose_stands_higher_than_a_level_deposit() {
+        // A triangle of 12.5 m² on a level bed with a surface at 45°: 5 m by 5 m.
+        assert_relative_eq!(deposit_height(12.5, 0.0, std::f64::consts::FRAC_PI_4, 0.0), 5.0, max_relative = 1e-12);
+        let slope = 5_f64.to_radians();
+        let [level, heap] = [0.0, 35_f64.to_radians()].map(|falls| deposit_height(12.5, slope, falls, 0.0));
+        assert_relative_eq!(level, 1.479, max_relative = 1e-3);
+        assert_relative_eq!(heap, 4.580, max_relative = 1e-3);
+        // Too steep to end at the bed.
+        assert_eq!(deposit_height(1.0, 1.0, 1.0, 0.0), f64::INFINITY);
     }
 
     #[test]

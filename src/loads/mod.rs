@@ -7,4 +7,5 @@ pub mod input;
 pub mod ladder;
 pub mod pressure;
 pub mod rope;
+pub mod run_up;
 pub mod wall;

@@ -8,11 +8,11 @@ use crate::checks::outcome::Outcome;
 use crate::dem::recorders::histories::smoothed;
 use crate::pipeline::Run;
 use crate::report::findings::over_starts;
-use crate::report::numbers::{percent, with_scatter, with_unit};
+use crate::report::numbers::{with_scatter, with_unit};
 use crate::report::pictures::Chart;
 use crate::report::plots::line_chart::{LineChart, Series, resampled};
 use crate::report::render::{Rendered, render_as};
-use crate::report::view::summary;
+use crate::report::view::{is_share, summary, used};
 use crate::report::write::ReportFile;
 use crate::scene::build::SAMPLES_PER_WINDOW;
 use crate::simulated::Simulated;
@@ -134,12 +134,14 @@ fn check_lines(variants: &[Variant]) -> Vec<Line> {
 fn check_cell(outcome: &Option<Outcome>) -> Cell {
     let Some(outcome) = outcome else { return Cell { text: "–".into(), ..Cell::default() } };
     // A least share is judged by the simulation alone, all else by the larger of both.
-    let demand = match outcome.resistance {
-        Some(_) => outcome.demand.largest(),
-        None => outcome.demand.simulation.or(outcome.demand.guideline),
+    let (demand, by) = match outcome.resistance {
+        Some(_) if outcome.governed_by_equations() => (outcome.demand.largest(), ", guideline"),
+        Some(_) => (outcome.demand.largest(), ", simulation"),
+        None => (outcome.demand.simulation.or(outcome.demand.guideline), ""),
     };
-    let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit));
-    Cell { text, class: outcome.verdict.word(), change: percent(outcome.utilisation), marked: false }
+    let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit) + by);
+    let change = if is_share(outcome) { String::new() } else { used(outcome) };
+    Cell { text, class: outcome.verdict.word(), change, marked: false }
 }
 
 fn observed_lines(variants: &[Variant]) -> Vec<Line> {

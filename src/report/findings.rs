@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, STEP_LIMIT};
+use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, PACKING_LIMIT, STEP_LIMIT, STORED_LIMIT, STRAY_LIMIT};
 use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
 use crate::design::{BarrierDesign, BarrierModel, Design};
@@ -47,7 +47,12 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         row(
             "Incoming flow",
             incoming,
-            "at the gauge upstream, when its momentum flux was largest; depth at bulk density",
+            "0.1 to 0.3 barrier heights upstream, when its momentum flux was largest and before grains came to rest there; depth at bulk density",
+        ),
+        row(
+            "Velocity of the front",
+            seen.front_velocity.map_or("not seen".to_string(), |front| with_unit(front, "m/s")),
+            "over the last 0.4 barrier heights before the gauge; of the place that 2 % of the mass is ahead of",
         ),
         row("Depth of the deposit at the barrier", with_unit(seen.deposit_depth, "m"), "at the end, at bulk density"),
     ]
@@ -66,6 +71,19 @@ fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         ),
         row("Total force at rest", with_unit(seen.force_residual, "N"), at_rest_remark(design, seen)),
     ]
+    .into_iter()
+    .chain(extension_row(seen))
+    .collect()
+}
+
+/// How far the net bulges: the room it needs downstream.
+fn extension_row(seen: &Observed) -> Option<Row> {
+    let most = seen.extension.iter().copied().fold(0.0, f64::max);
+    let ropes: Vec<String> = seen.extension.iter().map(|extension| with_unit(*extension, "m")).collect();
+    (most > 0.0).then(|| {
+        let remark = format!("downstream, of main ropes from the bottom: {}; keep this room free", ropes.join(", "));
+        row("Largest extension of the net", with_unit(most, "m"), remark)
+    })
 }
 
 /// The force at rest beside the weight of what is held.
@@ -158,7 +176,11 @@ fn side_row(told: &Coefficients) -> Row {
 fn loss_rows(seen: &Observed) -> Vec<Row> {
     let [through, under, beside, over] = seen.lost.map(|share| with_unit(share, "-"));
     let ways = format!("through {through}, under {under}, beside {beside}, over {over}");
-    vec![row("Mass lost", with_unit(1.0 - seen.retained, "-"), ways)]
+    let stopped = with_unit(seen.stopped_upstream, "-");
+    vec![
+        row("Mass lost", with_unit(seen.lost.iter().sum(), "-"), ways),
+        row("Mass that stopped upstream", stopped, "came to rest without leaning on the barrier; not counted as held"),
+    ]
 }
 
 fn wall_rows(seen: &Observed) -> Vec<Row> {
@@ -209,7 +231,16 @@ pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
         row(
             "Grains outside the channel",
             numerics.strays.to_string(),
-            "below the bed or beyond a side wall; none is allowed",
+            format!(
+                "through the bed or a side wall, {:.3} % of the mass, counted as lost; at most {} %",
+                100.0 * numerics.stray_share,
+                100.0 * STRAY_LIMIT
+            ),
+        ),
+        row(
+            "Energy stored at the release",
+            format!("{:.3} %", 100.0 * numerics.stored_at_release),
+            format!("in the contacts of a surge, of its energy of motion; limit {} %", 100.0 * STORED_LIMIT),
         ),
         row("Simulated time", with_unit(facts.simulated, "s"), ending),
         row(
@@ -220,7 +251,10 @@ pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
         row(
             "Packing",
             format!("{:.0} %", 100.0 * facts.packed_share),
-            "of the bulk density asked for at the start; less where the grains are large against the block",
+            format!(
+                "of the bulk density asked for at the start; less where the grains are large against the block; at least {} %",
+                100.0 * (1.0 - PACKING_LIMIT)
+            ),
         ),
         seed_row(run),
         validation_row(),

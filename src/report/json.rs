@@ -59,11 +59,15 @@ pub struct CheckPart {
     pub title: String,
     pub demand_guideline: Option<f64>,
     pub demand_simulation: Option<f64>,
+    /// Of the simulation of the characteristic flow, where loads carry a partial factor.
+    pub demand_characteristic: Option<f64>,
     pub capacity: Option<f64>,
     pub utilisation: Option<f64>,
     pub unit: String,
-    /// pass, warn, fail or info
+    /// pass, warn, fail, open or info
     pub verdict: String,
+    /// Why the check is open, and what would close it; empty for any other verdict.
+    pub open: String,
     pub source: String,
 }
 
@@ -105,24 +109,35 @@ pub struct SimulationPart {
     pub force_total_residual_n: f64,
     pub velocity_mean_peak_m_s: f64,
     pub velocity_mean_peak_time_s: f64,
+    /// Of the mass that has come to the barrier.
     pub retained_fraction: f64,
+    /// Of the mass, what came to rest upstream without leaning on the barrier.
+    pub stopped_upstream_fraction: f64,
     pub lost: LostPart,
     pub residual_height_m: Option<f64>,
     pub rope_tension_peak_n: Vec<f64>,
     pub rope_tension_mean_peak_n: Vec<f64>,
     pub rope_tension_mean_residual_n: Vec<f64>,
     pub anchor_force_peak_n: Vec<f64>,
+    /// How far downstream each main rope bulged at the most.
+    pub rope_extension_m: Vec<f64>,
     pub brake_stroke_m: Vec<f64>,
     pub brake_stroke_mean_m: Vec<f64>,
     pub lateral_tension_peak_n: f64,
     /// On what holds the lowest main rope to the bed.
     pub bed_force_peak_n: f64,
+    /// On its worst bolt, and the largest lift of one; 0 where anchors.bed_bolt_spacing is not given.
+    pub bolt_force_peak_n: f64,
+    pub bolt_lift_peak_n: f64,
     pub net_tension_peak_n: f64,
     pub wall: Option<WallPart>,
-    /// Of the incoming flow when its momentum flux was largest; depth at bulk density.
+    /// Of the flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there; depth at bulk
+    /// density.
     pub incoming_depth_m: f64,
     pub incoming_velocity_m_s: f64,
-    /// Of the incoming flow when the total force peaked; 90 % of the centres and half a grain.
+    /// Of the front, on the last 0.4 barrier heights before the gauge just upstream of the barrier.
+    pub front_velocity_m_s: Option<f64>,
+    /// Of the flow a barrier's height upstream when the total force peaked; 90 % of the centres and half a grain.
     pub incoming_thickness_at_peak_m: f64,
     pub incoming_velocity_at_peak_m_s: f64,
     pub deposit_depth_m: f64,
@@ -174,6 +189,12 @@ pub struct NumericsPart {
     pub grains_outside: u32,
     pub energy_error_relative: f64,
     pub overlap_max_relative: f64,
+    /// Mass of the grains outside, over the whole.
+    pub grains_outside_share: f64,
+    /// Energy stored in contacts at the release of a surge, over its energy of motion.
+    pub stored_at_release_relative: f64,
+    /// Density of the packed flow over the one asked for.
+    pub packed_density_relative: f64,
     pub neighbour_rebuilds: u64,
     pub threads: usize,
     pub wall_clock_s: f64,
@@ -204,10 +225,12 @@ fn check_part(outcome: &Outcome) -> CheckPart {
         title: outcome.title.clone(),
         demand_guideline: outcome.demand.guideline,
         demand_simulation: outcome.demand.simulation,
+        demand_characteristic: outcome.demand.characteristic,
         capacity: outcome.capacity,
         utilisation: outcome.utilisation,
         unit: outcome.unit.to_string(),
         verdict: outcome.verdict.word().to_string(),
+        open: outcome.open.as_ref().map_or(String::new(), |open| open.words().to_string()),
         source: outcome.source.to_string(),
     }
 }
@@ -254,20 +277,25 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
         velocity_mean_peak_m_s: seen.velocity_peak,
         velocity_mean_peak_time_s: seen.velocity_peak_time,
         retained_fraction: seen.retained,
+        stopped_upstream_fraction: seen.stopped_upstream,
         lost: LostPart { through, under, beside, over },
         residual_height_m: run.histories.top_rope_height.last().copied(),
         rope_tension_peak_n: seen.rope_tension_peak.clone(),
         rope_tension_mean_peak_n: seen.rope_mean_peak.clone(),
         rope_tension_mean_residual_n: seen.rope_mean_residual.clone(),
         anchor_force_peak_n: seen.anchor_force_peak.clone(),
+        rope_extension_m: seen.extension.clone(),
         brake_stroke_m: seen.brake_stroke.clone(),
         brake_stroke_mean_m: seen.brake_stroke_mean.clone(),
         lateral_tension_peak_n: seen.lateral_tension_peak,
         bed_force_peak_n: seen.bed_force_peak,
+        bolt_force_peak_n: seen.bolt_force_peak,
+        bolt_lift_peak_n: seen.bolt_lift_peak,
         net_tension_peak_n: seen.net_tension_peak,
         wall,
         incoming_depth_m: seen.incoming.depth,
         incoming_velocity_m_s: seen.incoming.velocity,
+        front_velocity_m_s: seen.front_velocity,
         incoming_thickness_at_peak_m: seen.incoming_at_peak.thickness,
         incoming_velocity_at_peak_m_s: seen.incoming_at_peak.velocity,
         deposit_depth_m: seen.deposit_depth,
@@ -310,6 +338,9 @@ fn numerics_part(run: &Simulated) -> NumericsPart {
         grains_outside: run.numerics.strays,
         energy_error_relative: run.numerics.energy_error,
         overlap_max_relative: run.numerics.overlap,
+        grains_outside_share: run.numerics.stray_share,
+        stored_at_release_relative: run.numerics.stored_at_release,
+        packed_density_relative: 1.0 - run.numerics.packing_shortfall,
         neighbour_rebuilds: facts.renewals,
         threads: facts.threads,
         wall_clock_s: facts.wall_clock,

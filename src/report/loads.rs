@@ -4,10 +4,11 @@ use serde::Serialize;
 
 use crate::checks::detailing;
 use crate::checks::wall::wall_of;
-use crate::demand::from_loads::{RopeLoad, level_fill};
+use crate::demand::from_loads::{RopeLoad, event_fill};
 use crate::loads::cases::{LoadCase, split};
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::ladder::MODELS;
+use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
@@ -319,23 +320,35 @@ pub fn holding(run: &Run) -> Vec<Row> {
         rows.push(row(
             "Surges until it is full",
             figures(held.surges),
-            format!("of {} each, the design flow", with_unit(design.flow.volume(), "m³")),
+            format!(
+                "of {} each, the design flow; the event has {}",
+                with_unit(design.flow.volume(), "m³"),
+                with_unit(design.flow.event_volume, "m³")
+            ),
         ));
     }
     let input = &run.guideline.input;
-    let one_event = level_fill(design).min(input.barrier_height);
+    let event = event_fill(design, input);
+    rows.push(row(
+        "Run-up on the barrier",
+        format!("{} / {}", with_unit(run_up::by_jump(input), "m"), with_unit(run_up::by_energy(input), "m")),
+        "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; dry friction is left out".into(),
+    ));
+    let one_event = event.height().min(input.barrier_height);
     rows.push(row(
         "Freeboard over one event",
         with_unit(input.barrier_height - one_event, "m"),
         format!(
-            "the barrier's {} less the level deposit of the design volume, {}, normal to the bed; no guideline value was found",
+            "the barrier's {} less what the event may heap up, {} (level {}, at the angle of repose {}, no higher than it runs up), normal to the bed; no guideline value was found",
             with_unit(input.barrier_height, "m"),
-            with_unit(one_event, "m")
+            with_unit(event.height(), "m"),
+            with_unit(event.level, "m"),
+            if event.heap.is_finite() { with_unit(event.heap, "m") } else { "without end".into() },
         ),
     ));
     let slope = design.channel.slope;
     if slope > 0.0 {
-        for estimate in peak_discharge(design.flow.volume()) {
+        for estimate in peak_discharge(design.flow.event_volume) {
             let [velocity, depth] = velocity_and_depth(estimate.value, slope, design.channel.width);
             rows.push(row(
                 &format!("Estimate from the volume alone: {}", estimate.name),

@@ -18,7 +18,7 @@ use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
 use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
-use crate::report::view::worst_first;
+use crate::report::view::{is_share, worst_first};
 use crate::simulated::Simulated;
 
 #[derive(Debug, Serialize)]
@@ -88,10 +88,11 @@ pub fn utilisation_chart(run: &Run) -> Option<Chart> {
         let used = outcome.utilisation?;
         let of = |demand: Option<f64>| Some(demand? / outcome.capacity.filter(|_| outcome.resistance.is_some())?);
         let by = [of(outcome.demand.guideline), of(outcome.demand.simulation)];
-        Some(Bar { label: outcome.title.clone(), used, by, class: outcome.verdict.word() })
+        let value = is_share(outcome).then(|| crate::report::view::used(outcome));
+        Some(Bar { label: outcome.title.clone(), used, by, value, class: outcome.verdict.word() })
     };
     let bars: Vec<Bar> = judged.filter_map(bar).take(MOST_BARS).collect();
-    let note = "Demand over capacity; of guideline (square) and simulation (circle) the larger. Bars beyond 200 % are cut off. Checks that tell no share of use are in the table alone.";
+    let note = "Demand over capacity; of guideline (square) and simulation (circle) the larger. Of what must be kept (mass, height), the bar is what is missing of what may be missing, and the number what is kept. Bars beyond 200 % are cut off. Checks that tell no share of use are in the table alone.";
     (!bars.is_empty()).then(|| Chart::of("Utilisation of the checks", utilisation(&bars), note))
 }
 
@@ -207,7 +208,12 @@ pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
         slope: design.channel.slope,
         width: design.channel.width,
         height: run.guideline.input.barrier_height,
-        wall: matches!(design.barrier, BarrierDesign::RigidWall(_)),
+        wall: match &design.barrier {
+            BarrierDesign::RigidWall(wall) => {
+                Some([-wall.lean.sin(), wall.lean.cos()].map(|share| wall.height * share))
+            }
+            BarrierDesign::FlexibleNet(_) => None,
+        },
         fastest: seen.first().velocity_peak,
     };
     let chart = |snapshot: &Snapshot| {
@@ -295,7 +301,7 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
 pub fn replay(run: &Run, seen: &Simulated) -> Option<Replay> {
     let channel = &run.file.design.channel;
     let wall = match &run.file.design.barrier {
-        BarrierDesign::RigidWall(wall) => Some(wall.height),
+        BarrierDesign::RigidWall(wall) => Some([-wall.lean.sin(), wall.lean.cos()].map(|share| wall.height * share)),
         BarrierDesign::FlexibleNet(_) => None,
     };
     pack(&seen.histories.film, &Stage { width: channel.width, slope: channel.slope, wall })

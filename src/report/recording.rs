@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::read::read_design;
+use crate::design::read::{Purpose, read_design_for};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, restore};
@@ -18,7 +18,7 @@ pub const FILE: &str = "recording.bin";
 
 const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -65,7 +65,8 @@ pub fn decode(bytes: &[u8]) -> Result<Run, RecordingError> {
     let recording: Recording<Simulated, Vec<Swing>> =
         postcard::from_bytes(body).map_err(|_| RecordingError::Damaged)?;
     let name = format!("{}.yaml", recording.design_name);
-    let file = read_design(&name, &recording.design).map_err(RecordingError::Design)?;
+    let purpose = if recording.simulated.is_some() { Purpose::Simulation } else { Purpose::Equations };
+    let file = read_design_for(purpose, &name, &recording.design).map_err(RecordingError::Design)?;
     if recording.climb.iter().any(|step| step.rung >= RUNGS.len()) {
         return Err(RecordingError::Damaged);
     }

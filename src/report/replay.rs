@@ -51,10 +51,10 @@ struct Head {
     speed: f32,
     force: f32,
     tension: f32,
-    /// Of the channel (m), its slope (rad), and the height of a rigid wall (m), 0 for a net.
+    /// Of the channel (m), its slope (rad), and the top of a rigid wall over its foot (m along the channel, m normal to the bed), zeros for a net.
     width: f64,
     slope: f64,
-    wall: f64,
+    wall: [f64; 2],
 }
 
 /// The channel that the film was taken in.
@@ -64,8 +64,8 @@ pub struct Stage {
     pub width: f64,
     /// rad
     pub slope: f64,
-    /// Height of a rigid wall (m), if that is the barrier.
-    pub wall: Option<f64>,
+    /// Top of a rigid wall over its foot (m along the channel, m normal to the bed), if that is the barrier.
+    pub wall: Option<[f64; 2]>,
 }
 
 /// Packs a film, with fewer frames if it would be too large; nothing if there is too little to show.
@@ -155,7 +155,7 @@ impl<'a> Packer<'a> {
             tension,
             width: stage.width,
             slope: stage.slope,
-            wall: stage.wall.unwrap_or(0.0),
+            wall: stage.wall.unwrap_or_default(),
         };
         let mut bytes = Vec::new();
         for axis in 0..3 {

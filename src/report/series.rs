@@ -27,6 +27,7 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
         ("rope_mean", "n", &histories.rope_mean),
         ("rope_largest", "n", &histories.rope_largest),
         ("anchor", "n", &histories.anchors),
+        ("rope_extension", "m", &histories.extension),
         ("brake_stroke", "m", &histories.strokes),
         ("brake_stroke_mean", "m", &histories.strokes_mean),
         ("brake", "n", &histories.brakes),
@@ -38,6 +39,8 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     }
     add("lateral_largest_n".into(), histories.lateral_largest.clone());
     add("bed_force_n".into(), histories.bed_force.clone());
+    add("bolt_largest_n".into(), histories.bolt_largest.clone());
+    add("bolt_lift_n".into(), histories.bolt_lift.clone());
     add("net_largest_n".into(), histories.net_largest.clone());
     add("broken_pieces".into(), histories.broken_pieces.clone());
     add("drawn_out_share".into(), histories.drawn_out.clone());
@@ -61,6 +64,9 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("incoming_thickness_m".into(), incoming.iter().map(|gauge| gauge.thickness).collect());
     add("incoming_depth_m".into(), incoming.iter().map(|gauge| gauge.depth).collect());
     add("incoming_velocity_m_s".into(), incoming.iter().map(|gauge| gauge.velocity).collect());
+    add("approaching_thickness_m".into(), histories.approaching.iter().map(|gauge| gauge.thickness).collect());
+    add("approaching_velocity_m_s".into(), histories.approaching.iter().map(|gauge| gauge.velocity).collect());
+    add("front_m".into(), histories.front.clone());
     add("deposit_depth_m".into(), histories.barrier_depth.clone());
     add("kinetic_j".into(), histories.ledger.iter().map(|ledger| ledger.kinetic).collect());
     add("potential_j".into(), histories.ledger.iter().map(|ledger| ledger.potential).collect());

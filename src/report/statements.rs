@@ -25,7 +25,7 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let default_arrival = match design.flow.arrival {
         Arrival::DamBreak(block) => block.depth_at_barrier.is_none() || block.velocity_at_barrier.is_none(),
-        Arrival::Surge { .. } => false,
+        Arrival::Surge(_) => false,
     };
     let simulated = run.simulated.is_some();
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
@@ -67,13 +67,13 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             EITHER,
         ),
         (
-            net && simulated,
-            "Strokes and tensions of dissipators in the simulation carry no partial factor, because a dissipator does not scale with its load; to cover one, give a larger flow.",
-            UNSAFE,
+            net && simulated && design.factors.load != 1.0,
+            "The partial factor on loads makes the flow heavier, in the equations and in the simulation; its velocity, depth and volume stay as given.",
+            EITHER,
         ),
         (
             default_arrival,
-            "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892) and its velocity that of a block sliding on the bed, where the design does not give them.",
+            "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892), and its velocity the larger of that of a block sliding on the bed and that of a front without inner friction, where the design does not give them: an upper bound, often twice what arrives.",
             SAFE,
         ),
         (
@@ -112,7 +112,9 @@ fn of_ropes(design: &Design) -> Option<&'static str> {
 /// What nobody has looked at.
 pub fn not_checked(design: &Design) -> Vec<&'static str> {
     let (net, bolts, wall) = match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => (true, net.bottom == Bottom::Fixed && net.bed_resistance.is_none(), false),
+        BarrierDesign::FlexibleNet(net) => {
+            (true, net.bottom == Bottom::Fixed && net.bed_bolts.and_then(|bolts| bolts.resistance).is_none(), false)
+        }
         BarrierDesign::RigidWall(wall) => (false, false, wall.stability.is_none()),
     };
     let loads = &design.loads;
@@ -124,7 +126,7 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
         (net, "the rings; punching of the mesh by a single stone"),
         (
             bolts,
-            "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_resistance would have them checked)",
+            "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_bolt_spacing and anchors.bed_bolt_resistance would have them checked)",
         ),
         (loads.point_load.is_none(), "impact of single boulders larger than the design grains, and of wood"),
         (loads.drained.is_none(), "drainage of the deposit"),

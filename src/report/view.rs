@@ -6,6 +6,7 @@ use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
 use crate::design::{Arrival, BarrierDesign, Rope};
+use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
@@ -29,6 +30,8 @@ pub struct View {
     pub warnings: Vec<String>,
     pub utilisation: Option<Chart>,
     pub checks: Vec<CheckRow>,
+    /// Where each partial factor stands.
+    pub combinations: Vec<CombinationRow>,
     pub simulated: bool,
     pub guideline: Vec<Row>,
     pub cases: Vec<CaseRow>,
@@ -82,12 +85,25 @@ pub struct CheckRow {
     pub title: String,
     pub guideline: String,
     pub simulation: String,
+    /// Of the characteristic flow, without partial factors, where loads carry one.
+    pub characteristic: String,
     pub capacity: String,
     /// The capacity with its numbers.
     pub working: String,
     pub utilisation: String,
     pub verdict: &'static str,
+    /// Why the check is open.
+    pub open: String,
     pub source: &'static str,
+}
+
+/// A row of the load combination table.
+#[derive(Debug, Serialize)]
+pub struct CombinationRow {
+    pub what: &'static str,
+    pub factor: String,
+    pub by_equations: &'static str,
+    pub by_simulation: &'static str,
 }
 
 #[derive(Debug, Serialize)]
@@ -113,6 +129,7 @@ impl View {
             warnings: warnings(run),
             utilisation: pictures::utilisation_chart(run),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
+            combinations: combination_rows(run),
             guideline: guideline_rows(run),
             simulated: run.simulated.is_some(),
             cases: loads::cases(run),
@@ -213,9 +230,10 @@ pub fn worst_first(run: &Run) -> Vec<&Outcome> {
 fn rank(verdict: CheckVerdict) -> u8 {
     match verdict {
         CheckVerdict::Fail => 0,
-        CheckVerdict::Warn => 1,
-        CheckVerdict::Pass => 2,
-        CheckVerdict::Info => 3,
+        CheckVerdict::Open => 1,
+        CheckVerdict::Warn => 2,
+        CheckVerdict::Pass => 3,
+        CheckVerdict::Info => 4,
     }
 }
 
@@ -223,48 +241,61 @@ fn rank(verdict: CheckVerdict) -> u8 {
 pub fn summary(run: &Run) -> String {
     let sorted = worst_first(run);
     let held: Vec<_> = run.outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info).collect();
-    let failed = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail).count();
-    let by_guideline = |outcome: &&&Outcome| match (outcome.demand.guideline, outcome.capacity) {
-        (Some(demand), Some(capacity)) => demand > capacity,
-        _ => false,
-    };
-    let governing = sorted.iter().find(|outcome| outcome.utilisation.is_some());
-    let governing = governing.map_or(String::new(), |outcome| {
-        format!(" Governing: {} ({}).", outcome.title.to_lowercase(), percent(outcome.utilisation))
-    });
+    let count = |verdict: CheckVerdict| held.iter().filter(|outcome| outcome.verdict == verdict).count();
+    let governing =
+        sorted.iter().find(|outcome| outcome.utilisation.is_some() && outcome.verdict != CheckVerdict::Open);
+    let governing = governing.map_or(String::new(), |outcome| format!(" Governing: {}.", in_a_line(outcome)));
     let rules = detailing::rules(&run.file.design, &run.guideline);
     let broken = match rules.iter().filter(|rule| !rule.holds()).count() {
         0 => String::new(),
         1 => " One rule of detailing or range is not kept.".to_string(),
         count => format!(" {count} rules of detailing or range are not kept."),
     };
-    let governing = format!("{governing}{broken}");
+    let open = match count(CheckVerdict::Open) {
+        0 => String::new(),
+        1 => "one check is open".to_string(),
+        count => format!("{count} checks are open"),
+    };
     match run.verdict {
+        Verdict::Undecided if !run.doubts.is_empty() => {
+            let open = if open.is_empty() { open } else { format!(", and {open}") };
+            format!("The simulation cannot be relied on{open}; see the reasons below.{governing}{broken}")
+        }
         Verdict::Undecided => {
-            let alone = held.iter().filter(by_guideline).count();
-            let hint = if alone > 0 { format!(" By the guideline alone {alone} checks fail.") } else { String::new() };
-            let what =
-                if run.simulated.is_some() { "The simulation cannot be relied on" } else { "Nothing is decided" };
-            format!("{what}; see the reasons below.{hint}")
+            let failed = if run.simulated.is_some() { "" } else { " by the equations alone" };
+            format!(
+                "{} of {} checks hold{failed}; {open}, see the reasons below.{governing}{broken}",
+                held.len() - count(CheckVerdict::Open),
+                held.len()
+            )
         }
         Verdict::Fail => {
-            let alone = if run.simulated.is_some() { "" } else { ", by the equations alone" };
-            format!("{failed} of {} checks fail{alone}.{governing}", held.len())
+            let alone = if run.simulated.is_some() { "" } else { " by the equations alone" };
+            let open = if open.is_empty() { open } else { format!("; {open}") };
+            let doubt = if run.doubts.is_empty() {
+                ""
+            } else {
+                " The simulation cannot be relied on, but what fails by the equations fails whatever it says."
+            };
+            format!(
+                "{} of {} checks fail{alone}{open}.{doubt}{governing}{broken}",
+                count(CheckVerdict::Fail),
+                held.len()
+            )
         }
         Verdict::Pass => {
-            let unjudged = |outcome: &&Outcome| outcome.capacity.is_some() && outcome.verdict == CheckVerdict::Info;
-            let unjudged = run.outcomes.iter().filter(unjudged).count();
-            let alone = match &run.simulated {
-                None => format!(" by the equations alone; {unjudged} more need the simulation"),
+            let one = match &run.simulated {
                 Some(simulated) if simulated.starts.len() == 1 && run.climb.is_empty() => {
-                    "; one start, so its scatter is not known (--seeds)".to_string()
+                    "; one packing, whose scatter the margins cover"
                 }
-                Some(_) => String::new(),
+                _ => "",
             };
-            let close = held.iter().filter(|outcome| outcome.verdict == CheckVerdict::Warn).count();
-            let close = if close > 0 { format!(", {close} with less than 10 % to spare") } else { String::new() };
+            let close = match count(CheckVerdict::Warn) {
+                0 => String::new(),
+                count => format!(", {count} with less than 10 % to spare"),
+            };
             let left = loads::least_margin(run).map_or(String::new(), |left| format!(" By the equations {left}."));
-            format!("{0} of {0} checks hold{close}{alone}.{governing}{left}", held.len())
+            format!("{0} of {0} checks hold{close}{one}.{governing}{broken}{left}", held.len())
         }
     }
 }
@@ -280,16 +311,51 @@ fn check_row(outcome: &Outcome) -> CheckRow {
         title: outcome.title.clone(),
         guideline: demand(outcome.demand.guideline),
         simulation: demand(outcome.demand.simulation),
-        capacity: show(outcome.capacity),
-        working: working(outcome),
-        utilisation: match (outcome.utilisation, outcome.verdict) {
-            (None, CheckVerdict::Pass) => "as it should be".to_string(),
-            (used, _) if used_up(outcome.demand.largest()) => format!("≥ {}", percent(used)),
-            (used, _) => percent(used),
+        characteristic: outcome.demand.characteristic.map_or(String::new(), |value| demand(Some(value))),
+        capacity: match (is_share(outcome), outcome.capacity) {
+            (true, Some(least)) => format!("at least {}", with_unit(least, outcome.unit)),
+            _ => show(outcome.capacity),
         },
+        working: working(outcome),
+        utilisation: used(outcome),
         verdict: outcome.verdict.word(),
+        open: outcome.open.as_ref().map_or(String::new(), |open| open.words().to_string()),
         source: outcome.source,
     }
+}
+
+/// Whether a share must be kept, which reads as what is there, not as what is missing.
+pub fn is_share(outcome: &Outcome) -> bool {
+    outcome.unit == "-" && outcome.resistance.is_none() && outcome.capacity.is_some()
+}
+
+/// How much of the capacity is used; of a share that must be kept, what is kept.
+pub fn used(outcome: &Outcome) -> String {
+    let stroke = outcome.resistance.filter(|_| outcome.unit == "m").map(|(resistance, _)| resistance.characteristic);
+    let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
+    match (outcome.utilisation, outcome.verdict) {
+        (None, CheckVerdict::Pass) => "at plateau, as designed".to_string(),
+        (Some(_), _) if is_share(outcome) => {
+            outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit))
+        }
+        (used, _) if used_up => format!("≥ {}", percent(used)),
+        (used, _) => percent(used),
+    }
+}
+
+/// The check in a line: "tension of main rope 3 (75 %)", "mass held by the barrier (99.9 %, at least 90.0 %)".
+pub fn in_a_line(outcome: &Outcome) -> String {
+    let title = lower_first(&outcome.title);
+    match outcome.capacity.filter(|_| is_share(outcome)) {
+        Some(least) => format!("{title} ({}, at least {})", used(outcome), with_unit(least, outcome.unit)),
+        None => format!("{title} ({})", used(outcome)),
+    }
+}
+
+/// A title within a sentence.
+pub fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_lowercase().collect::<String>() + letters.as_str())
 }
 
 /// Characteristic resistance over its factor, times the share that may be used.
@@ -308,6 +374,16 @@ fn working(outcome: &Outcome) -> String {
     text
 }
 
+fn combination_rows(run: &Run) -> Vec<CombinationRow> {
+    let row = |row: Combination| CombinationRow {
+        what: row.what,
+        factor: figures(row.factor),
+        by_equations: row.by_equations,
+        by_simulation: row.by_simulation,
+    };
+    combinations(&run.file.design).into_iter().map(row).collect()
+}
+
 fn guideline_rows(run: &Run) -> Vec<Row> {
     let input = &run.guideline.input;
     let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
@@ -315,7 +391,7 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
     let filling = if input.fills() {
         "normal to the bed: surges come until the barrier is full (loads.filling)"
     } else {
-        "normal to the bed: one event only, to a level surface of its volume; the barrier is emptied before the next (loads.filling)"
+        "normal to the bed: one event only, heaped up against the barrier at the angle of repose, no higher than it runs up; the barrier is emptied before the next (loads.filling)"
     };
     let values = &design.factors;
     let factors = format!("load {}, rope {}, anchor {}", values.load, values.rope, values.anchor);
@@ -399,8 +475,8 @@ fn derived_rows(run: &Run) -> Vec<Row> {
         row("Volume of the flow", with_unit(flow.volume(), "m³"), "mass over bulk density".into()),
         row(
             "Grain sizes D30, D50, D90",
-            [0.3, 0.5, 0.9].map(|share| with_unit(flow.sizes.quantile(share), "m")).join(", "),
-            "by mass, from the curve or the range of sizes".into(),
+            [0.3, 0.5, 0.9].map(|share| with_unit(flow.sizes.named(share), "m")).join(", "),
+            format!("{}, as the sizes are given", flow.sizes.measure()),
         ),
         row("Number of grains", format!("{:.0}", flow.sizes.count(solid)), "of the whole flow, about".into()),
         row(

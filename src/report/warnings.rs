@@ -1,25 +1,33 @@
 //! What a reviewer should know before the numbers, each with what to do about it. One function for each warning.
 
+use crate::checks::credibility::STRAY_LIMIT;
+use crate::checks::detailing::{Bearing, rules};
 use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::range::rope_outside;
 use crate::dem::recorders::histories::{peak, smoothed};
-use crate::design::{BarrierDesign, FidelityWish, FlexibleNet};
-use crate::fidelity::ladder::{RUNGS, Rung};
+use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
+use crate::fidelity::ladder::rung_of;
 use crate::pipeline::Run;
-use crate::report::numbers::with_unit;
+use crate::report::numbers::{figures, with_unit};
 use crate::report::validation::Kept;
-use crate::simulated::Simulated;
+use crate::report::view::{in_a_line, is_share, lower_first};
 
 type Warning = fn(&Run) -> Option<String>;
 
 /// All warnings, in the order of the report.
 const WARNINGS: &[Warning] = &[
-    verdicts_that_could_flip,
+    flow_not_stopped,
+    flow_that_stopped_upstream,
+    slows_on_its_way,
+    event_larger_than_the_flow,
+    discharge_and_volume,
+    grains_that_hide_losses,
+    strays,
     force_beyond_the_guideline,
     faster_flow_than_the_guideline_was_given,
     dissipators_used_up,
     ropes_broken,
     sag_beyond_the_equations,
-    bolts_not_judged,
     loads_without_factor,
     soft_ropes,
     validation_case_like_this,
@@ -36,25 +44,6 @@ fn net(run: &Run) -> Option<&FlexibleNet> {
     }
 }
 
-/// The rung of the ladder that a run whose fineness the design pins is like.
-pub fn rung_of(run: &Simulated) -> &'static Rung {
-    let several = RUNGS.iter().find(|rung| rung.starts > 1 && run.starts.len() >= rung.starts as usize);
-    several.or_else(|| RUNGS.iter().find(|rung| rung.name == "grains")).unwrap_or(&RUNGS[0])
-}
-
-fn verdicts_that_could_flip(run: &Run) -> Option<String> {
-    let seen = run.simulated.as_ref().filter(|_| run.climb.is_empty())?;
-    let close = rung_of(seen).could_flip(&run.outcomes);
-    let one = seen.starts.len() == 1;
-    (!close.is_empty()).then(|| {
-        let what = if one { "one start, whose scatter is not known" } else { "these starts" };
-        format!(
-            "With {what}, the simulation cannot tell for certain: {}. Run with --seeds 5, or let \"fidelity: auto\" choose.",
-            listed(&close)
-        )
-    })
-}
-
 fn listed(titles: &[String]) -> String {
     const MOST: usize = 4;
     let shown: Vec<String> = titles.iter().take(MOST).map(|title| lower_first(title)).collect();
@@ -65,13 +54,125 @@ fn listed(titles: &[String]) -> String {
     shown.join("; ") + &more
 }
 
-fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_lowercase().collect::<String>() + letters.as_str())
-}
-
 /// Largest force of the simulation over the guideline's from which it is worth a word.
 const WORTH_A_WORD: f64 = 1.1;
+
+/// Share of the mass lost from which the barrier has not stopped the flow.
+const LEAK: f64 = 0.1;
+
+/// What of the flow went past the barrier comes before all forces: they are those of the rest.
+fn flow_not_stopped(run: &Run) -> Option<String> {
+    let seen = run.simulated.as_ref()?;
+    let all = seen.starts.iter().chain(&seen.factored).map(|start| &start.observed);
+    let worst = all.max_by(|a, b| a.lost.iter().sum::<f64>().total_cmp(&b.lost.iter().sum::<f64>()))?;
+    let lost: f64 = worst.lost.iter().sum();
+    let ways = ["through", "under", "beside", "over"].into_iter().zip(worst.lost).filter(|(_, share)| *share > 0.0005);
+    let ways = ways.map(|(way, share)| format!("{} {way} it", with_unit(share, "-"))).collect::<Vec<_>>().join(", ");
+    (lost > LEAK).then(|| {
+        format!(
+            "The barrier does not stop the flow: {} of the mass went past it ({ways}). All forces, strokes and tensions of the simulation below are those of a flow that was not stopped; one that is loads the barrier more.",
+            with_unit(lost, "-")
+        )
+    })
+}
+
+/// Share of the mass that stopped upstream from which it is worth a word.
+const STOPPED: f64 = 0.02;
+
+fn flow_that_stopped_upstream(run: &Run) -> Option<String> {
+    let stopped = run.simulated.as_ref()?.first().stopped_upstream;
+    (stopped > STOPPED).then(|| {
+        format!(
+            "{} of the mass came to rest upstream and never leant on the barrier. The mass held is counted of the rest alone, and no force is of the whole flow.",
+            with_unit(stopped, "-")
+        )
+    })
+}
+
+/// A surge on a bed that holds it back: its velocity is that of the release, not of the arrival.
+fn slows_on_its_way(run: &Run) -> Option<String> {
+    let design = &run.file.design;
+    let Arrival::Surge(surge) = design.flow.arrival else { return None };
+    let (slope, friction) = (design.channel.slope, design.channel.base_friction.atan());
+    let seen = run.simulated.as_ref().map_or(String::new(), |seen| {
+        let front = seen
+            .first()
+            .front_velocity
+            .map_or(String::new(), |front| format!("its front arrives with {}, ", with_unit(front, "m/s")));
+        format!(
+            " ({front}its densest part with {}, given were {})",
+            with_unit(seen.first().incoming.velocity, "m/s"),
+            with_unit(surge.velocity, "m/s")
+        )
+    });
+    (friction > slope).then(|| {
+        format!(
+            "The bed's friction of {:.1}° holds back a flow on a slope of {:.1}°: the surge slows on its way. Its front is released faster, to arrive with the velocity that was given{seen}; its tail arrives slower, or not at all.",
+            friction.to_degrees(),
+            slope.to_degrees()
+        )
+    })
+}
+
+fn event_larger_than_the_flow(run: &Run) -> Option<String> {
+    let flow = &run.file.design.flow;
+    (flow.event_volume > 1.001 * flow.volume()).then(|| {
+        format!(
+            "The event of {} is more than the flow that is simulated, {}: the simulation is of one surge on the empty barrier. Surges onto a deposit are in the equations alone.",
+            with_unit(flow.event_volume, "m³"),
+            with_unit(flow.volume(), "m³")
+        )
+    })
+}
+
+/// The rule on the discharge, where it is broken: told first, because then the design flow itself is in doubt.
+fn discharge_and_volume(run: &Run) -> Option<String> {
+    let rule = rules(&run.file.design, &run.guideline)
+        .into_iter()
+        .find(|rule| rule.bearing == Bearing::Flow && !rule.holds())?;
+    Some(format!("{} is {}: {}.", rule.title, figures(rule.found), rule.advice))
+}
+
+/// Grains larger than the mesh cannot show what finer ones would do.
+fn grains_that_hide_losses(run: &Run) -> Option<String> {
+    run.simulated.as_ref()?;
+    let flow = &run.file.design.flow;
+    let mesh = net(run).map(|net| net.mesh_opening);
+    if let Some(cut) = &flow.cut {
+        let through = mesh.map_or(String::new(), |mesh| {
+            format!(
+                " {:.0} % of the real flow is finer than the mesh of {}.",
+                100.0 * cut.whole.finer_than(mesh),
+                with_unit(mesh, "m")
+            )
+        });
+        return Some(format!(
+            "The finest {:.0} % of the mass is simulated as grains of {}, so that the run takes minutes (simulation.coarsen).{through}",
+            100.0 * cut.share,
+            with_unit(flow.sizes.quantile(0.0), "m")
+        ));
+    }
+    let (finest, mesh) = (flow.sizes.quantile(0.1), mesh?);
+    (finest > mesh).then(|| {
+        format!(
+            "Nine tenths of the simulated grains ({} and more) are larger than the mesh of {} and cannot pass it: if the real flow has finer ones, \"mass held\" is unsafe. Give the whole curve, with simulation.coarsen: auto where it has too many grains.",
+            with_unit(finest, "m"),
+            with_unit(mesh, "m")
+        )
+    })
+}
+
+fn strays(run: &Run) -> Option<String> {
+    let numerics = &run.simulated.as_ref()?.numerics;
+    (numerics.strays > 0).then(|| {
+        format!(
+            "{} of the grains, {:.2} % of the mass, have gone through the bed or a side wall. They count as lost; up to {:.1} % of the mass this leaves the verdict alone.",
+            numerics.strays,
+            100.0 * numerics.stray_share,
+            100.0 * STRAY_LIMIT
+        )
+    })
+}
 
 fn force_beyond_the_guideline(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref()?;
@@ -91,15 +192,16 @@ fn force_beyond_the_guideline(run: &Run) -> Option<String> {
 }
 
 fn faster_flow_than_the_guideline_was_given(run: &Run) -> Option<String> {
-    let seen = run.simulated.as_ref()?;
-    let incoming = seen.first().incoming;
+    let seen = run.simulated.as_ref()?.first();
     let given = run.guideline.input.velocity;
-    (given > 0.0 && incoming.depth > 0.0 && incoming.velocity > 1.05 * given).then(|| {
+    let velocity = seen.incoming.velocity;
+    (given > 0.0 && seen.incoming.depth > 0.0 && velocity > 1.05 * given).then(|| {
+        let front = seen.front_velocity.map_or(String::new(), |front| format!(" (its front with {})", with_unit(front, "m/s")));
         format!(
-            "The simulated front arrives with {} where the guideline was given {}: dynamic pressures of the guideline would be {:.0} % higher with it. Give the velocity of the front, not the mean of the flow.",
-            with_unit(incoming.velocity, "m/s"),
+            "The simulated flow arrives just upstream of the barrier with {}{front} where the guideline was given {}: its dynamic pressure would be {:.0} % higher with that. Give the velocity of the front at the barrier, not the mean of the flow.",
+            with_unit(velocity, "m/s"),
             with_unit(given, "m/s"),
-            100.0 * ((incoming.velocity / given).powi(2) - 1.0)
+            100.0 * ((velocity / given).powi(2) - 1.0)
         )
     })
 }
@@ -126,24 +228,13 @@ fn dissipators_used_up(run: &Run) -> Option<String> {
     ))
 }
 
-/// Strain from which a rope's state by the equations is no number to rely on.
-const LARGE_STRAIN: f64 = 0.1;
-
 fn sag_beyond_the_equations(run: &Run) -> Option<String> {
-    let rope = &net(run)?.main_ropes.rope;
-    let axial = rope.modulus * std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
-    let width = run.file.design.channel.width;
-    let worst =
-        run.guideline.ropes.iter().enumerate().max_by(|a, b| a.1.state.tension.total_cmp(&b.1.state.tension))?;
-    let (number, state) = (worst.0 + 1, &worst.1.state);
-    let (sag, strain) = (state.sag / width, state.tension / axial);
-    (strain > LARGE_STRAIN).then(|| {
-        format!(
-            "By the equations main rope {number} stretches by {:.0} % and sags {:.0} % of its span: more than a wire rope can and small strains allow. What they say of its tension and anchors is an order of size, not a number.",
-            100.0 * strain,
-            100.0 * sag
-        )
-    })
+    let ropes = run.guideline.ropes.iter().enumerate();
+    let (worst, _) = ropes.max_by(|a, b| a.1.state.tension.total_cmp(&b.1.state.tension))?;
+    let outside = rope_outside(&run.file.design, &run.guideline, worst)?;
+    Some(format!(
+        "By the equations {outside}. What they say of its tension, stroke and anchors is an order of size, not a number."
+    ))
 }
 
 /// From when on ropes have broken in the first start.
@@ -152,17 +243,6 @@ fn ropes_broken(run: &Run) -> Option<String> {
     Some(format!(
         "From {first:.2} s on ropes have broken: what the simulation shows later is no load of the barrier as it was designed. Strengthen what broke first and run again."
     ))
-}
-
-fn bolts_not_judged(run: &Run) -> Option<String> {
-    let bolts = run.outcomes.iter().find(|outcome| outcome.id == "bed_bolts")?;
-    let demand = bolts.demand.largest()?;
-    (bolts.capacity.is_none()).then(|| {
-        format!(
-            "What holds the lowest rope to the bed must bear {} in all, and is held against nothing: give anchors.bed_resistance.",
-            with_unit(demand, bolts.unit)
-        )
-    })
 }
 
 fn loads_without_factor(run: &Run) -> Option<String> {
@@ -204,7 +284,8 @@ fn validation_case_like_this(run: &Run) -> Option<String> {
 /// grow, and is left out: its stroke tells.
 pub fn left_by_simulation(run: &Run) -> Option<String> {
     run.simulated.as_ref()?;
-    let judged = run.outcomes.iter().filter(|outcome| !matches!(outcome.verdict, CheckVerdict::Info));
+    let judged =
+        run.outcomes.iter().filter(|outcome| !matches!(outcome.verdict, CheckVerdict::Info | CheckVerdict::Open));
     let used: Vec<(&Outcome, f64)> =
         judged.filter_map(|outcome| Some((outcome, used_by_simulation(outcome)?))).collect();
     if used.iter().any(|(_, used)| *used > 1.0) {
@@ -219,7 +300,16 @@ pub fn left_by_simulation(run: &Run) -> Option<String> {
         ),
         _ => String::new(),
     };
-    Some(format!("By the simulation {} uses most, {:.0} %{grow}.", lower_first(&most.title), 100.0 * share))
+    Some(format!("By the simulation the check nearest to its limit is {}{grow}.", in_a_line_by(most, share)))
+}
+
+/// The check with what the simulation alone uses of it.
+fn in_a_line_by(outcome: &Outcome, share: f64) -> String {
+    if is_share(outcome) {
+        in_a_line(outcome)
+    } else {
+        format!("{} ({:.0} %)", lower_first(&outcome.title), 100.0 * share)
+    }
 }
 
 /// Demand of the simulation over capacity; of a least share, what is missing over what may be missing.
@@ -237,7 +327,7 @@ fn used_by_simulation(outcome: &Outcome) -> Option<f64> {
 /// Why a run as fine as this is enough, or what a finer one could change, where the design pins the fineness.
 pub fn pinned_fidelity(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref().filter(|_| run.climb.is_empty())?;
-    let rung = rung_of(seen);
+    let rung = rung_of(&run.file.design, seen.starts.len());
     let open = rung.open(&run.outcomes);
     let band = &rung.band;
     let known = format!(

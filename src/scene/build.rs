@@ -3,9 +3,11 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::dem::Vec3;
+use crate::dem::elements::ground::{Ground, Plane};
 use crate::dem::model::{Material, Model};
-use crate::dem::recorders::recorder::{GaugeWindow, RecorderSetup};
+use crate::dem::recorders::recorder::{GaugeWindow, RecorderSetup, WallFace};
 use crate::dem::simulation::Simulation;
+use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::Fidelity;
@@ -75,8 +77,8 @@ pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, see
         BarrierDesign::FlexibleNet(net) => Some(build_net(net, &design.channel, design.simulation.barrier_model)),
         BarrierDesign::RigidWall(_) => None,
     };
-    let block = Block::of(&design.flow, upstream_reach(design, net.as_ref()));
-    let wanted = block.length;
+    let block = Block::of(&design.flow, &design.channel, upstream_reach(design, net.as_ref()));
+    let wanted = block.area();
     let (grains, block) = packed_block(&design.flow, &design.channel, &block, seed)?;
     let flow = &design.flow;
     let model = Model {
@@ -105,7 +107,7 @@ pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, see
     }
     simulation.remove_surfaces(SurfaceRole::Gate);
     if let Some(net) = &net {
-        simulation.put_up(net.barrier.clone());
+        simulation.put_up(Barrier { ground: Some(ground(design, &net.barrier)), ..net.barrier.clone() });
     }
     simulation.start_account();
     let recorder = recorder_setup(design, net);
@@ -114,7 +116,7 @@ pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, see
         recorder,
         smoothing: smoothing(design),
         rest: REST * time_scale(design),
-        packed_share: wanted / block.length,
+        packed_share: wanted / block.area(),
         expected_time: expected_time(design),
     })
 }
@@ -123,7 +125,7 @@ pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, see
 pub fn expected_time(design: &Design) -> f64 {
     let rest = 4.0 * (barrier_height(design) / GRAVITY).sqrt();
     rest + match design.flow.arrival {
-        Arrival::Surge { length, velocity, .. } => length / velocity,
+        Arrival::Surge(surge) => (surge.length + surge.run_in) / surge.velocity,
         Arrival::DamBreak(DamBreak { length, distance, .. }) => {
             let slope = design.channel.slope;
             let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
@@ -132,9 +134,17 @@ pub fn expected_time(design: &Design) -> f64 {
     }
 }
 
-/// How far upstream of its foot the barrier reaches (m), with room for the largest grain.
+/// How far upstream of its foot the barrier reaches (m).
+fn reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
+    match &design.barrier {
+        BarrierDesign::RigidWall(wall) => (wall.height * wall.lean.sin()).max(0.0),
+        BarrierDesign::FlexibleNet(_) => net.map_or(0.0, BuiltNet::reach),
+    }
+}
+
+/// The same with room for the largest grain.
 fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
-    net.map_or(0.0, BuiltNet::reach) + 0.5 * design.flow.sizes.quantile(1.0)
+    reach(design, net) + 0.5 * design.flow.sizes.quantile(1.0)
 }
 
 /// Lets the block settle behind the gate under gravity, slowed by drag.
@@ -156,7 +166,7 @@ fn outlet(design: &Design) -> f64 {
     3.0 * barrier_height(design)
 }
 
-/// Height of the barrier: of a wall normal to the bed, of a net along its plane (m).
+/// Height of the barrier along its face or plane (m).
 fn barrier_height(design: &Design) -> f64 {
     match &design.barrier {
         BarrierDesign::RigidWall(wall) => wall.height,
@@ -190,15 +200,36 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
         all.push(surface(SurfaceRole::Gate, x * block.front, -x, [Span::unbounded(z), across], channel.side_friction));
     }
     if let BarrierDesign::RigidWall(wall) = &design.barrier {
-        let spans = [Span::bounded(z, 0.0, wall.height), across];
-        all.push(surface(SurfaceRole::Wall, Vec3::zeros(), -x, spans, channel.barrier_friction));
+        let (sine, cosine) = wall.lean.sin_cos();
+        let (up, upstream) = (z * cosine - x * sine, -x * cosine - z * sine);
+        let spans = [Span::bounded(up, 0.0, wall.height), across];
+        all.push(surface(SurfaceRole::Wall, Vec3::zeros(), upstream, spans, channel.barrier_friction));
     }
     all
 }
 
-/// Distance of the gauge window upstream of the barrier's most upstream point, over its height: 40 to 50 cm at the 40 cm
-/// laboratory wall.
-const INCOMING: [f64; 2] = [1.0, 1.25];
+/// Bed and side walls, as the net lies on them: with the smaller friction of grains on them and on ropes.
+fn ground(design: &Design, barrier: &Barrier) -> Ground {
+    let channel = &design.channel;
+    let plane = |origin, normal, top, friction: f64| Plane {
+        origin,
+        normal,
+        top,
+        friction: friction.min(channel.barrier_friction),
+    };
+    let (y, walls) = (Vec3::y(), channel.wall_height);
+    let planes = [
+        plane(Vec3::zeros(), Vec3::z(), f64::INFINITY, channel.base_friction),
+        plane(Vec3::zeros(), y, walls, channel.side_friction),
+        plane(y * channel.width, -y, walls, channel.side_friction),
+    ];
+    Ground::under(&barrier.nodes, planes, [design.flow.modulus, barrier.contact_modulus])
+}
+
+/// Where the flow is gauged, upstream of the barrier's most upstream point, over its height: just before the barrier, for the velocity
+/// with which it is hit; and where laboratories measure, 40 to 50 cm before a wall of 40 cm (Albaba 2015, section 3.4.2).
+const INCOMING: [f64; 2] = [0.1, 0.3];
+const APPROACHING: [f64; 2] = [1.0, 1.25];
 
 /// How far downstream of the barrier's foot (a net bulges) and upstream of its most upstream point the depth of the
 /// deposit is sought, over the barrier's height.
@@ -206,7 +237,7 @@ const DEPOSIT: [f64; 2] = [1.0, 0.5];
 
 fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
     let height = barrier_height(design);
-    let lean = net.as_ref().map_or(0.0, BuiltNet::reach);
+    let lean = reach(design, net.as_ref());
     let bulge = if net.is_some() { DEPOSIT[0] * height } else { 0.0 };
     let window = |[near, far]: [f64; 2]| GaugeWindow {
         near: lean + near * height,
@@ -219,15 +250,29 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         interval: smoothing(design) / SAMPLES_PER_WINDOW,
         passage_interval: PASSAGE * time_scale(design),
         ropes: net.as_ref().map_or(0, |net| net.rope_rows.len()),
+        rope_places: net.as_ref().map_or(Vec::new(), |net| {
+            let first = |row: &usize| net.barrier.nodes[net.rows[*row][0] as usize].position.x;
+            net.rope_rows.iter().map(first).collect()
+        }),
+        rope_rows: net.as_ref().map_or(Vec::new(), |net| net.rope_rows.clone()),
         screen_rows: net.as_ref().map_or(Vec::new(), |net| net.screen_rows.clone()),
         net_rows: net.map_or(Vec::new(), |net| net.rows),
         wall: match &design.barrier {
-            BarrierDesign::RigidWall(wall) => Some([wall.height, design.channel.width]),
+            BarrierDesign::RigidWall(wall) => {
+                Some(WallFace { height: wall.height, width: design.channel.width, lean: wall.lean })
+            }
             BarrierDesign::FlexibleNet(_) => None,
         },
+        bolt_spaces: match &design.barrier {
+            BarrierDesign::FlexibleNet(net) => net.bed_bolts.map_or(0, |bolts| bolts.spaces(design.channel.width)),
+            BarrierDesign::RigidWall(_) => 0,
+        },
         incoming: window(INCOMING),
+        approaching: window(APPROACHING),
         deposit: GaugeWindow { near: -bulge, far: lean + DEPOSIT[1] * height, ..window(INCOMING) },
         mass: design.flow.mass,
+        side_walls: design.channel.wall_height,
+        near: height,
     }
 }
 

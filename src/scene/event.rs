@@ -65,8 +65,9 @@ pub struct Event {
     pub simulation: Simulation,
     /// Largest energy imbalance met, over the energy put in.
     pub energy_error: f64,
-    /// Grains that have left the channel through its bed or beside its walls.
+    /// Grains that have left the channel through its bed or a side wall, and their share of the mass.
     pub strays: u32,
+    pub stray_share: f64,
 }
 
 impl Ongoing {
@@ -98,14 +99,14 @@ impl Ongoing {
         };
         self.recorder.finish(&self.simulation);
         let Self { simulation, recorder, energy_error, .. } = self;
-        let strays = recorder.strays.len() as u32;
-        Event { histories: recorder.histories, ending, simulation, energy_error, strays }
+        let (strays, stray_share) = (recorder.strays.len() as u32, recorder.stray_share);
+        Event { histories: recorder.histories, ending, simulation, energy_error, strays, stray_share }
     }
 
     /// Takes in the sample just made; tells whether the run ends with it.
     fn judge(&mut self, longest: f64, watch: &Watch) -> Option<Ending> {
         let histories = &self.recorder.histories;
-        let error = self.simulation.ledger.relative_error(&histories.ledger[0]);
+        let error = self.simulation.ledger.relative_error(&histories.at_release);
         if error.abs() > self.energy_error.abs() || error.is_nan() {
             self.energy_error = error;
         }

@@ -83,7 +83,7 @@ fn changed(design: &Design, (_, _, change): Change, factor: f64) -> Point {
     change(&mut design, &mut flow, factor);
     flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
     let guideline = guideline_for(&design, flow);
-    let outcomes = check_all(&design, &Demands::meet(&guideline, &[], design.factors.load));
+    let outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
     Point::of(guideline.largest_force, &outcomes)
 }
 

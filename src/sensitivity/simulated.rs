@@ -11,12 +11,12 @@ const CHANGES: &[(&str, f64, Change)] = &[
         design.flow.mass *= factor;
         match &mut design.flow.arrival {
             Arrival::DamBreak(block) => block.length *= factor,
-            Arrival::Surge { length, .. } => *length *= factor,
+            Arrival::Surge(surge) => surge.length *= factor,
         }
     }),
     ("Velocity of the surge", 0.1, |design, factor| {
-        if let Arrival::Surge { velocity, .. } = &mut design.flow.arrival {
-            *velocity *= factor;
+        if let Arrival::Surge(surge) = &mut design.flow.arrival {
+            surge.velocity *= factor;
         }
     }),
     ("Density of grains and flow", 0.1, |design, factor| {

@@ -47,6 +47,7 @@ pub const CASES: &[&Case] = &[
     &wall::variants::RESTITUTION,
     &wall::variants::FLUCTUATION,
     &wall::slopes::CASE,
+    &wall::surge::MODULUS,
     &barrier::ropes::BAR,
     &barrier::beams::TIP_LOAD,
     &barrier::beams::ELASTICA,

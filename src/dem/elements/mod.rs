@@ -2,6 +2,7 @@
 
 pub mod cylinder;
 pub mod dissipator;
+pub mod ground;
 pub mod ring;
 pub mod rope;
 pub mod sliding;

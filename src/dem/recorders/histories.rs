@@ -28,6 +28,8 @@ pub struct Histories {
     pub rope_largest: Vec<Vec<f64>>,
     /// Load of the higher loaded anchor of each main rope (N).
     pub anchors: Vec<Vec<f64>>,
+    /// How far downstream the furthest point of each main rope is from where the rope hung at first (m).
+    pub extension: Vec<Vec<f64>>,
     /// Stroke used by each rope's dissipators, the larger of the two (m).
     pub strokes: Vec<Vec<f64>>,
     /// Stroke used by each rope's dissipators, the mean of the two (m).
@@ -38,6 +40,10 @@ pub struct Histories {
     pub lateral_largest: Vec<f64>,
     /// Force on what holds the lowest main rope to the bed (N).
     pub bed_force: Vec<f64>,
+    /// Largest force on one of the bolts that hold the lowest main rope to the bed, and the largest lift of one (N); empty where
+    /// their distance is not known.
+    pub bolt_largest: Vec<f64>,
+    pub bolt_lift: Vec<f64>,
     /// Largest tension in the net (N).
     pub net_largest: Vec<f64>,
     /// Pieces of rope that have broken so far.
@@ -60,11 +66,21 @@ pub struct Histories {
     pub moving: Vec<f64>,
     /// Shares of the mass that went through, under, beside and over the barrier.
     pub lost: Vec<[f64; 4]>,
-    /// The incoming flow, upstream of the barrier.
+    /// The incoming flow just upstream of the barrier.
     pub incoming: Vec<Gauge>,
+    /// The flow about a barrier's height upstream, where laboratories measure it.
+    pub approaching: Vec<Gauge>,
+    /// Between which places the front is timed, the far one and the near one (m upstream of the barrier's foot).
+    pub gauges: [f64; 2],
+    /// Where the front of the flow is: 2 % of its mass is further down the channel (m from the barrier's foot, downstream positive).
+    pub front: Vec<f64>,
     /// Largest depth of the grains at the barrier, at bulk density (m).
     pub barrier_depth: Vec<f64>,
+    /// Energies and losses: at the release, and sample by sample.
+    pub at_release: Ledger,
     pub ledger: Vec<Ledger>,
+    /// Share of the mass that has come to rest upstream at the end, and does not lean on the barrier.
+    pub stopped_upstream: f64,
     /// The scene at a few moments, in their order.
     pub snapshots: Vec<Snapshot>,
     pub film: Film,
@@ -79,6 +95,8 @@ pub struct Gauge {
     pub velocity: f64,
     /// Depth that the mass in the window has at the flow's bulk density (m).
     pub depth: f64,
+    /// Share of the mass in the window that is at rest.
+    pub at_rest: f64,
     /// Σ m v² over the window's area and the bulk density: h v² of an even flow (m³/s²).
     pub flux: f64,
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dem::Vec3;
+use crate::dem::recorders::recorder::WallFace;
 use crate::dem::tables::barrier::Barrier;
 
 /// The way a grain passed.
@@ -34,10 +35,11 @@ impl Screen {
         Self { rows, nearest_x }
     }
 
-    /// A wall at x = 0, normal to the bed.
-    pub fn of_wall(height: f64, width: f64) -> Self {
-        let row = |z: f64| vec![Vec3::new(0.0, 0.0, z), Vec3::new(0.0, width, z)];
-        Self { rows: vec![row(0.0), row(height)], nearest_x: 0.0 }
+    /// A wall with its foot at x = 0.
+    pub fn of_wall(wall: &WallFace) -> Self {
+        let (sine, cosine) = wall.lean.sin_cos();
+        let row = |up: f64| [0.0, wall.width].map(|across| Vec3::new(-sine * up, across, cosine * up)).to_vec();
+        Self { rows: vec![row(0.0), row(wall.height)], nearest_x: (-sine * wall.height).min(0.0) }
     }
 
     /// How a grain of the given radius at `point` has passed, if it has.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dem::Vec3;
@@ -20,6 +21,9 @@ const DEAD_SHARE: f64 = 0.05;
 /// A force counts as a new largest, worth a snapshot, if it exceeds the last by this factor.
 const NEW_LARGEST: f64 = 1.005;
 
+/// Way on which the front is timed before it reaches the middle of the gauge, over the gauge's length.
+const TRACK: f64 = 2.0;
+
 /// Rounding of the sum of all masses.
 const UNSEEN: f64 = 1e-9;
 
@@ -36,14 +40,36 @@ pub struct RecorderSetup {
     pub screen_rows: Vec<Vec<u32>>,
     /// Main ropes of the net; 0 for a rigid wall.
     pub ropes: usize,
-    /// Height (m) and width (m) of the rigid wall, if that is the barrier.
-    pub wall: Option<[f64; 2]>,
-    /// Window in which the incoming flow is gauged.
+    /// Row of knots along each main rope, and where its nodes are at first along the channel (m).
+    pub rope_rows: Vec<usize>,
+    pub rope_places: Vec<f64>,
+    /// The rigid wall, if that is the barrier.
+    pub wall: Option<WallFace>,
+    /// Spaces between the bolts of the lowest main rope; 0 where it has none or their distance is not known.
+    pub bolt_spaces: usize,
+    /// Window in which the incoming flow is gauged, just upstream of the barrier.
     pub incoming: GaugeWindow,
+    /// The same about a barrier's height upstream.
+    pub approaching: GaugeWindow,
     /// Where the depth of the deposit at the barrier is sought.
     pub deposit: GaugeWindow,
     /// Mass of the whole flow (kg).
     pub mass: f64,
+    /// Height of the side walls, normal to the bed (m).
+    pub side_walls: f64,
+    /// Length upstream of the barrier within which whatever lies has arrived (m).
+    pub near: f64,
+}
+
+/// The face of a rigid wall, whose foot is at x = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallFace {
+    /// Along the face (m).
+    pub height: f64,
+    /// m
+    pub width: f64,
+    /// Upstream from the bed's normal (rad).
+    pub lean: f64,
 }
 
 /// A window across the channel, between two distances upstream of the barrier's foot.
@@ -69,8 +95,10 @@ pub struct Recorder {
     lost: [f64; WAYS],
     impact: bool,
     next_passage: f64,
-    /// Grains that have left the channel through its bed or beside its walls.
+    /// Grains that have left the channel through its bed or a side wall.
     pub strays: BTreeSet<u32>,
+    /// Their share of the mass.
+    pub stray_share: f64,
     /// Largest force of which a snapshot was taken (N).
     pictured_force: f64,
 }
@@ -92,13 +120,17 @@ struct IntervalSum {
     net_largest: f64,
     lateral_largest: f64,
     bed_force: Vec3,
+    bolts: Vec<Vec3>,
 }
 
 impl Recorder {
     pub fn new(setup: RecorderSetup) -> Self {
+        let GaugeWindow { near, far, .. } = setup.incoming;
+        let middle = 0.5 * (near + far);
+        let gauges = [middle + TRACK * (far - near), middle];
         Self {
             setup,
-            histories: Histories::default(),
+            histories: Histories { gauges, ..Histories::default() },
             sum: IntervalSum::default(),
             highest_velocity: 0.0,
             passed: BTreeMap::new(),
@@ -106,6 +138,7 @@ impl Recorder {
             impact: false,
             next_passage: 0.0,
             strays: BTreeSet::new(),
+            stray_share: 0.0,
             pictured_force: 0.0,
         }
     }
@@ -114,6 +147,13 @@ impl Recorder {
     pub fn step(&mut self, simulation: &mut Simulation) -> Result<bool, Unstable> {
         // Half a step of slack: rounding must not move samples about.
         let complete = self.sum.time + 1.5 * simulation.time_step >= self.setup.interval;
+        if !complete && self.histories.time.is_empty() && self.sum.steps == 0 {
+            // The account of a step is of the instant at which it begins: of the release.
+            simulation.step_and_account()?;
+            self.histories.at_release = simulation.ledger;
+            self.add_step(simulation);
+            return Ok(false);
+        }
         if !complete {
             simulation.step()?;
             self.add_step(simulation);
@@ -142,6 +182,12 @@ impl Recorder {
             add_tensions(sum, barrier, net, self.setup.ropes);
             sum.bed_force += bed_force(barrier, &net.forces, &self.setup.net_rows);
             add_rows(&mut sum.anchors, &anchor_loads(barrier, &net.forces, self.setup.ropes));
+            if self.setup.bolt_spaces > 0 {
+                let loads = self.bolt_loads(barrier, &net.forces);
+                let sums = &mut self.sum.bolts;
+                sums.resize(loads.len(), Vec3::zeros());
+                sums.iter_mut().zip(&loads).for_each(|(sum, load)| *sum += load);
+            }
         }
     }
 
@@ -163,6 +209,11 @@ impl Recorder {
             histories.net_largest.push(self.sum.net_largest * mean);
             histories.lateral_largest.push(self.sum.lateral_largest * mean);
             histories.bed_force.push(self.sum.bed_force.norm() * mean);
+            if self.setup.bolt_spaces > 0 {
+                let most = |of: fn(&Vec3) -> f64| self.sum.bolts.iter().map(of).fold(0.0, f64::max) * mean;
+                histories.bolt_largest.push(most(|load| load.norm()));
+                histories.bolt_lift.push(most(|load| load.z));
+            }
             let [broken, drawn_out] = wear(barrier);
             histories.broken_pieces.push(broken);
             histories.drawn_out.push(drawn_out);
@@ -182,11 +233,14 @@ impl Recorder {
         let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
         let dead: Vec<bool> =
             grains.iter().map(|grain| self.impact && grain.velocity.norm_squared() <= limit).collect();
-        if self.setup.wall.is_some() {
+        if self.setup.wall.is_some_and(|wall| wall.lean == 0.0) {
             self.histories.push_at_rest.push(push_at_rest(simulation, &grains, &dead));
         }
         self.histories.pushes_by_state.push(pushes_by_state(simulation, &dead));
-        self.histories.incoming.push(self.setup.incoming.read(&grains));
+        let slow: Vec<bool> = grains.iter().map(|grain| grain.velocity.norm_squared() <= limit).collect();
+        self.histories.incoming.push(self.setup.incoming.read(&grains, &slow));
+        self.histories.approaching.push(self.setup.approaching.read(&grains, &slow));
+        self.histories.front.push(front(&grains));
         let [all, at_rest] = self.setup.deposit.depths(&grains, &dead);
         self.histories.barrier_depth.push(all);
         self.histories.dead_depth.push(at_rest);
@@ -223,6 +277,7 @@ impl Recorder {
         let grains = simulation.snapshot();
         self.keep(Moment::End, simulation, &grains);
         self.histories.film.finish(simulation, &grains);
+        self.histories.stopped_upstream = self.stopped_upstream(simulation, &grains);
         self.histories.snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 
@@ -236,6 +291,12 @@ impl Recorder {
         }
         push_rows(&mut self.histories.strokes, &strokes, 1.0);
         push_rows(&mut self.histories.strokes_mean, &sums, 0.5);
+        let extension = |(&row, &place): (&usize, &f64)| {
+            let nodes = self.setup.net_rows[row].iter().map(|&node| barrier.nodes[node as usize].position.x - place);
+            nodes.fold(0.0, f64::max)
+        };
+        let extensions: Vec<f64> = self.setup.rope_rows.iter().zip(&self.setup.rope_places).map(extension).collect();
+        push_rows(&mut self.histories.extension, &extensions, 1.0);
         let top = self.setup.net_rows.last().into_iter().flatten();
         let lowest = top.map(|&node| barrier.nodes[node as usize].position.z).fold(f64::INFINITY, f64::min);
         self.histories.top_rope_height.push(lowest);
@@ -244,7 +305,7 @@ impl Recorder {
     fn look_for_passed(&mut self, simulation: &Simulation, grains: &[Grain]) {
         let screen = match (&simulation.model.barrier, self.setup.wall) {
             (Some(barrier), _) => Screen::of_net(barrier, &self.setup.screen_rows),
-            (None, Some([height, width])) => Screen::of_wall(height, width),
+            (None, Some(wall)) => Screen::of_wall(&wall),
             (None, None) => return,
         };
         for grain in grains {
@@ -260,16 +321,65 @@ impl Recorder {
         }
     }
 
-    /// Notes grains that are where none can get: wholly below the bed, or wholly beyond a side wall.
+    /// Notes grains that are where none can get, wholly below the bed or wholly beyond a side wall that they have not gone over, and
+    /// counts all that have left the channel as lost.
     fn look_for_strays(&mut self, grains: &[Grain]) {
         let width = self.setup.incoming.width;
         for grain in grains {
             let reach = grain.body.radius + grain.body.offset;
             let (y, z) = (grain.position.y, grain.position.z);
-            if z < -reach || y < -reach || y > width + reach {
-                self.strays.insert(grain.id);
+            let below = z < -reach;
+            let beyond = y < -reach || y > width + reach;
+            if !(below || beyond) {
+                continue;
+            }
+            if let Entry::Vacant(entry) = self.passed.entry(grain.id) {
+                entry.insert(Way::Beside);
+                self.lost[Way::Beside as usize] += grain.body.mass / self.setup.mass;
+            }
+            if (below || z < self.setup.side_walls) && self.strays.insert(grain.id) {
+                self.stray_share += grain.body.mass / self.setup.mass;
             }
         }
+    }
+
+    /// Share of the mass that has come to rest upstream without leaning on the barrier: beyond the first gap in the deposit, a stretch
+    /// of two grains' length that is less than a quarter of a grain deep, and not near the barrier.
+    fn stopped_upstream(&self, simulation: &Simulation, grains: &[Grain]) -> f64 {
+        let GaugeWindow { width, bulk_density, mean_diameter, .. } = self.setup.incoming;
+        let face = match &simulation.model.barrier {
+            Some(barrier) => barrier.nodes.iter().map(|node| node.position.x).fold(0.0, f64::min),
+            None => 0.0,
+        };
+        let cell = 2.0 * mean_diameter;
+        let mut cells: Vec<f64> = Vec::new();
+        let here = grains.iter().filter(|grain| !self.passed.contains_key(&grain.id));
+        for grain in here {
+            let place = ((face - grain.position.x) / cell).max(0.0) as usize;
+            cells.resize(cells.len().max(place + 1), 0.0);
+            cells[place] += grain.body.mass;
+        }
+        let thin = 0.25 * mean_diameter * bulk_density * width * cell;
+        let first = (self.setup.near / cell).ceil() as usize;
+        let gap = (first..cells.len()).find(|&place| cells[place] < thin).unwrap_or(cells.len());
+        cells[gap..].iter().fold(0.0, |sum, mass| sum + mass) / self.setup.mass
+    }
+
+    /// Force on each bolt of the lowest rope: what its knots must be held with, shared by lever between the bolts beside them (N).
+    fn bolt_loads(&self, barrier: &Barrier, forces: &[Vec3]) -> Vec<Vec3> {
+        let (spaces, width) = (self.setup.bolt_spaces, self.setup.incoming.width);
+        let mut loads = vec![Vec3::zeros(); spaces + 1];
+        for &node in self.setup.net_rows.first().into_iter().flatten() {
+            let knot = &barrier.nodes[node as usize];
+            if knot.fixed {
+                let place = (knot.position.y / width).clamp(0.0, 1.0) * spaces as f64;
+                let before = (place as usize).min(spaces - 1);
+                let share = place - before as f64;
+                loads[before] += forces[node as usize] * (1.0 - share);
+                loads[before + 1] += forces[node as usize] * share;
+            }
+        }
+        loads
     }
 
     fn sample_grains(&mut self, grains: &[Grain]) {
@@ -316,12 +426,15 @@ impl GaugeWindow {
         most.map(|mass| mass / (self.bulk_density * self.width * 2.0 * cell))
     }
 
-    fn read(&self, grains: &[Grain]) -> Gauge {
-        let inside = grains.iter().filter(|grain| (-self.far..=-self.near).contains(&grain.position.x));
+    /// `slow` tells which grains are at rest.
+    fn read(&self, grains: &[Grain], slow: &[bool]) -> Gauge {
+        let stretch = -self.far..=-self.near;
+        let inside = grains.iter().zip(slow).filter(|(grain, _)| stretch.contains(&grain.position.x));
         let mut heights = Vec::new();
-        let (mut velocity, mut mass, mut momentum_flux) = (0.0, 0.0, 0.0);
-        for grain in inside {
+        let (mut velocity, mut mass, mut momentum_flux, mut at_rest) = (0.0, 0.0, 0.0, 0.0);
+        for (grain, slow) in inside {
             heights.push(grain.position.z);
+            at_rest += if *slow { grain.body.mass } else { 0.0 };
             velocity += grain.velocity.x;
             mass += grain.body.mass;
             momentum_flux += grain.body.mass * grain.velocity.x.powi(2);
@@ -336,10 +449,27 @@ impl GaugeWindow {
         Gauge {
             thickness: *ninety + 0.5 * self.mean_diameter,
             velocity: velocity / count as f64,
+            at_rest: at_rest / mass,
             depth: mass / full_mass_per_depth,
             flux: momentum_flux / full_mass_per_depth,
         }
     }
+}
+
+/// Share of the mass in front of what is called the front.
+const AHEAD: f64 = 0.02;
+
+/// The place along the channel of which this share of the grains' mass is downstream (m).
+fn front(grains: &[Grain]) -> f64 {
+    let mut places: Vec<[f64; 2]> = grains.iter().map(|grain| [grain.position.x, grain.body.mass]).collect();
+    places.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
+    let wanted = AHEAD * places.iter().map(|[_, mass]| mass).sum::<f64>();
+    let mut ahead = 0.0;
+    let reached = places.iter().find(|[_, mass]| {
+        ahead += mass;
+        ahead >= wanted
+    });
+    reached.map_or(0.0, |[place, _]| *place)
 }
 
 fn add_rows(sums: &mut Vec<f64>, values: &[f64]) {

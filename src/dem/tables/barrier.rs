@@ -7,6 +7,7 @@ use nalgebra::UnitQuaternion;
 use crate::dem::Vec3;
 use crate::dem::elements::cylinder::Cylinder;
 use crate::dem::elements::dissipator::Dissipator;
+use crate::dem::elements::ground::{Footing, Ground};
 use crate::dem::elements::ring::RingSide;
 use crate::dem::elements::sliding::Chain;
 use crate::dem::elements::strength::Strength;
@@ -122,6 +123,9 @@ pub struct Barrier {
     pub friction: f64,
     /// Young's modulus of the rope in contact with a grain (Pa).
     pub contact_modulus: f64,
+    /// What the barrier can lie on, if anything, and where it does.
+    pub ground: Option<Ground>,
+    pub footings: Vec<Footing>,
 }
 
 impl Barrier {

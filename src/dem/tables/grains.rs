@@ -50,6 +50,18 @@ impl GrainBody {
         Self::union_of_two(radius, (aspect - 1.0) * radius, density)
     }
 
+    /// The same body `factor` times as large, of the same density.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let (volume, fifth) = (factor.powi(3), factor.powi(5));
+        Self {
+            radius: factor * self.radius,
+            offset: factor * self.offset,
+            mass: volume * self.mass,
+            inertia_axial: fifth * self.inertia_axial,
+            inertia_transverse: fifth * self.inertia_transverse,
+        }
+    }
+
     /// Mass and inertia of the union of two spheres of uniform density (the overlap counts once), as a
     /// solid of revolution: V = ∫πρ²dx, I_axial = ∫½πρ⁴dx, I_transverse = ∫(¼πρ⁴ + πρ²x²)dx,
     /// with ρ² = r² − (|x| − offset)². The integrands are polynomials of degree four, so the three-point

@@ -6,6 +6,7 @@ use crate::dem::contact::pair_list::Separation;
 use crate::dem::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::dem::crew;
 use crate::dem::elements::cylinder::Cylinder;
+use crate::dem::elements::ground::Footing;
 use crate::dem::elements::ring::{RingContext, RingSide};
 use crate::dem::neighbours::blocks::Block;
 use crate::dem::neighbours::clocks::Clock;
@@ -130,7 +131,17 @@ impl Linked<'_> {
     /// What holds the barrier together: ropes as far as they are taut, and rings as if they touched their ropes.
     pub fn within_barrier(&self) -> Vec<Vec<Link>> {
         let Some(barrier) = self.barrier else { return Vec::new() };
-        vec![self.elements(barrier), self.cylinders(barrier), self.rings(barrier)]
+        vec![self.elements(barrier), self.cylinders(barrier), self.rings(barrier), self.footings(barrier)]
+    }
+
+    fn footings(&self, barrier: &Barrier) -> Vec<Link> {
+        let Some(ground) = &barrier.ground else { return Vec::new() };
+        let link = |footing: &Footing| {
+            let link = Link::between(self.node_end(barrier, footing.node, 1.0));
+            let spring = ground.spring(&barrier.nodes[footing.node as usize]);
+            self.contact(link, ground.planes[footing.plane as usize].normal, &spring)
+        };
+        barrier.footings.iter().map(link).collect()
     }
 
     fn rings(&self, barrier: &Barrier) -> Vec<Link> {

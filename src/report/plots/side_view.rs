@@ -23,8 +23,8 @@ pub struct Setting {
     pub width: f64,
     /// Of the barrier, normal to the bed.
     pub height: f64,
-    /// Whether the barrier is a wall normal to the bed.
-    pub wall: bool,
+    /// Top of a rigid wall over its foot (m along the channel, m normal to the bed), if that is the barrier.
+    pub wall: Option<[f64; 2]>,
     /// Highest mean velocity of the flow.
     pub fastest: f64,
 }
@@ -49,8 +49,8 @@ pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
         let _ = write!(svg, "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>");
     };
     line("bed", Vec3::new(2.0 * left / cosine, 0.0, 0.0), Vec3::new(2.0 * right / cosine, 0.0, 0.0));
-    if setting.wall {
-        line("wall", Vec3::zeros(), Vec3::new(0.0, 0.0, setting.height));
+    if let Some([x, z]) = setting.wall {
+        line("wall", Vec3::zeros(), Vec3::new(x, 0.0, z));
     }
     let within = |place: &Vec3, share: f64| (place.y - 0.5 * setting.width).abs() <= 0.5 * share * setting.width;
     let visible = |place: &Vec3| {

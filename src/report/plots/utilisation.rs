@@ -11,6 +11,8 @@ pub struct Bar {
     pub used: f64,
     /// The same by guideline and by simulation alone, where both are told against one capacity.
     pub by: [Option<f64>; 2],
+    /// What stands beside the bar instead of the share that is used.
+    pub value: Option<String>,
     /// Class of the style sheet: pass, warn or fail.
     pub class: &'static str,
 }
@@ -50,7 +52,11 @@ pub fn utilisation(bars: &[Bar]) -> String {
             let _ = write!(out, r#"<circle class="by" cx="{:.1}" cy="{up}" r="3.2"/>"#, x(used));
         }
         let more = if bar.used > MOST { "› " } else { "" };
-        let used = if bar.used.is_finite() { percent(Some(bar.used)) } else { "not a number".into() };
+        let used = match &bar.value {
+            Some(value) => super::escape(value),
+            None if bar.used.is_finite() => percent(Some(bar.used)),
+            None => "not a number".into(),
+        };
         let _ = write!(out, r#"<text class="label" x="{:.1}" y="{middle}">{more}{used}</text>"#, end + 6.0);
     }
     let limit = x(1.0);
@@ -65,7 +71,7 @@ mod tests {
 
     #[test]
     fn bars_end_where_they_should_and_long_ones_are_cut() {
-        let bar = |used| Bar { label: "a<b".into(), used, by: [Some(0.3), None], class: "pass" };
+        let bar = |used| Bar { label: "a<b".into(), used, by: [Some(0.3), None], value: None, class: "pass" };
         let svg = utilisation(&[bar(0.5), bar(7.0), bar(f64::NAN)]);
         let full = WIDTH - LABEL - RIGHT;
         assert!(

@@ -2,28 +2,55 @@
 
 use crate::dem::Vec3;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::design::{Arrival, Channel, DamBreak, Flow};
-use crate::scene::flow::packing::{PackingBox, PackingError, pack};
+use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
+use crate::scene::flow::packing::{PackingError, PackingRoom, pack};
+use crate::units::GRAVITY;
 
-/// Where the block stands: x of its downstream face, and its sizes.
+/// Where the block stands: x of the foot of its downstream face, and its sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     pub front: f64,
+    /// Along the bed (m).
     pub length: f64,
     pub height: f64,
+    /// Length along the bed over which its downstream face rises to the full height (m); 0 for a vertical face.
+    pub nose: f64,
+    /// Area of the tip of the nose that is too thin for grains (m²).
+    pub tip: f64,
     pub velocity: f64,
 }
 
+/// Depth of the tip of a nose that holds no grains, over their mean diameter.
+const TIP: f64 = 0.75;
+
+/// Share of the length of an even flow that its nose may take at the most, on the middle of the height: so that a short surge still has
+/// a surface.
+const LONGEST_NOSE: f64 = 0.8;
+
 impl Block {
-    pub fn of(flow: &Flow, upstream_reach: f64) -> Self {
+    /// The velocity of a surge is that of its arrival: what the bed's friction takes from it on the run-in, where it is more than
+    /// the slope gives, is added at the release, v₀² = v² + 2 g (tan φ cos α − sin α) s.
+    pub fn of(flow: &Flow, channel: &Channel, upstream_reach: f64) -> Self {
         match flow.arrival {
             Arrival::DamBreak(DamBreak { length, height, distance, .. }) => {
-                Self { front: -distance, length, height, velocity: 0.0 }
+                Self { front: -distance, length, height, nose: 0.0, tip: 0.0, velocity: 0.0 }
             }
-            Arrival::Surge { length, depth, velocity } => {
-                Self { front: -upstream_reach, length, height: depth, velocity }
+            Arrival::Surge(Surge { length, depth, velocity, front_angle, run_in }) => {
+                let nose = (depth / front_angle.tan()).clamp(0.0, 2.0 * LONGEST_NOSE * length);
+                let braking = GRAVITY * (channel.base_friction * channel.slope.cos() - channel.slope.sin());
+                let velocity = (velocity * velocity + 2.0 * braking.max(0.0) * run_in).sqrt();
+                let thin = (TIP * flow.sizes.quantile(0.5)).min(depth);
+                let tip = 0.5 * thin * thin * nose / depth;
+                // The triangle that the nose lacks, and the tip that holds nothing, are made up for by length.
+                let length = length + 0.5 * nose + tip / depth;
+                Self { front: -upstream_reach - run_in, length, height: depth, nose, tip, velocity }
             }
         }
+    }
+
+    /// Of its section along the channel, as far as it holds grains (m²).
+    pub fn area(&self) -> f64 {
+        self.height * (self.length - 0.5 * self.nose) - self.tip
     }
 }
 
@@ -45,7 +72,11 @@ pub fn packed_block(
     block: &Block,
     seed: u64,
 ) -> Result<(Vec<Grain>, Block), PackingError> {
-    let room = PackingBox { size: Vec3::new(block.length, channel.width, block.height) };
+    let room = PackingRoom {
+        size: Vec3::new(block.length, channel.width, block.height),
+        nose: block.nose,
+        apart: block.moves(),
+    };
     let (mut grains, length) = pack(&bodies(flow), shape(flow), room, seed)?;
     let corner = Vec3::new(block.front - length, 0.0, 0.0);
     for grain in &mut grains {
@@ -53,4 +84,12 @@ pub fn packed_block(
         grain.velocity = Vec3::new(block.velocity, 0.0, 0.0);
     }
     Ok((grains, Block { length, ..*block }))
+}
+
+impl Block {
+    /// Whether it moves when it is let go. Grains that move freely must not press on each other then: what their contacts store would be
+    /// motion that nobody asked for.
+    fn moves(&self) -> bool {
+        self.velocity > 0.0
+    }
 }

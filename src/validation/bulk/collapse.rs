@@ -5,7 +5,7 @@ use crate::dem::model::{Material, Model};
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use crate::dem::tables::surfaces::SurfaceRole;
-use crate::scene::flow::packing::{PackingBox, pack};
+use crate::scene::flow::packing::{PackingRoom, pack};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, floor, free_model, material, plane, run_until, side_by_side};
 
@@ -47,7 +47,7 @@ const EDGE: f64 = 0.2;
 fn packed(size: Vec3, seed: u64) -> Result<Vec<Grain>, Broken> {
     let body = GrainBody::clump(DIAMETER, 1.5, DENSITY);
     let count = (0.60 * size.product() * DENSITY / body.mass) as usize;
-    let room = PackingBox { size };
+    let room = PackingRoom { size, nose: 0.0, apart: false };
     let (grains, _) =
         pack(&vec![body; count], GrainShape::Clump, room, seed).map_err(|error| Broken::Scene(error.to_string()))?;
     Ok(grains)

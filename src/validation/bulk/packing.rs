@@ -5,7 +5,7 @@ use crate::dem::model::Model;
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::grains::{GrainBody, GrainShape};
 use crate::dem::tables::surfaces::SurfaceRole;
-use crate::scene::flow::packing::{PackingBox, pack};
+use crate::scene::flow::packing::{PackingRoom, pack};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, floor, free_model, material, plane, run_until};
 
@@ -40,7 +40,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
 fn poured() -> Result<Simulation, Broken> {
     let bodies = vec![GrainBody::sphere(RADIUS, DENSITY); COUNT];
     let height = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / (0.30 * SIDE * SIDE);
-    let room = PackingBox { size: Vec3::new(SIDE, SIDE, height) };
+    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false };
     let (grains, length) =
         pack(&bodies, GrainShape::Sphere, room, 6).map_err(|error| Broken::Scene(error.to_string()))?;
     let mut model =

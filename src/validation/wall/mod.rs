@@ -4,4 +4,5 @@ pub mod calibration;
 pub mod impulse;
 pub mod laboratory;
 pub mod slopes;
+pub mod surge;
 pub mod variants;
