@@ -3,7 +3,7 @@
 //! # Map
 //! The run is one chain, all of it in [`pipeline::run`], its simulations in [`simulated::simulate`]:
 //!
-//! [`design`] (what is asked) → [`fidelity`] (how finely to model) → [`scene`] (bodies, and the event itself)
+//! [`design`] (what is asked) → [`load_cases`] (the flow as it is, and factored) → [`fidelity`] (how finely to model) → [`scene`] (bodies, and the event itself)
 //! → histories of [`dem`] → [`demand`] (one number per check, by guideline and by simulation) → [`checks`]
 //! (demand over capacity) → verdict → [`report`].
 //!
@@ -21,6 +21,8 @@
 //! | another impact model | an entry of [`loads::ladder::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
+//! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
+//! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
 //! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
 //! | a time series | [`dem::recorders`] and a column in [`report::series`] |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |

@@ -70,7 +70,7 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
             rows.push(Combination {
                 what: "Mass held and residual height",
                 factor: 1.0,
-                by_equations: "not told",
+                by_equations: "not given by the equations",
                 by_simulation: "of the characteristic and of the factored flow, the smaller",
             });
             rows.push(Combination {
@@ -86,7 +86,8 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
                 by_simulation: "the same",
             });
             if net.dissipators.is_some() {
-                let given = "on the plateau, where a dissipator yields: what is beyond it is added to the load of its rope and anchor";
+                let given =
+                    "where a dissipator yields, (factor − 1) × plateau is added to the load of its rope and anchor";
                 let taken = "the same; not given, so taken as the factor on loads";
                 rows.push(Combination {
                     what: "Overstrength of dissipators",

@@ -6,9 +6,10 @@ use crate::checks::check_all;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
+use crate::demand::from_histories::Observed;
 use crate::demand::from_loads::{Guideline, guideline};
-use crate::design::Design;
 use crate::design::read::DesignFile;
+use crate::design::{Arrival, Design};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
 use crate::load_cases::{LoadCase, cases};
@@ -188,13 +189,36 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
     let mut outcomes = check_all(design, &demands);
-    leave_open_outside_range(design, &guideline, &mut outcomes);
+    let first_surge = simulated.as_ref().map(|simulated| simulated.spread(|seen| seen.force_peak).mean);
+    leave_open_outside_range(design, &guideline, first_surge, &mut outcomes);
     if let Some(simulated) = &simulated {
-        rung_of(design, simulated.starts.len()).leave_open_what_is_too_close(&mut outcomes);
+        let packings = simulated.starts.len();
+        rung_of(design, packings).leave_open_what_is_too_close(packings, &mut outcomes);
     }
-    let doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
+    let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
+    doubts.extend(simulated.as_ref().and_then(|simulated| slower_than_designed(design, simulated)));
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
+}
+
+/// Share of the velocity that the design gives below which the simulated flow is another one.
+const SLOWEST: f64 = 0.8;
+
+/// A simulated flow that arrives more slowly than the design says tells nothing of the design flow.
+fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
+    let given = match design.flow.arrival {
+        Arrival::Surge(surge) => surge.velocity,
+        Arrival::DamBreak(block) => block.velocity_at_barrier?,
+    };
+    let arrives = |seen: &Observed| seen.incoming.velocity.max(seen.front_velocity.unwrap_or(0.0));
+    let arrives = simulated.spread(arrives).mean;
+    // Asked as "like", so that what is not a number is not.
+    let like = arrives >= SLOWEST * given;
+    (!like).then(|| {
+        format!(
+            "the simulated flow arrives with {arrives:.2} m/s where the design says {given:.2} m/s, so that its loads are not those of the design flow; release it so that it arrives as it should"
+        )
+    })
 }
 
 /// What the guideline fails, no simulation can make hold, however doubtful it is. Then doubt comes before everything; then a single

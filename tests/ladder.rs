@@ -42,7 +42,7 @@ fn a_clear_failure_needs_no_simulation() {
 fn a_clear_pass_needs_one_start() {
     let (code, rungs, report) = run("pass", &[]);
     assert_eq!((code, rungs), (Some(0), vec!["equations".to_string(), "grains".to_string()]));
-    assert!(report.contains("Enough is"));
+    assert!(report.contains("was sufficient"));
 }
 
 #[test]
@@ -51,6 +51,6 @@ fn a_marginal_design_climbs() {
     let (code, rungs, report) = run("marginal", &[("breaking_load: 137 kN", "breaking_load: 60 kN")]);
     assert!(rungs.len() >= 3 && rungs[2] == "starts", "{rungs:?}");
     // What the last rung cannot tell either is neither passed nor failed.
-    let open = report.contains("this model cannot tell on which side");
+    let open = report.contains("closer to its limit than this model is accurate");
     assert!(code == Some(2) && open || matches!(code, Some(0 | 1)) && !open, "{code:?} {open}");
 }

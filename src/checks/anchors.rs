@@ -1,6 +1,6 @@
 //! Load of the anchors against their design resistance.
 
-use crate::checks::outcome::{CheckName, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, FlexibleNet, LateralTo};
 use crate::sources::ANCHOR_FACTOR;
@@ -32,5 +32,12 @@ fn against_plateau(net: &FlexibleNet, design: &Design, capacity: Resistance) -> 
     let name = CheckName::new("anchor_plateau", "Anchors against the plateau of their dissipators", "N", ANCHOR_FACTOR);
     let demand = Demand { guideline: Some(design.factors.overstrength * plateau), ..Demand::default() };
     let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation);
-    Some(outcome.whatever_the_pressures())
+    let mut outcome = outcome.whatever_the_pressures();
+    let known = design.factors.overstrength_given || design.factors.load > 1.0;
+    if !known && matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
+        outcome.leave_open(Opening::NotGiven(
+            "how far above its plateau a dissipator may pull is not given (give factors.dissipator_overstrength from its tests; 1 if the plateau is the upper bound)".into(),
+        ));
+    }
+    Some(outcome)
 }

@@ -3,10 +3,13 @@
 //! The load is not even along the rope: of the simulated examples the worst bolt takes two to three times the mean, and part of it
 //! lifts. So the equations, which spread the load evenly, can fail the bolts but never pass them.
 
-use crate::checks::outcome::{CheckName, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Bottom, Design};
 use crate::sources::{ANCHOR_FACTOR, NO_LIMIT};
+
+/// Ring spacings between two bolts up to which the lowest rope counts as held along its length.
+const MOST_RINGS: f64 = 4.0;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
@@ -17,8 +20,16 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![match net.bed_bolts.and_then(|bolts| bolts.resistance) {
         Some(characteristic) => {
             let resistance = Resistance { characteristic, factor: design.factors.anchor };
-            Outcome::at_most(name, demands.bolt_force, resistance, design.limits.anchor_utilisation)
-                .only_by_simulation("the load is not even along the rope, and the equations spread it evenly")
+            let mut outcome = Outcome::at_most(name, demands.bolt_force, resistance, design.limits.anchor_utilisation)
+                .only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
+            let spacing = net.bed_bolts.map_or(0.0, |bolts| bolts.spacing);
+            let holds = matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn);
+            if holds && spacing > MOST_RINGS * net.main_ropes.ring_spacing {
+                outcome.leave_open(Opening::OutOfRange(format!(
+                    "the lowest rope is modelled as held at every ring, and between bolts {spacing:.2} m apart it would hang free with a tension that is not checked (at most {MOST_RINGS} ring spacings)"
+                )));
+            }
+            outcome
         }
         None => {
             let title = "Load on what holds the lowest rope to the bed, in all";

@@ -1,6 +1,6 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Outcome, Resistance};
 use crate::demand::{CAP_TOLERANCE, Demands};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
 use crate::sources::{BRAKE_DATA, PLATEAU_DATA};
@@ -43,6 +43,7 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
         Resistance { characteristic: dissipator.plateau, factor: 1.0 },
         1.0,
     );
+    outcome.kind = Kind::DissipatorTension;
     if outcome.utilisation.is_some_and(|utilisation| utilisation <= CAP_TOLERANCE) {
         outcome.utilisation = None;
         outcome.verdict = CheckVerdict::Pass;

@@ -1,7 +1,7 @@
 //! Rules of detailing, and the range in which the guideline has been used. They warn; they do not fail a design.
 
 use crate::checks::range::LARGEST_SAG;
-use crate::demand::from_loads::Guideline;
+use crate::demand::from_loads::{Guideline, event_fill};
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
 use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
@@ -92,6 +92,19 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             )
         },
     ];
+    let coefficient = |title, found, smallest| Rule {
+        bearing: Bearing::Pressures,
+        ..least(
+            title,
+            found,
+            smallest,
+            "",
+            "Volkwein 2014 (after Albaba 2015): K = 1, λ = 0.7 to 2",
+            "smaller than the guideline has it: say where the value is from, and compare with what the simulation shows",
+        )
+    };
+    rules.push(coefficient("Coefficient K", input.earth_pressure, 1.0));
+    rules.push(coefficient("Coefficient λ", input.dynamic_pressure, 0.7));
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
         rules.push(most("Depth of the flow", input.depth, 2.0, "m", RANGE, SPECIAL));
         rules.push(most("Velocity of the flow", input.velocity, 10.0, "m/s", RANGE, SPECIAL));
@@ -110,10 +123,24 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             "the event more than fills the barrier: what comes after goes over it",
         )
     }));
+    rules.push(of_freeboard(design, guideline));
     rules.push(of_discharge(design, guideline));
     // What hangs on grains of which nothing is said.
     rules.retain(|rule| !rule.most.is_some_and(f64::is_nan));
     rules
+}
+
+/// What one event may heap up against the barrier, run-up included, stays below its top.
+fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
+    let input = &guideline.input;
+    least(
+        "Freeboard over one event",
+        input.barrier_height - event_fill(design, input).height(),
+        0.0,
+        "m",
+        "derived: barrier less the event heaped up against it, no higher than it runs up",
+        "the event may go over the barrier: a higher barrier, or a second one",
+    )
 }
 
 /// Most that the discharge of the design flow and the estimate from the event's volume may differ, either way.
@@ -219,7 +246,7 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
     if net.dissipators.is_some() {
         let bypass = if net.lateral_to == LateralTo::Anchors { 2.0 } else { 0.0 };
         rules.push(most(
-            "Lateral ropes that pass the dissipators by",
+            "Lateral ropes that bypass the dissipators",
             bypass,
             0.0,
             "count",
@@ -264,7 +291,7 @@ mod tests {
         assert_eq!(added(&|design| net(design).height = 7.0), ["Height"]);
         assert_eq!(
             added(&|design| net(design).lateral_to = LateralTo::Anchors),
-            ["Lateral ropes that pass the dissipators by"]
+            ["Lateral ropes that bypass the dissipators"]
         );
         assert_eq!(
             added(&|design| {

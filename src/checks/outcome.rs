@@ -30,6 +30,17 @@ impl CheckVerdict {
     }
 }
 
+/// What a check is of, where something hangs on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    #[default]
+    Any,
+    /// The share of the mass that is held.
+    MassHeld,
+    /// The tension of dissipators, which passes their plateau only once a stroke is used up.
+    DissipatorTension,
+}
+
 /// Why a check is open, with what would close it, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Opening {
@@ -74,6 +85,7 @@ pub struct Outcome {
     pub rope: Option<usize>,
     /// Whether the guideline's demand follows from its pressures.
     pub rests_on_pressures: bool,
+    pub kind: Kind,
     pub source: &'static str,
 }
 
@@ -200,6 +212,7 @@ impl Outcome {
             open: None,
             rope: None,
             rests_on_pressures: true,
+            kind: Kind::Any,
             source,
         };
         if capacity.is_some() && utilisation.is_none() {

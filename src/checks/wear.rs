@@ -27,11 +27,31 @@ pub fn check_broken(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![outcome]
 }
 
-/// A rope that has drawn out must be replaced; the simulation goes on with it.
+/// Permanent elongation from which it is more than rounding.
+const DRAWN_OUT: f64 = 1e-3;
+
+/// A rope that has drawn out must be replaced; the simulation goes on with it, its tension cut off at the elastic limit. How far a rope
+/// may draw out the design does not say: more than nothing leaves the check open.
 pub fn tell_drawn_out(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if !any_rope(design, |rope| rope.elastic_limit.is_some()) {
         return Vec::new();
     }
     let title = "Largest permanent elongation of a rope";
-    vec![Outcome::informative(CheckName::new("drawn_out", title, "-", NO_LIMIT), demands.drawn_out)]
+    let mut outcome = Outcome::informative(CheckName::new("drawn_out", title, "-", NO_LIMIT), demands.drawn_out);
+    match outcome.demand.simulation {
+        None => outcome.leave_open(Opening::NeedsSimulation(
+            "whether ropes draw out is seen in the simulation alone (run it)".into(),
+        )),
+        Some(elongation) => {
+            // Asked as "within", so that what is not a number is not.
+            let within = elongation <= DRAWN_OUT;
+            if !within {
+                outcome.leave_open(Opening::NotGiven(format!(
+                    "ropes draw out by up to {:.1} % at their elastic limit, which cuts off the tension that is checked, and the design gives no elongation that they bear (without elastic_limit the tension tells)",
+                    100.0 * elongation
+                )));
+            }
+        }
+    }
+    vec![outcome]
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
 use crate::demand::coefficients::{Coefficients, coefficients};
-use crate::demand::from_loads::Guideline;
+use crate::demand::from_loads::{Guideline, wall_of};
 use crate::design::Design;
 
 /// Numbers read off the histories of one run, SI.
@@ -13,6 +13,8 @@ pub struct Observed {
     /// Largest total force of the smoothed signal (N) and its time (s).
     pub force_peak: f64,
     pub force_peak_time: f64,
+    /// Largest total force within one sampling interval (N).
+    pub force_peak_sampled: f64,
     /// The smoothed signal, sample by sample (N).
     pub force: Vec<f64>,
     /// Mean total force over the last stretch of the run (N).
@@ -63,6 +65,10 @@ pub struct Observed {
     pub segment_residual: Vec<f64>,
     /// Largest moment about the toe (N m/m).
     pub moment_peak: f64,
+    /// Of a wall that stands by its weight: largest force that slides it along its base, with what the lift takes of its friction (N/m),
+    /// and largest moment about the upstream end of its base, with that of the lift (N m/m).
+    pub wall_sliding_peak: f64,
+    pub wall_overturning_peak: f64,
     /// The flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there.
     pub incoming: Gauge,
     /// Speed of the front on the last stretch before the gauge just upstream of the barrier (m/s); absent where it was not seen there.
@@ -103,6 +109,7 @@ impl Observed {
         let width = design.channel.width;
         let mut observed = Self {
             force_peak,
+            force_peak_sampled: peak(&force).1,
             force: smooth,
             force_peak_time: time(at_peak),
             force_residual: tail_mean(&force, reading.tail),
@@ -137,10 +144,27 @@ impl Observed {
             front_velocity: front_velocity(histories),
             ..Self::default()
         };
+        observed.measure_wall(histories, design, reading);
         observed.measure_coefficients(histories, design, guideline, reading);
         let grain = design.flow.sizes.quantile(0.5);
         observed.coefficients = coefficients(histories, &guideline.input, width, reading.window, grain);
         observed
+    }
+
+    /// What slides and what tips a wall that stands by its weight.
+    fn measure_wall(&mut self, histories: &Histories, design: &Design, reading: Reading) {
+        let Some(wall) = wall_of(design) else { return };
+        let width = design.channel.width;
+        let part = |axis: usize| -> Vec<f64> { histories.force.iter().map(|force| force[axis] / width).collect() };
+        let [along, off] = [part(0), part(2)].map(|part| smoothed(&part, reading.window));
+        let moment: Vec<f64> = histories.moment.iter().map(|moment| moment / width).collect();
+        let moment = smoothed(&moment, reading.window);
+        let pushes = || along.iter().zip(&off);
+        let slides: Vec<f64> = pushes().map(|(along, off)| wall.sliding_demand(*along, *off)).collect();
+        let tips =
+            pushes().zip(&moment).map(|((along, off), moment)| moment + wall.lift(*along, *off) * wall.base_width);
+        self.wall_sliding_peak = peak(&slides).1;
+        self.wall_overturning_peak = peak(&tips.collect::<Vec<_>>()).1;
     }
 
     /// K from the force along the channel at rest, λ from its peak with the design's K for the static part. Neither is told

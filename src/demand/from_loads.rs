@@ -3,12 +3,13 @@
 use std::f64::consts::FRAC_PI_4;
 
 use crate::demand::larger;
-use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet};
+use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo};
 use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope, later_surge};
 use crate::loads::fill::{Deposit, Retention, deposit_height};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::loads::run_up;
+use crate::loads::wall::WallInput;
 use crate::units::GRAVITY;
 
 /// Guideline loads and what follows for the ropes.
@@ -30,8 +31,17 @@ pub struct Guideline {
     pub bolt_force: Option<f64>,
     /// Plateau (N) and stroke (m) of the dissipators, if there are any.
     pub dissipator: Option<[f64; 2]>,
+    /// Whether a dissipator caps the load of its anchor: not where lateral ropes are tied to the anchors, past it.
+    pub anchors_capped: bool,
     /// What the barrier holds; nothing on a level bed.
     pub retention: Option<Retention>,
+}
+
+impl Guideline {
+    /// Force of the first surge on the empty barrier, without partial factors (N): what a simulation of one surge is to be compared with.
+    pub fn first_surge(&self) -> f64 {
+        self.cases.first().map_or(0.0, |case| case.total_force(self.width))
+    }
 }
 
 /// A main rope under the load of its tributary height, with the partial factor on loads.
@@ -41,6 +51,8 @@ pub struct RopeLoad {
     pub strip: [f64; 2],
     /// Load across the span (N/m).
     pub load: f64,
+    /// The point load that enters it, as a force at one place, with the partial factor (N).
+    pub point: f64,
     /// The case that governs; nothing for a rope that the bed holds.
     pub case: Option<LoadCase>,
     pub state: RopeState,
@@ -73,7 +85,11 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         input,
         width,
         bed_force,
-        bolt_force: bed_force.zip(bolt_spaces(design)).map(|(force, spaces)| force / spaces),
+        bolt_force: bed_force.zip(bolt_spaces(design)).map(|(force, spaces)| {
+            // A boulder hits one bolt, not all of them.
+            let point = ropes.first().map_or(0.0, |rope| rope.point);
+            (force - 2.0 * point) / spaces + point
+        }),
         cases: all(&input, &extras),
         largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger),
         largest_moment: stages.iter().map(|case| case.mean_moment(width)).fold(0.0, larger),
@@ -84,6 +100,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
             }
             BarrierDesign::RigidWall(_) => None,
         },
+        anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
         retention: held(design),
     }
 }
@@ -118,12 +135,16 @@ pub struct EventFill {
     pub heap: f64,
     /// To which the flow runs up at the most.
     pub run_up: f64,
+    /// Whether the event is more than the one flow.
+    pub several: bool,
 }
 
 impl EventFill {
-    /// What the loads are worked out with: a heap, no higher than the flow runs up, and no lower than a level deposit.
+    /// What the loads are worked out with: a heap, no higher than the flow runs up, and no lower than a level deposit. Where the event
+    /// comes in several surges, the later ones run up from what lies there.
     pub fn height(&self) -> f64 {
-        self.level.max(self.heap.min(self.run_up))
+        let from = if self.several { self.level } else { 0.0 };
+        self.level.max(self.heap.min(from + self.run_up))
     }
 }
 
@@ -131,7 +152,12 @@ pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
     let volume_per_width = design.flow.event_volume / design.channel.width;
     let repose = design.flow.grain_friction.atan();
     let height = |falls: f64| deposit_height(volume_per_width, design.channel.slope, falls, lean(design));
-    EventFill { level: height(0.0), heap: height(repose), run_up: run_up::bound(input) }
+    EventFill {
+        level: height(0.0),
+        heap: height(repose),
+        run_up: run_up::bound(input),
+        several: design.flow.event_volume > 1.001 * design.flow.volume(),
+    }
 }
 
 /// Spaces between the bolts of the lowest rope, where their distance is known.
@@ -151,8 +177,13 @@ fn extras(design: &Design) -> Extras {
     }
 }
 
-/// The height that the filled barrier keeps, and the volume behind it.
-pub fn held(design: &Design) -> Option<Retention> {
+/// The height that the filled barrier keeps, and the volume behind it, with the design's slope of the deposit.
+fn held(design: &Design) -> Option<Retention> {
+    held_below(design, design.loads.deposit_slope * design.channel.slope)
+}
+
+/// The same below a surface of the given slope (rad); nothing where that does not meet the bed.
+pub fn held_below(design: &Design, surface: f64) -> Option<Retention> {
     let slope = design.channel.slope;
     // A wall does not sag.
     let share = match &design.barrier {
@@ -160,9 +191,25 @@ pub fn held(design: &Design) -> Option<Retention> {
         BarrierDesign::FlexibleNet(_) => design.loads.filled_height,
     };
     let filled = share * height_over_bed(design);
-    let surface = design.loads.deposit_slope * slope;
     let shape = Deposit { width: design.channel.width, slope, lean: lean(design), height: filled, surface };
     (slope > surface).then(|| shape.retention(design.flow.volume()))
+}
+
+/// The wall of the design, if it stands by its weight.
+pub fn wall_of(design: &Design) -> Option<WallInput> {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
+    let stability = wall.stability?;
+    let (base_slope, bed_slope) = (stability.base_slope, design.channel.slope);
+    Some(WallInput {
+        height: wall.height * wall.lean.cos() / (bed_slope - base_slope).cos(),
+        thickness: stability.thickness,
+        base_width: stability.base_width,
+        density: stability.density,
+        base_friction: stability.base_friction,
+        base_slope,
+        bed_slope,
+        face_lean: wall.lean,
+    })
 }
 
 /// Height of the barrier's top above the bed, normal to it (m).
@@ -251,14 +298,16 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let own = [low, high.min(top) - input.depth].map(surge);
             let governing = stages.iter().chain(&own).max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
             let load = design.factors.load * governing.map_or(0.0, on_rope);
+            let spread = governing.map_or(0.0, |case| point_on_rope(case, &heights, index, span.span));
+            let point = 0.5 * design.factors.load * spread * span.span;
             if index == 0 && net.bottom == Bottom::Fixed {
                 // It neither sags nor pulls at anchors: the bed takes its load where it is.
-                return RopeLoad { strip, load, ..RopeLoad::default() };
+                return RopeLoad { strip, load, point, ..RopeLoad::default() };
             }
             let state = span.under(load);
             let across = 0.5 * load * span.span;
             let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
-            RopeLoad { strip, load, case: governing.cloned(), state, anchor: [along, across] }
+            RopeLoad { strip, load, point, case: governing.cloned(), state, anchor: [along, across] }
         })
         .collect()
 }

@@ -139,7 +139,12 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
     let slope = e.number("channel.slope")?;
     Some(RigidWall {
         height,
-        lean: e.number("barrier.rigid_wall.tilt").map_or(0.0, |tilt| slope + tilt),
+        lean: match (e.number("barrier.rigid_wall.tilt"), stability) {
+            (Some(tilt), _) => slope + tilt,
+            // One that stands by its weight stands upright on its base.
+            (None, Some(Some(stability))) => slope - stability.base_slope,
+            (None, _) => 0.0,
+        },
         segment_tops: segment_tops.collect(),
         resistance: e.number("barrier.rigid_wall.resistance"),
         resistance_factor: e.number("barrier.rigid_wall.resistance_factor")?,

@@ -24,6 +24,7 @@ pub const RULES: &[Rule] = &[
     wall_segments_fill_the_wall,
     wall_base_carries_the_wall,
     wall_base_no_steeper_than_the_bed,
+    wall_face_stands_on_its_base,
     point_load_on_the_barrier,
     self_weight_of_a_net,
     overflow_has_friction_and_length,
@@ -41,6 +42,7 @@ pub const RULES: &[Rule] = &[
     slope_lets_a_dam_break_flow,
     dam_break_clears_the_barrier,
     lateral_ropes_have_their_dissipators,
+    dissipators_are_stiff,
     cylinders_have_no_slack,
     net_rope_draws_out_or_breaks,
     main_rope_draws_out_or_breaks,
@@ -325,10 +327,28 @@ fn wall_base_no_steeper_than_the_bed(e: &Entries) -> Option<Problem> {
     })
 }
 
+/// Angle by which a given face may be off the normal of the base (rad): the balance of the wall takes it as upright on its base.
+const OFF_UPRIGHT: f64 = 0.1;
+
+fn wall_face_stands_on_its_base(e: &Entries) -> Option<Problem> {
+    let path = "barrier.rigid_wall.tilt";
+    let (tilt, base) = (e.number(path)?, e.number(&format!("{STABILITY}.base_slope"))?);
+    // Positive leans upstream; a base that falls downstream leans the wall downstream.
+    ((tilt + base).abs() > OFF_UPRIGHT).then(|| {
+        let show = |angle| Dimension::Angle.show(angle);
+        let found = format!("a face {} from plumb on a base of {}", show(tilt), show(base));
+        Problem::new(path, found, format!("a face upright on its base, {} to 6 deg", show(-base)))
+            .hint("sliding and overturning are worked out for a wall of even thickness that stands upright on its base")
+    })
+}
+
 fn point_load_on_the_barrier(e: &Entries) -> Option<Problem> {
     let path = "loads.point_load.height";
     let height = e.number(path)?;
-    let top = e.number("barrier.rigid_wall.height").or_else(|| {
+    let wall = e.number("barrier.rigid_wall.height").zip(e.number("channel.slope")).map(|(height, slope)| {
+        e.number("barrier.rigid_wall.tilt").map_or(height, |tilt| height * (slope + tilt).cos())
+    });
+    let top = wall.or_else(|| {
         let lean = e.number("channel.slope")? + e.number(&at("tilt"))?;
         Some(e.number(&at("height"))? * lean.cos() + e.number(&at("bottom.opening")).unwrap_or(0.0))
     })?;
@@ -503,12 +523,14 @@ fn opening_below_the_barrier(e: &Entries) -> Option<Problem> {
 }
 
 fn barrier_leans_within_reach(e: &Entries) -> Option<Problem> {
-    let (tilt, slope) = (e.number(&at("tilt"))?, e.number("channel.slope")?);
+    let wall = "barrier.rigid_wall.tilt".to_string();
+    let path = if e.mentions(&wall) { wall } else { at("tilt") };
+    let (tilt, slope) = (e.number(&path)?, e.number("channel.slope")?);
     let lean = tilt + slope;
     (!(-0.35..1.31).contains(&lean)).then(|| {
         let found = format!("a barrier {} against the bed's normal", Dimension::Angle.show(lean));
         let allowed = "slope plus tilt from -20 deg (leaning downstream of the bed's normal) to 75 deg (upstream)";
-        Problem::new(at("tilt"), found, allowed)
+        Problem::new(path, found, allowed)
     })
 }
 
@@ -546,12 +568,29 @@ fn block_larger_than_the_grains(e: &Entries) -> Option<Problem> {
 
 fn dam_break_clears_the_barrier(e: &Entries) -> Option<Problem> {
     let distance = e.number("flow.arrival.dam_break.distance")?;
-    let lean = e.number(&at("tilt"))? + e.number("channel.slope")?;
-    let reach = (e.number(&at("height"))? * lean.sin()).max(0.0) + 0.5 * size_curve(e)?.quantile(1.0);
+    let barrier = if e.has_section(NET) { NET } else { "barrier.rigid_wall" };
+    let of_barrier = |key: &str| e.number(&format!("{barrier}.{key}"));
+    let lean = of_barrier("tilt").map_or(0.0, |tilt| tilt + e.number("channel.slope").unwrap_or(0.0));
+    let reach = (of_barrier("height")? * lean.sin()).max(0.0) + 0.5 * size_curve(e)?.quantile(1.0);
     (distance < reach).then(|| {
         let found =
             format!("a gate {} from the foot of a barrier that reaches {} upstream", length(distance), length(reach));
         Problem::new("flow.arrival.dam_break.distance", found, "a gate upstream of the whole barrier")
+    })
+}
+
+/// Elastic travel of a dissipator before it yields, over its stroke, up to which it can be left out of the stroke.
+const ELASTIC_TRAVEL: f64 = 0.25;
+
+fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
+    let [plateau, stroke, stiffness] =
+        ["plateau_force", "stroke", "stiffness"].map(|key| e.number(&at(&format!("dissipators.{key}"))));
+    let (travel, stroke) = (plateau? / stiffness?, stroke?);
+    (travel > ELASTIC_TRAVEL * stroke).then(|| {
+        let found =
+            format!("an elastic travel of {} up to the plateau, with a stroke of {}", length(travel), length(stroke));
+        Problem::new(at("dissipators.stiffness"), found, "a plateau that is reached within a quarter of the stroke")
+            .hint("the stroke is the travel at the plateau; elastic travel does not count to it")
     })
 }
 

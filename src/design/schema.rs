@@ -146,7 +146,7 @@ const RIGID_WALL: &[Key] = &[
     Key::optional(
         "tilt",
         quantity(D::Angle, -STEEPEST, STEEPEST),
-        "angle of the face against plumb, positive leans upstream; by default the face is normal to the bed",
+        "angle of the face against plumb, positive leans upstream; by default the face is normal to the bed, or upright on its base where stability is given",
     ),
     Key::optional(
         "segments",
@@ -310,7 +310,7 @@ const LATERAL_ROPES: &[Key] = &[
 
 const DISSIPATORS: &[Key] = &[
     Key::required("plateau_force", quantity(D::Force, 1.0, 1e8), "force at which the dissipator yields"),
-    Key::required("stroke", quantity(D::Length, 0.001, 20.0), "way it can yield"),
+    Key::required("stroke", quantity(D::Length, 0.001, 20.0), "maximum stroke"),
     Key::required("stiffness", quantity(D::Stiffness, 1e2, 1e10), "elastic stiffness before it yields"),
 ];
 

@@ -59,7 +59,7 @@ pub const RUNGS: [Rung; 5] = [
         apply: |_| {},
     },
     Rung {
-        name: "coarse",
+        name: COARSE_GRAINS,
         what: "grains half as large again, ropes that slide, one start",
         starts: 1,
         band: Band { force: 1.2, stroke: 3.0, share: 0.05 },
@@ -112,10 +112,17 @@ pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     let fine = design.simulation.fidelity == FidelityWish::Fine
         && (design.simulation.barrier_model == BarrierModel::Cylinders
             || matches!(design.barrier, BarrierDesign::RigidWall(_)));
+    // Pinned rings load ropes unevenly, long steps are coarse too: neither is better known than coarse grains.
+    let pinned = design.simulation.barrier_model == BarrierModel::PinnedRopes
+        && matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    if pinned || design.simulation.fidelity == FidelityWish::Fast {
+        return RUNGS.iter().find(|rung| rung.name == COARSE_GRAINS).unwrap_or(&RUNGS[0]);
+    }
     let like = |rung: &&Rung| rung.starts > 1 && starts >= rung.starts as usize && (fine || rung.name != FINE);
     RUNGS.iter().rfind(like).or_else(|| RUNGS.iter().find(|rung| rung.name == GRAINS)).unwrap_or(&RUNGS[0])
 }
 
+const COARSE_GRAINS: &str = "coarse";
 const GRAINS: &str = "grains";
 const FINE: &str = "fine";
 
@@ -131,7 +138,7 @@ impl Rung {
     pub fn suits(&self, design: &Design) -> bool {
         match &design.barrier {
             // If only the finest tenth could pass, coarse grains hide little.
-            BarrierDesign::FlexibleNet(net) if self.name == "coarse" => {
+            BarrierDesign::FlexibleNet(net) if self.name == COARSE_GRAINS => {
                 design.flow.sizes.quantile(0.1) > net.mesh_opening
             }
             // Slack is a matter of ropes that only pull.
@@ -155,7 +162,7 @@ impl Rung {
     }
 
     /// Leaves those checks open of which this rung cannot tell on which side of the limit they lie.
-    pub fn leave_open_what_is_too_close(&self, outcomes: &mut [Outcome]) {
+    pub fn leave_open_what_is_too_close(&self, packings: usize, outcomes: &mut [Outcome]) {
         for outcome in outcomes.iter_mut() {
             let close = match outcome.verdict {
                 CheckVerdict::Pass | CheckVerdict::Warn => self.answer(outcome) == Answer::Open,
@@ -163,13 +170,12 @@ impl Rung {
                 CheckVerdict::Open | CheckVerdict::Info => false,
             };
             if close {
-                let finer = match self.starts {
-                    0 | 1 => {
-                        "one packing cannot tell on which side of the limit it lies (run with --seeds 5 or simulation.fidelity: auto)"
-                    }
-                    _ => "this model cannot tell on which side of the limit it lies",
+                let finer = match packings {
+                    1 => "one simulation is not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)".to_string(),
+                    2..5 => format!("{packings} simulations are not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)"),
+                    _ => "it is closer to its limit than this model is accurate".to_string(),
                 };
-                outcome.leave_open(Opening::TooClose(finer.into()));
+                outcome.leave_open(Opening::TooClose(finer));
             }
         }
     }
@@ -336,7 +342,7 @@ mod tests {
     fn what_is_too_close_to_its_limit_is_neither_passed_nor_failed() {
         let after = |rung: &Rung, outcome: Outcome| {
             let mut outcomes = [outcome];
-            rung.leave_open_what_is_too_close(&mut outcomes);
+            rung.leave_open_what_is_too_close(1, &mut outcomes);
             outcomes[0].verdict
         };
         for (name, used, expected) in [

@@ -41,7 +41,7 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         row(
             "Mass of the flow",
             with_unit(design.flow.mass, "kg"),
-            format!("weight {}, of it along the bed {downhill}", with_unit(weight, "N")),
+            format!("weight {}, its component along the bed {downhill}", with_unit(weight, "N")),
         ),
         row("Highest mean velocity", with_unit(seen.velocity_peak, "m/s"), fastest),
         row(
@@ -52,7 +52,7 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         row(
             "Velocity of the front",
             seen.front_velocity.map_or("not seen".to_string(), |front| with_unit(front, "m/s")),
-            "over the last 0.4 barrier heights before the gauge; of the place that 2 % of the mass is ahead of",
+            "over the last 0.4 barrier heights before the gauge; of the position that 2 % of the mass has passed",
         ),
         row("Depth of the deposit at the barrier", with_unit(seen.deposit_depth, "m"), "at the end, at bulk density"),
     ]
@@ -60,6 +60,11 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
 
 fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     vec![
+        row(
+            "Largest force within a sampling interval",
+            with_unit(seen.force_peak_sampled, "N"),
+            "mean over one sampling interval only; what responds faster than the smoothing window, such as a stiff wall, feels this",
+        ),
         row(
             "Largest total force",
             with_unit(seen.force_peak, "N"),
@@ -81,7 +86,10 @@ fn extension_row(seen: &Observed) -> Option<Row> {
     let most = seen.extension.iter().copied().fold(0.0, f64::max);
     let ropes: Vec<String> = seen.extension.iter().map(|extension| with_unit(*extension, "m")).collect();
     (most > 0.0).then(|| {
-        let remark = format!("downstream, of main ropes from the bottom: {}; keep this room free", ropes.join(", "));
+        let remark = format!(
+            "downstream, in the simulated surge; of main ropes from the bottom: {}. Keep free the larger of this and the sag by the equations",
+            ropes.join(", ")
+        );
         row("Largest extension of the net", with_unit(most, "m"), remark)
     })
 }
@@ -89,13 +97,16 @@ fn extension_row(seen: &Observed) -> Option<Row> {
 /// The force at rest beside the weight of what is held.
 fn at_rest_remark(design: &Design, seen: &Observed) -> String {
     let downhill = seen.retained * design.flow.mass * GRAVITY * design.channel.slope.sin();
-    let why = if seen.force_residual > downhill {
+    let springs = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let why = if seen.force_residual > downhill && springs {
         "; more, because the barrier has sprung back and presses the deposit up the slope, against the friction of the bed"
+    } else if seen.force_residual > downhill {
+        "; more, because the flow that was stopped last has pressed the deposit against the wall, and friction on the bed holds it there"
     } else {
         "; the rest is borne by the bed"
     };
     format!(
-        "{}; what is held weighs {} along the bed{why}",
+        "{}; the component of the held mass's weight along the bed is {}{why}",
         per_width(seen.force_residual, design),
         with_unit(downhill, "N")
     )
@@ -331,7 +342,7 @@ pub fn why_enough(run: &Run) -> String {
             rung.name
         ),
         true => format!(
-            "Enough is \"{}\": a finer model may differ from it by {:.0} % in forces, {:.0} % in strokes and {:.0} points in shares, and even so the verdict stands.",
+            "The level \"{}\" was sufficient: a finer model may differ from it by {:.0} % in forces, {:.0} % in strokes and {:.0} points in shares, and even so the verdict stands.",
             rung.name,
             100.0 * rung.band.force,
             100.0 * rung.band.stroke,

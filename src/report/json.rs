@@ -106,6 +106,8 @@ pub struct SimulationPart {
     pub sampling_s: f64,
     pub force_total_peak_n: f64,
     pub force_total_peak_time_s: f64,
+    /// Largest mean over one sampling interval.
+    pub force_total_peak_sampled_n: f64,
     pub force_total_residual_n: f64,
     pub velocity_mean_peak_m_s: f64,
     pub velocity_mean_peak_time_s: f64,
@@ -273,6 +275,7 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
         sampling_s: facts.sampling,
         force_total_peak_n: seen.force_peak,
         force_total_peak_time_s: seen.force_peak_time,
+        force_total_peak_sampled_n: seen.force_peak_sampled,
         force_total_residual_n: seen.force_residual,
         velocity_mean_peak_m_s: seen.velocity_peak,
         velocity_mean_peak_time_s: seen.velocity_peak_time,

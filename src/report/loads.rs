@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::checks::wall::wall_of;
-use crate::demand::from_loads::{RopeLoad, event_fill};
+use crate::demand::from_loads::{RopeLoad, event_fill, wall_of};
 use crate::loads::cases::{LoadCase, split};
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::ladder::MODELS;
@@ -12,7 +11,7 @@ use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
-use crate::report::view::Row;
+use crate::report::view::{Row, lower_first};
 use crate::sensitivity;
 
 #[derive(Debug, Serialize)]
@@ -158,7 +157,7 @@ fn remark(run: &Run, case: &LoadCase) -> String {
     if case.moving > 0.0 && case.deposit > 0.0 && case.shear == 0.0 && case.diagram.top >= case.diagram.surface {
         let (first, second) = split(&run.guideline.input, case);
         parts.push(format!(
-            "of it by the deposit F₁ = {}, by the moving flow F₂ = {}",
+            "of which the deposit F₁ = {} and the moving flow F₂ = {}",
             with_unit(first, "N/m"),
             with_unit(second, "N/m")
         ));
@@ -167,7 +166,7 @@ fn remark(run: &Run, case: &LoadCase) -> String {
         let enters = if case.shear_certainty.decides() {
             "enters the checks"
         } else {
-            "told only: give loads.overflow_friction and overflow_length to have it checked"
+            "for information only: give loads.overflow_friction and overflow_length to have it checked"
         };
         parts.push(format!("drag on the barrier's top = {} ({enters})", with_unit(case.shear, "N/m")));
     }
@@ -256,8 +255,8 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row("Holds against sliding", with_unit(hold, "N/m"), "W cos β tan φ, without partial factor"),
         row(
             "Demand for sliding",
-            format!("R · {:.3} + {}", wall.load_share(), with_unit(pull, "N/m")),
-            "R cos(α − β) + W sin β; R with the partial factor on loads",
+            format!("R · {:.3} + {}", wall.sliding_share(), with_unit(pull, "N/m")),
+            "R (cos δ + tan θ sin δ + tan φ · lift share) + W sin β, δ = α − β, θ the lean of the face from the bed's normal; R with the partial factor on loads. By the simulation the parts of the force vector along and off the base stand for R",
         ),
         row(
             "Holds against overturning",
@@ -266,8 +265,8 @@ pub fn wall(run: &Run) -> Vec<Row> {
         ),
         row(
             "Demand for overturning",
-            format!("M + {}", with_unit(tilt, "N m/m")),
-            "M of the load about the upstream end of the base, no less than about the edge, + W sin β H/2",
+            format!("M + R · {:.3} + {}", wall.lift_share() * wall.base_width, with_unit(tilt, "N m/m")),
+            "M of the load about the upstream end of the base + lift × width of the base + W sin β H/2",
         ),
         row(
             "Left out, on the safe side",
@@ -318,7 +317,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
             ),
         ));
         rows.push(row(
-            "Surges until it is full",
+            "Capacity, in design surges",
             figures(held.surges),
             format!(
                 "of {} each, the design flow; the event has {}",
@@ -334,7 +333,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
         format!("{} / {}", with_unit(run_up::by_jump(input), "m"), with_unit(run_up::by_energy(input), "m")),
         "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; dry friction is left out".into(),
     ));
-    let one_event = event.height().min(input.barrier_height);
+    let one_event = event.height();
     rows.push(row(
         "Freeboard over one event",
         with_unit(input.barrier_height - one_event, "m"),
@@ -416,11 +415,14 @@ pub fn margin(run: &Run) -> String {
     use sensitivity::Limit;
     let still = sensitivity::least(&run.file.design).map_or(String::new(), |point| {
         let used = percent(point.utilisation);
-        format!(" Filled, and with next to no velocity, the {} still uses {used}.", point.governing.to_lowercase())
+        format!(
+            " With the barrier full and the flow almost at rest, the utilisation is still {used} ({}).",
+            lower_first(&point.governing)
+        )
     });
     let tell = |name: &str, limit: Limit| match limit {
         Limit::Unjudged => "no check is judged by the equations".to_string(),
-        Limit::AlwaysFails => format!("no {name}, however small, lets all checks by the equations hold"),
+        Limit::AlwaysFails => format!("reducing only the {name} does not make all checks by the equations hold"),
         Limit::NeverFails => format!("no {name} up to ten times the design's fails a check by the equations"),
         Limit::At(factor) if factor >= 1.0 => {
             let grown = 100.0 * (factor - 1.0);

@@ -92,7 +92,7 @@ pub fn utilisation_chart(run: &Run) -> Option<Chart> {
         Some(Bar { label: outcome.title.clone(), used, by, value, class: outcome.verdict.word() })
     };
     let bars: Vec<Bar> = judged.filter_map(bar).take(MOST_BARS).collect();
-    let note = "Demand over capacity; of guideline (square) and simulation (circle) the larger. Of what must be kept (mass, height), the bar is what is missing of what may be missing, and the number what is kept. Bars beyond 200 % are cut off. Checks that tell no share of use are in the table alone.";
+    let note = "Demand over capacity; of guideline (square) and simulation (circle) the larger. For retained mass and height the bar shows the loss as a share of the permitted loss; the number is what is retained. Bars beyond 200 % are cut off. Checks without a utilisation are listed in the table only.";
     (!bars.is_empty()).then(|| Chart::of("Utilisation of the checks", utilisation(&bars), note))
 }
 

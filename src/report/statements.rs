@@ -72,6 +72,11 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             EITHER,
         ),
         (
+            simulated && matches!(design.flow.arrival, Arrival::Surge(_)),
+            "A surge is released upstream of the barrier as a body of even depth with a sloping front, every grain with the same velocity and none pressed on another, and runs in before it hits (flow.arrival.surge.front_angle and run_in). A vertical front without a run-in would hit the whole barrier at once, and the contact modulus of the grains would decide how hard.",
+            EITHER,
+        ),
+        (
             default_arrival,
             "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892), and its velocity the larger of that of a block sliding on the bed and that of a front without inner friction, where the design does not give them: an upper bound, often twice what arrives.",
             SAFE,

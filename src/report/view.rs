@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::design::entries::Origin;
 use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
@@ -242,14 +242,15 @@ pub fn summary(run: &Run) -> String {
     let sorted = worst_first(run);
     let held: Vec<_> = run.outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info).collect();
     let count = |verdict: CheckVerdict| held.iter().filter(|outcome| outcome.verdict == verdict).count();
-    let governing =
-        sorted.iter().find(|outcome| outcome.utilisation.is_some() && outcome.verdict != CheckVerdict::Open);
+    let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(0.0).abs();
+    let judged = sorted.iter().filter(|outcome| outcome.utilisation.is_some() && !is_stop(outcome));
+    let governing = judged.max_by(|a, b| used(a).total_cmp(&used(b)));
     let governing = governing.map_or(String::new(), |outcome| format!(" Governing: {}.", in_a_line(outcome)));
     let rules = detailing::rules(&run.file.design, &run.guideline);
     let broken = match rules.iter().filter(|rule| !rule.holds()).count() {
         0 => String::new(),
-        1 => " One rule of detailing or range is not kept.".to_string(),
-        count => format!(" {count} rules of detailing or range are not kept."),
+        1 => " One rule of detailing or of the range of the formulas is not met.".to_string(),
+        count => format!(" {count} rules of detailing or of the range of the formulas are not met."),
     };
     let open = match count(CheckVerdict::Open) {
         0 => String::new(),
@@ -343,6 +344,11 @@ pub fn used(outcome: &Outcome) -> String {
     }
 }
 
+/// Whether a check only says that a stroke is used up, which the check of the stroke says as well.
+fn is_stop(outcome: &Outcome) -> bool {
+    outcome.kind == Kind::DissipatorTension
+}
+
 /// The check in a line: "tension of main rope 3 (75 %)", "mass held by the barrier (99.9 %, at least 90.0 %)".
 pub fn in_a_line(outcome: &Outcome) -> String {
     let title = lower_first(&outcome.title);
@@ -394,7 +400,14 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
         "normal to the bed: one event only, heaped up against the barrier at the angle of repose, no higher than it runs up; the barrier is emptied before the next (loads.filling)"
     };
     let values = &design.factors;
-    let factors = format!("load {}, rope {}, anchor {}", values.load, values.rope, values.anchor);
+    let factors = match &design.barrier {
+        BarrierDesign::FlexibleNet(_) => {
+            format!("load {}, rope {}, anchor {}", values.load, values.rope, values.anchor)
+        }
+        BarrierDesign::RigidWall(_) => {
+            format!("load {}; those of the wall's resistance stand in the load combination", values.load)
+        }
+    };
     let set = run.file.entries.text("factors.set").unwrap_or("none");
     let typed =
         ["load", "rope", "anchor"].into_iter().filter(|name| run.file.entries.mentions(&format!("factors.{name}")));
@@ -472,7 +485,7 @@ fn derived_rows(run: &Run) -> Vec<Row> {
     let row = |name: &str, value: String, remark: String| Row { name: name.into(), value, remark };
     let solid = flow.volume() * flow.bulk_density / flow.solid_density;
     let mut rows = vec![
-        row("Volume of the flow", with_unit(flow.volume(), "m³"), "mass over bulk density".into()),
+        row("Volume of the flow", with_unit(flow.volume(), "m³"), "with pores".into()),
         row(
             "Grain sizes D30, D50, D90",
             [0.3, 0.5, 0.9].map(|share| with_unit(flow.sizes.named(share), "m")).join(", "),

@@ -4,7 +4,6 @@ use crate::checks::credibility::STRAY_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::rope_outside;
-use crate::dem::recorders::histories::{peak, smoothed};
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::rung_of;
 use crate::pipeline::Run;
@@ -130,7 +129,7 @@ fn discharge_and_volume(run: &Run) -> Option<String> {
     let rule = rules(&run.file.design, &run.guideline)
         .into_iter()
         .find(|rule| rule.bearing == Bearing::Flow && !rule.holds())?;
-    Some(format!("{} is {}: {}.", rule.title, figures(rule.found), rule.advice))
+    Some(format!("{} is {}: {}", rule.title, figures(rule.found), rule.advice))
 }
 
 /// Grains larger than the mesh cannot show what finer ones would do.
@@ -175,18 +174,21 @@ fn strays(run: &Run) -> Option<String> {
 }
 
 fn force_beyond_the_guideline(run: &Run) -> Option<String> {
-    let seen = run.simulated.as_ref()?;
-    // The guideline speaks of the force along the channel: the share of it that the first start shows.
-    let along: Vec<f64> = seen.histories.force.iter().map(|force| force.x).collect();
-    let (_, along) = peak(&smoothed(&along, crate::scene::build::SAMPLES_PER_WINDOW as usize));
-    let share = along / seen.first().force_peak;
-    let (simulated, guideline) = (share * seen.spread(|seen| seen.force_peak).mean, run.guideline.largest_force);
+    let (design, simulated) = (&run.file.design, run.simulated.as_ref()?);
+    let simulated = simulated.spread(|seen| seen.force_peak).mean;
+    let guideline = run.guideline.first_surge();
     let ratio = simulated / guideline;
+    let later = if design.loads.to_the_top {
+        " Surges over a deposit are in the equations alone, and would be as much too low."
+    } else {
+        ""
+    };
     (ratio > WORTH_A_WORD).then(|| {
         format!(
-            "The simulated flow pushes along the channel with {ratio:.2} times the guideline's largest force ({} against {}, without partial factors): the guideline's loads are low for it. Checks take the larger of both; compare K and λ with what the simulation shows before they are used elsewhere.",
+            "The simulated surge pushes {ratio:.2} times as hard as the guideline's first surge on the empty barrier ({} against {}, without partial factors): λ = {} is low for this flow.{later} Compare K and λ with those that the simulation shows.",
             with_unit(simulated, "N"),
-            with_unit(guideline, "N")
+            with_unit(guideline, "N"),
+            figures(run.guideline.input.dynamic_pressure)
         )
     })
 }
@@ -261,7 +263,7 @@ fn soft_ropes(run: &Run) -> Option<String> {
     let soft: Vec<&str> = ropes.iter().filter(|(_, modulus)| *modulus < SOFT).map(|(name, _)| *name).collect();
     (!soft.is_empty()).then(|| {
         format!(
-            "Ropes with a modulus below {} ({}): wire ropes have several times as much. A softer rope sags more and is loaded less; say where the value is from.",
+            "Ropes with a modulus below {} ({}): wire ropes have several times as much. A softer rope sags more and is loaded less; state the source of the value.",
             with_unit(SOFT * 1e-9, "GPa"),
             soft.join(", ")
         )
@@ -284,8 +286,7 @@ fn validation_case_like_this(run: &Run) -> Option<String> {
 /// grow, and is left out: its stroke tells.
 pub fn left_by_simulation(run: &Run) -> Option<String> {
     run.simulated.as_ref()?;
-    let judged =
-        run.outcomes.iter().filter(|outcome| !matches!(outcome.verdict, CheckVerdict::Info | CheckVerdict::Open));
+    let judged = run.outcomes.iter().filter(|outcome| !matches!(outcome.verdict, CheckVerdict::Info));
     let used: Vec<(&Outcome, f64)> =
         judged.filter_map(|outcome| Some((outcome, used_by_simulation(outcome)?))).collect();
     if used.iter().any(|(_, used)| *used > 1.0) {
@@ -347,5 +348,5 @@ pub fn pinned_fidelity(run: &Run) -> Option<String> {
         FidelityWish::Fine => "fine",
         FidelityWish::Auto => "auto",
     };
-    Some(format!("pinned by the design ({asked}); {known}: {verdict}"))
+    Some(format!("fidelity: {asked} is set in the design file; {known}: {verdict}"))
 }

@@ -106,6 +106,6 @@ impl Ground {
     pub fn holds(&self, footing: &Footing, nodes: &[Node]) -> bool {
         let plane = &self.planes[footing.plane as usize];
         let place = &nodes[footing.node as usize].position;
-        plane.height(place) < self.reaches[footing.node as usize][footing.plane as usize]
+        place.z <= plane.top && plane.height(place) < self.reaches[footing.node as usize][footing.plane as usize]
     }
 }

@@ -28,8 +28,8 @@ const TIP: f64 = 0.75;
 const LONGEST_NOSE: f64 = 0.8;
 
 impl Block {
-    /// The velocity of a surge is that of its arrival: what the bed's friction takes from it on the run-in, where it is more than
-    /// the slope gives, is added at the release, v₀² = v² + 2 g (tan φ cos α − sin α) s.
+    /// The velocity of a surge is that of its arrival: what slope and friction of the bed give or take on the run-in s is left out or
+    /// added at the release, v₀² = v² − 2 g (sin α − tan φ cos α) s, but no less than half the velocity.
     pub fn of(flow: &Flow, channel: &Channel, upstream_reach: f64) -> Self {
         match flow.arrival {
             Arrival::DamBreak(DamBreak { length, height, distance, .. }) => {
@@ -37,8 +37,8 @@ impl Block {
             }
             Arrival::Surge(Surge { length, depth, velocity, front_angle, run_in }) => {
                 let nose = (depth / front_angle.tan()).clamp(0.0, 2.0 * LONGEST_NOSE * length);
-                let braking = GRAVITY * (channel.base_friction * channel.slope.cos() - channel.slope.sin());
-                let velocity = (velocity * velocity + 2.0 * braking.max(0.0) * run_in).sqrt();
+                let gain = 2.0 * GRAVITY * (channel.slope.sin() - channel.base_friction * channel.slope.cos()) * run_in;
+                let velocity = (velocity * velocity - gain).max(0.25 * velocity * velocity).sqrt();
                 let thin = (TIP * flow.sizes.quantile(0.5)).min(depth);
                 let tip = 0.5 * thin * thin * nose / depth;
                 // The triangle that the nose lacks, and the tip that holds nothing, are made up for by length.

@@ -31,7 +31,7 @@ flow:
   solid_density: 2700 kg/m3
   grain_sizes: {uniform: {min: 300 mm, max: 400 mm}}
   grain_friction: 35 deg
-  arrival: {surge: {depth: 1 m, velocity: 2.5 m/s}}
+  arrival: {surge: {depth: 1 m, velocity: 2 m/s}}
 barrier:
   rigid_wall: {height: 4 m, resistance: 1 MN}
 ";
