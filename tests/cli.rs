@@ -76,7 +76,8 @@ fn a_barrier_of_cylinders_repeats_bit_for_bit_and_is_no_pass_when_cut_short() {
     assert_eq!(numerics["rope_crossings"], 0);
     assert!(numerics["energy_error_relative"].as_f64().expect("number").abs() < 0.005);
     let peak = result["simulation"]["force_total_peak_n"].as_f64().expect("number");
-    assert!((1.5e5..2.5e5).contains(&peak), "{peak}");
+    // Ropes that slide give some 120 kN.
+    assert!((0.9e5..1.6e5).contains(&peak), "{peak}");
 }
 
 /// Replaces every number by 0 and keeps one element of each list: what remains is the contract.

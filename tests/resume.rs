@@ -359,6 +359,7 @@ fn what_is_kept_stays_until_something_takes_its_place() {
         ("contact_modulus: 0.1 GPa", "contact_modulus: 100 GPa"),
         ("base_friction: 25 deg", "base_friction: 39 deg"),
         ("fidelity: standard", "fidelity: fine"),
+        ("longest: 12 s", "longest: 200 s"),
     ];
     std::fs::write(&huge, changes.iter().fold(text, |text, (from, to)| text.replace(from, to))).expect("written");
     let refused = run(&[&huge.display().to_string(), "--out", &path]);

@@ -10,7 +10,7 @@ use crate::report::json::ResultFile;
 use crate::report::recording;
 use crate::report::render::render;
 use crate::report::series;
-use crate::report::view::{View, lower_first};
+use crate::report::view::View;
 use crate::report::vtk;
 use crate::report::write::{ReportFile, inner, remove_unless, write_all};
 
@@ -73,19 +73,6 @@ fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
     Ok(files)
 }
 
-/// Why checks are open, each reason once, with the checks that it holds open.
-fn open_reasons(view: &View) -> Vec<(&str, Vec<String>)> {
-    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
-    for check in view.checks.iter().filter(|check| !check.open.is_empty()) {
-        let title = lower_first(&check.title);
-        match reasons.iter_mut().find(|(why, _)| *why == check.open) {
-            Some((_, titles)) => titles.push(title),
-            None => reasons.push((&check.open, vec![title])),
-        }
-    }
-    reasons
-}
-
 /// Verdict and checks for the terminal.
 pub fn summarise(view: &View, folder: &Path, with_vtk: bool) {
     let mut out = std::io::stdout().lock();
@@ -106,8 +93,8 @@ pub fn summarise(view: &View, folder: &Path, with_vtk: bool) {
     for doubt in &view.doubts {
         say(format!("  {doubt}"));
     }
-    for (why, titles) in open_reasons(view) {
-        say(format!("  open, because {why}: {}", titles.join("; ")));
+    for reason in &view.open {
+        say(format!("  open, because {}: {}", reason.why, reason.checks));
     }
     if with_vtk {
         say(format!("paraview: {}", folder.join(vtk::FOLDER).display()));

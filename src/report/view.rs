@@ -30,6 +30,8 @@ pub struct View {
     pub warnings: Vec<String>,
     pub utilisation: Option<Chart>,
     pub checks: Vec<CheckRow>,
+    /// Why checks are open.
+    pub open: Vec<OpenRow>,
     /// Where each partial factor stands.
     pub combinations: Vec<CombinationRow>,
     pub simulated: bool,
@@ -92,9 +94,14 @@ pub struct CheckRow {
     pub working: String,
     pub utilisation: String,
     pub verdict: &'static str,
-    /// Why the check is open.
-    pub open: String,
     pub source: &'static str,
+}
+
+/// A reason that holds checks open, with the checks.
+#[derive(Debug, Serialize)]
+pub struct OpenRow {
+    pub why: String,
+    pub checks: String,
 }
 
 /// A row of the load combination table.
@@ -129,6 +136,7 @@ impl View {
             warnings: warnings(run),
             utilisation: pictures::utilisation_chart(run),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
+            open: open_rows(&outcomes),
             combinations: combination_rows(run),
             guideline: guideline_rows(run),
             simulated: run.simulated.is_some(),
@@ -320,7 +328,6 @@ fn check_row(outcome: &Outcome) -> CheckRow {
         working: working(outcome),
         utilisation: used(outcome),
         verdict: outcome.verdict.word(),
-        open: outcome.open.as_ref().map_or(String::new(), |open| open.words().to_string()),
         source: outcome.source,
     }
 }
@@ -378,6 +385,20 @@ fn working(outcome: &Outcome) -> String {
         text += &format!(" × {:.0} %", 100.0 * share);
     }
     text
+}
+
+/// Each reason once, in the order of the checks.
+fn open_rows(outcomes: &[&Outcome]) -> Vec<OpenRow> {
+    let mut rows: Vec<OpenRow> = Vec::new();
+    for outcome in outcomes {
+        let Some(open) = &outcome.open else { continue };
+        let title = lower_first(&outcome.title);
+        match rows.iter_mut().find(|row| row.why == open.words()) {
+            Some(row) => row.checks += &format!("; {title}"),
+            None => rows.push(OpenRow { why: open.words().to_string(), checks: title }),
+        }
+    }
+    rows
 }
 
 fn combination_rows(run: &Run) -> Vec<CombinationRow> {
