@@ -4,7 +4,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::checks::range::leave_open_outside_range;
+use crate::checks::range::{leave_open_faster_arrivals, leave_open_outside_range};
 use crate::demand::Demands;
 use crate::demand::from_histories::Observed;
 use crate::demand::from_loads::{Guideline, guideline};
@@ -191,6 +191,10 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     let mut outcomes = check_all(design, &demands);
     let first_surge = simulated.as_ref().map(|simulated| simulated.spread(|seen| seen.force_peak).mean);
     leave_open_outside_range(design, &guideline, first_surge, &mut outcomes);
+    let arrives = simulated.as_ref().map(|simulated| simulated.spread(|seen| seen.incoming.velocity).mean);
+    if let Some(velocity) = arrives {
+        leave_open_faster_arrivals(design, &guideline, velocity, &mut outcomes);
+    }
     if let Some(simulated) = &simulated {
         let packings = simulated.starts.len();
         rung_of(design, packings).leave_open_what_is_too_close(packings, &mut outcomes);
@@ -201,22 +205,29 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
 
-/// Share of the velocity that the design gives below which the simulated flow is another one.
+/// Share of the velocity, and of the momentum flux h v², that the design gives below which the simulated flow is another one.
 const SLOWEST: f64 = 0.8;
+const LEAST_FLUX: f64 = 0.55;
 
-/// A simulated flow that arrives more slowly than the design says tells nothing of the design flow.
+/// A simulated flow that arrives more slowly, or thinner, than the design says tells nothing of the design flow.
 fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
-    let given = match design.flow.arrival {
-        Arrival::Surge(surge) => surge.velocity,
-        Arrival::DamBreak(block) => block.velocity_at_barrier?,
+    let (depth, given) = match design.flow.arrival {
+        Arrival::Surge(surge) => (Some(surge.depth), surge.velocity),
+        Arrival::DamBreak(block) => (block.depth_at_barrier, block.velocity_at_barrier?),
     };
     let arrives = |seen: &Observed| seen.incoming.velocity.max(seen.front_velocity.unwrap_or(0.0));
-    let arrives = simulated.spread(arrives).mean;
+    let velocity = simulated.spread(arrives).mean;
+    let flux = simulated.spread(|seen| seen.incoming.flux).mean;
+    let wanted = depth.map_or(0.0, |depth| LEAST_FLUX * depth * given * given);
     // Asked as "like", so that what is not a number is not.
-    let like = arrives >= SLOWEST * given;
+    let like = velocity >= SLOWEST * given && flux >= wanted;
     (!like).then(|| {
+        let seen = simulated.first().incoming;
         format!(
-            "the simulated flow arrives with {arrives:.2} m/s where the design says {given:.2} m/s, so that its loads are not those of the design flow; release it so that it arrives as it should"
+            "the simulated flow arrives {:.2} m deep with {:.2} m/s where the design says {}{given:.2} m/s, so that its loads are not those of the design flow; release it so that it arrives as it should",
+            seen.depth,
+            seen.velocity,
+            depth.map_or(String::new(), |depth| format!("{depth:.2} m with "))
         )
     })
 }

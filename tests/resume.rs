@@ -386,7 +386,8 @@ fn a_run_that_settles_ends_when_it_is_asked_to() {
     std::fs::create_dir_all(&out).expect("a folder");
     let design = out.join("stiff.yaml");
     let text = std::fs::read_to_string("designs/site_a.yaml").expect("a design");
-    let text = text.replace("contact_modulus: 0.1 GPa", "contact_modulus: 50 GPa");
+    let text = text.replace("contact_modulus: 0.1 GPa", "contact_modulus: 100 GPa");
+    let text = text.replace("fidelity: standard", "fidelity: fine");
     std::fs::write(&design, text).expect("a design");
     let arguments = [&design.display().to_string(), "--out", &out.join("report").display().to_string()];
     let mut child = program().args(arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("a start");

@@ -23,16 +23,30 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             ),
         }
     });
-    by_load.chain(against_plateau(net, design, capacity)).collect()
+    by_load.chain(against_plateau(net, design, demands, capacity)).collect()
 }
 
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
-fn against_plateau(net: &FlexibleNet, design: &Design, capacity: Resistance) -> Option<Outcome> {
+fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capacity: Resistance) -> Option<Outcome> {
     let plateau = net.dissipators?.plateau;
     let name = CheckName::new("anchor_plateau", "Anchors against the plateau of their dissipators", "N", ANCHOR_FACTOR);
-    let demand = Demand { guideline: Some(design.factors.overstrength * plateau), ..Demand::default() };
+    let own = design.factors.overstrength * plateau;
+    let lateral = demands.lateral_tension.simulation;
+    let (demand, tied) = match net.lateral_to {
+        LateralTo::RopeEnds => (Demand { guideline: Some(own), ..Demand::default() }, false),
+        // What the lateral ropes bring comes on top, in the worst case in the same direction.
+        LateralTo::Anchors => {
+            let simulation = lateral.map(|lateral| own + lateral);
+            (Demand { guideline: Some(own), simulation, ..Demand::default() }, true)
+        }
+    };
     let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation);
-    let mut outcome = outcome.whatever_the_pressures();
+    let outcome = outcome.whatever_the_pressures();
+    let mut outcome = match tied {
+        true => outcome
+            .only_by_simulation("the lateral ropes are tied to the anchors, and the equations do not know their load"),
+        false => outcome,
+    };
     let known = design.factors.overstrength_given || design.factors.load > 1.0;
     if !known && matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
         outcome.leave_open(Opening::NotGiven(

@@ -3,7 +3,7 @@
 //! The load is not even along the rope: of the simulated examples the worst bolt takes two to three times the mean, and part of it
 //! lifts. So the equations, which spread the load evenly, can fail the bolts but never pass them.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Bottom, Design};
 use crate::sources::{ANCHOR_FACTOR, NO_LIMIT};
@@ -22,6 +22,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let resistance = Resistance { characteristic, factor: design.factors.anchor };
             let mut outcome = Outcome::at_most(name, demands.bolt_force, resistance, design.limits.anchor_utilisation)
                 .only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
+            outcome.kind = Kind::Bolts;
             let spacing = net.bed_bolts.map_or(0.0, |bolts| bolts.spacing);
             let holds = matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn);
             if holds && spacing > MOST_RINGS * net.main_ropes.ring_spacing {

@@ -103,6 +103,39 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             "smaller than the guideline has it: say where the value is from, and compare with what the simulation shows",
         )
     };
+    rules.push(Rule {
+        bearing: Bearing::Pressures,
+        ..least(
+            "Density of a debris flow",
+            input.density,
+            1000.0,
+            "kg/m³",
+            "that of water",
+            "no debris flow is lighter than water",
+        )
+    });
+    rules.push(Rule {
+        bearing: Bearing::Pressures,
+        ..most(
+            "Height of filling beside the side walls",
+            input.fill_height,
+            design.channel.wall_height,
+            "m",
+            "derived, normal to the bed",
+            "a deposit above the side walls goes round the barrier: raise channel.wall_height if the banks are higher",
+        )
+    });
+    rules.push(Rule {
+        bearing: Bearing::Pressures,
+        ..most(
+            "Lean of the barrier from plumb",
+            tilt_of(design).abs().to_degrees(),
+            MOST_TILT,
+            "deg",
+            "Albaba 2015 tried 0 to 20 deg; pressures are taken along the bed on the height normal to it",
+            "the pressure normal to a face that leans more is not what the guideline has",
+        )
+    });
     rules.push(coefficient("Coefficient K", input.earth_pressure, 1.0));
     rules.push(coefficient("Coefficient λ", input.dynamic_pressure, 0.7));
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
@@ -128,6 +161,20 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
     // What hangs on grains of which nothing is said.
     rules.retain(|rule| !rule.most.is_some_and(f64::is_nan));
     rules
+}
+
+/// Greatest lean from plumb for which the guideline's pressures are taken (deg); a wall normal to the bed is that of the source.
+const MOST_TILT: f64 = 20.0;
+
+/// Lean of a net from plumb, or of a wall from plumb or the bed's normal, whichever is less (rad).
+fn tilt_of(design: &Design) -> f64 {
+    match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => net.tilt,
+        BarrierDesign::RigidWall(wall) => {
+            let plumb = wall.lean - design.channel.slope;
+            if plumb.abs() < wall.lean.abs() { plumb } else { wall.lean }
+        }
+    }
 }
 
 /// What one event may heap up against the barrier, run-up included, stays below its top.
@@ -298,7 +345,7 @@ mod tests {
                 let slope = design.channel.slope;
                 net(design).tilt = -slope;
             }),
-            ["Angle between the net and the bed's normal"]
+            ["Lean of the barrier from plumb", "Angle between the net and the bed's normal"]
         );
     }
 }

@@ -37,6 +37,8 @@ pub enum Kind {
     Any,
     /// The share of the mass that is held.
     MassHeld,
+    /// The worst bolt of the lowest rope, whose load the equations spread evenly.
+    Bolts,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
 }

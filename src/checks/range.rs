@@ -3,10 +3,13 @@
 //!
 //! A check fails all the same: outside its range a formula may say too little, and what fails by it is not saved by that.
 
+use crate::checks::check_all;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::outcome::{CheckVerdict, Kind, Opening, Outcome};
-use crate::demand::from_loads::Guideline;
+use crate::demand::Demands;
+use crate::demand::from_loads::{Guideline, guideline_for};
 use crate::design::{BarrierDesign, Design, OutsideRange};
+use crate::loads::input::GuidelineInput;
 
 /// Sag over span, and strain, up to which a main rope's parabola with small strains is known to hold.
 pub const LARGEST_SAG: f64 = 0.3;
@@ -29,6 +32,7 @@ pub fn leave_open_outside_range(
     }
     leave_open_later_surges(design, guideline, first_surge, outcomes);
     leave_open_what_was_not_simulated(design, outcomes);
+    leave_open_without_drag(design, outcomes);
     let broken =
         rules(design, guideline).into_iter().filter(|rule| rule.bearing == Bearing::Pressures && !rule.holds());
     let of_pressures: Option<String> =
@@ -58,6 +62,7 @@ pub fn leave_open_outside_range(
 
 /// Surges over a deposit are in the equations alone: where the simulated first surge hits harder than theirs, so would the later ones.
 fn leave_open_later_surges(design: &Design, guideline: &Guideline, first_surge: Option<f64>, outcomes: &mut [Outcome]) {
+    leave_open_full_barrier(design, guideline, first_surge, outcomes);
     let Some(ratio) = first_surge.map(|force| force / guideline.first_surge()) else { return };
     // Asked as "alike", so that what is not a number is not.
     let alike = ratio <= LIKE_FIRST_SURGES;
@@ -76,6 +81,60 @@ fn leave_open_later_surges(design: &Design, guideline: &Guideline, first_surge: 
     }
 }
 
+/// What the simulation of a first surge alone judges, with the load of the full barrier: where surges come until it is full, the equations
+/// tell how much more presses on it then, and what would not hold that much more stays open.
+fn leave_open_full_barrier(design: &Design, guideline: &Guideline, first_surge: Option<f64>, outcomes: &mut [Outcome]) {
+    let Some(more) = first_surge.map(|force| guideline.largest_force / force) else { return };
+    if more <= 1.0 || !design.loads.to_the_top {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.resistance.is_some()) {
+        let holds = matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn);
+        let by_simulation = outcome.demand.guideline.is_none() || outcome.kind == Kind::Bolts;
+        let used = outcome.demand.simulation.zip(outcome.capacity).map(|(demand, capacity)| more * demand / capacity);
+        // Asked as "within", so that what is not a number is not.
+        let within = used.is_none_or(|used| used <= 1.0);
+        if holds && by_simulation && !within {
+            outcome.leave_open(Opening::OutOfRange(format!(
+                "the simulation is of the first surge, and by the equations {more:.1} times as much presses on the full barrier, which it would not hold in proportion (simulate a larger flow, or say loads.filling: one_event)"
+            )));
+        }
+    }
+}
+
+/// Leaves open what the equations would fail with the velocity that the simulated flow arrives with (m/s).
+pub fn leave_open_faster_arrivals(design: &Design, guideline: &Guideline, velocity: f64, outcomes: &mut [Outcome]) {
+    let given = guideline.input.velocity;
+    if velocity <= given || design.limits.outside_range == OutsideRange::Warn {
+        return;
+    }
+    let faster = guideline_for(design, GuidelineInput { velocity, ..guideline.input });
+    let then = check_all(design, &Demands::by_equations(&faster, &design.factors));
+    for (outcome, then) in outcomes.iter_mut().zip(&then) {
+        let holds = matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn);
+        if holds && outcome.id == then.id && then.fails_by_equations() {
+            outcome.leave_open(Opening::OutOfRange(format!(
+                "the simulated flow arrives with {velocity:.2} m/s where the equations were given {given:.2} m/s, and with that they would fail it"
+            )));
+        }
+    }
+}
+
+/// The drag of a flow over the barrier is known where its friction and length are given; left out it is not nothing.
+fn leave_open_without_drag(design: &Design, outcomes: &mut [Outcome]) {
+    if design.loads.overflow_depth.is_none() || design.loads.overflow_drag.is_some() {
+        return;
+    }
+    for outcome in outcomes.iter_mut() {
+        let holds = matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn);
+        if holds && outcome.rests_on_pressures && outcome.demand.guideline.is_some() {
+            outcome.leave_open(Opening::NotGiven(
+                "the drag of the flow over the full barrier is not in it (give loads.overflow_friction and loads.overflow_length)".into(),
+            ));
+        }
+    }
+}
+
 /// What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
 /// later surges of a larger event, a boulder, snow, a flow over the full barrier.
 fn leave_open_what_was_not_simulated(design: &Design, outcomes: &mut [Outcome]) {
@@ -85,6 +144,8 @@ fn leave_open_what_was_not_simulated(design: &Design, outcomes: &mut [Outcome]) 
         (loads.point_load.is_some(), "the point load"),
         (loads.snow_pressure.is_some(), "the snow"),
         (loads.overflow_depth.is_some(), "the flow over the full barrier"),
+        (loads.drained.is_some(), "the drained deposit"),
+        (loads.self_weight.is_some(), "the weight of the net as given"),
     ];
     let missing: Vec<&str> = missing.into_iter().filter(|(asked, _)| *asked).map(|(_, what)| what).collect();
     if missing.is_empty() {

@@ -38,6 +38,13 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
             )));
         }
     }
+    if let (None, BarrierDesign::FlexibleNet(net)) = (&flow.cut, &design.barrier)
+        && flow.sizes.quantile(0.1) > net.mesh_opening
+    {
+        return Some(Opening::NotGiven(
+            "nine tenths of the simulated grains are larger than the mesh and cannot pass it, and whether the real flow has finer ones is not said (give the whole curve, with simulation.coarsen: auto where it has too many grains)".into(),
+        ));
+    }
     if flow.event_volume <= 1.001 * flow.volume() {
         return None;
     }

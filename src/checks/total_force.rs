@@ -17,7 +17,15 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let resistance = Resistance { characteristic, factor: wall.resistance_factor };
             Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0)
         }
-        (None, Some(_)) => Outcome::informative(name(NO_LIMIT), demand),
+        // A plain block bears what it weighs; a foot that reaches out must be able to.
+        (None, Some(stability)) if stability.base_width <= stability.thickness => {
+            Outcome::informative(name(NO_LIMIT), demand)
+        }
+        (None, Some(_)) => Outcome::without_resistance(
+            name(NO_LIMIT),
+            demand,
+            "barrier.rigid_wall.resistance: the strength of a wall on a foot wider than itself",
+        ),
         (None, None) => Outcome::without_resistance(
             name(NO_LIMIT),
             demand,

@@ -65,7 +65,7 @@ mod tests {
         wall.stability = Some(Stability {
             thickness: 2.0,
             density: 2400.0,
-            base_width: 3.0,
+            base_width: 2.0,
             base_slope: 0.0,
             base_friction: 0.7,
             sliding_factor: 1.1,

@@ -52,7 +52,12 @@ impl Plane {
 impl Ground {
     /// For a barrier as it stands at first.
     pub fn under(nodes: &[Node], planes: [Plane; PLANES], moduli: [f64; 2]) -> Self {
-        let reach = |node: &Node| planes.map(|plane| node.radius.min(plane.height(&node.position)));
+        // Rings have no thickness to lie on: they hang on what has.
+        let thin = |node: &Node| node.radius <= 0.0;
+        let reach = |node: &Node| match thin(node) {
+            true => [f64::NEG_INFINITY; PLANES],
+            false => planes.map(|plane| node.radius.min(plane.height(&node.position))),
+        };
         Self { planes, moduli, reaches: nodes.iter().map(reach).collect() }
     }
 
@@ -87,7 +92,7 @@ impl Ground {
 
     /// Spring of a node on any plane.
     pub fn spring(&self, node: &Node) -> Spring {
-        let [ground, rope] = self.moduli.map(|modulus| modulus * node.radius.max(f64::MIN_POSITIVE));
+        let [ground, rope] = self.moduli.map(|modulus| modulus * node.radius);
         Spring::new(contact_stiffness(ground, rope), 1.0 / node.mass)
     }
 
