@@ -7,7 +7,7 @@ use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::pipeline::Run;
+use crate::pipeline::{Run, Verdict};
 use crate::report::numbers::with_unit;
 use crate::report::validation::Kept;
 use crate::report::view::Row;
@@ -337,6 +337,10 @@ pub fn why_enough(run: &Run) -> String {
     let Some(last) = run.climb.last() else { return String::new() };
     let rung = &RUNGS[last.rung];
     match last.open.is_empty() {
+        true if run.verdict == Verdict::Undecided => format!(
+            "A model finer than \"{}\" would not close what is open: see the open checks and the doubts.",
+            rung.name
+        ),
         false => format!(
             "\"{}\" is the finest rung there is for this design; what is open on it is too close to its limit for this program to tell.",
             rung.name
