@@ -26,14 +26,6 @@ impl Demand {
     pub fn largest(&self) -> Option<f64> {
         self.guideline.into_iter().chain(self.simulation).reduce(larger)
     }
-
-    /// Both multiplied by a factor.
-    pub fn times(&self, factor: f64) -> Self {
-        let [guideline, simulation, characteristic, cap] =
-            [self.guideline, self.simulation, self.characteristic, self.cap]
-                .map(|value| value.map(|value| value * factor));
-        Self { guideline, simulation, characteristic, cap }
-    }
 }
 
 /// Demands for every check, under factored actions. Lists go from the lowest main rope to the highest.
