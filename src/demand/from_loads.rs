@@ -327,7 +327,32 @@ fn point_on_rope(case: &LoadCase, heights: &[f64], index: usize, span: f64) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::read::read_design;
     use approx::assert_relative_eq;
+
+    /// On the level nothing speeds up, so the front keeps Ritter's 2 √(g h) whatever the way; on a slope without friction it gains
+    /// 2 g sin α d; on friction steeper than the slope it gains nothing.
+    #[test]
+    fn a_collapse_is_never_slower_than_its_front_at_the_gate() {
+        let bytes = include_bytes!("../../designs/flume_l44_h15_a40.yaml");
+        let mut design = read_design("x", bytes).unwrap().design;
+        let block = |distance| DamBreak {
+            length: 0.5,
+            height: 2.0,
+            distance,
+            depth_at_barrier: None,
+            velocity_at_barrier: None,
+        };
+        design.channel.slope = 0.0;
+        assert_relative_eq!(front_velocity(&design, &block(1.0)), 8.858_893, max_relative = 1e-3);
+        assert_relative_eq!(front_velocity(&design, &block(9.0)), 8.858_893, max_relative = 1e-3);
+        design.channel.slope = std::f64::consts::FRAC_PI_6;
+        design.channel.base_friction = 0.0;
+        let expected = (4.0 * 9.81 * 0.866_025 * 2.0 + 2.0 * 9.81 * 0.5 * 9.0_f64).sqrt();
+        assert_relative_eq!(front_velocity(&design, &block(9.0)), expected, max_relative = 1e-3);
+        design.channel.base_friction = 1.0;
+        assert_relative_eq!(front_velocity(&design, &block(9.0)), 8.244_1, max_relative = 1e-3);
+    }
 
     #[test]
     fn a_point_load_is_shared_by_the_ropes_beside_it() {
