@@ -211,6 +211,7 @@ mod tests {
         assert_eq!(verdict(&design, "rope_3_tension", like(&design)), CheckVerdict::Pass);
         // Froude number 1.7, where λ = 2 is less than a model that follows it.
         let slow = |design: &mut Design| {
+            design.factors.dynamic_pressure = 2.0;
             if let crate::design::Arrival::Surge(surge) = &mut design.flow.arrival {
                 surge.velocity = 4.0;
             }

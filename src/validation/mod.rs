@@ -23,6 +23,7 @@ pub const CASES: &[&Case] = &[
     &contact::oblique::ALUMINIUM_OXIDE,
     &contact::oblique::SLIDING,
     &contact::oblique::SPINNING,
+    &contact::coarse_steps::CASE,
     &contact::gears::CASE,
     &contact::clump_body::BODY,
     &contact::rolling::SLOPE,

@@ -1,15 +1,15 @@
 //! The one contact law: linear spring with a dashpot that never pulls, and Coulomb friction.
 //!
 //! Normal force   F_n = max(0, k u + γ u̇),  γ = 2 ζ √(k m_r), ζ from the restitution and the step
-//! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = k × the tangential ratio (2/7)
+//! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = k × the tangential ratio (2/7), corrected for the step
 //!
-//! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step.
+//! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step while in contact.
 //! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
 //! Written for any [`Real`]: for one contact, or for eight side by side in vector registers.
 
 use serde::{Deserialize, Serialize};
 
-use crate::dem::contact::restitution::{StepCorrection, damping_ratio_for};
+use crate::dem::contact::restitution::{StepCorrection, damping_ratio_for, first_weight};
 use crate::dem::simd::eight::{joined, parted};
 use crate::dem::simd::real::{Real, Triple, add_scaled, cross, dot, scaled};
 use crate::dem::tables::grain_table::Quad;
@@ -71,9 +71,9 @@ impl<R: Real> Spring<R> {
 /// What a contact remembers from step to step; all zero without contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory<R = f64> {
-    /// Tangential force on the first body (N).
+    /// Force of the friction spring on the first body (N).
     pub tangential: Triple<R>,
-    /// Dashpot part of the last normal force (N), for the energy account.
+    /// What the last normal force had beyond the spring's (N), for the energy account.
     pub dashpot: R,
 }
 
@@ -97,10 +97,8 @@ pub struct LawConstants {
     pub damping_ratio: f64,
     /// What it needs in steps of finite length.
     pub correction: StepCorrection,
-    /// k_t / k_n.
+    /// k_t/k for short steps.
     pub tangential_ratio: f64,
-    /// ½ k_n / k_t.
-    pub half_tangential_compliance: f64,
     /// Time step (s).
     pub time_step: f64,
 }
@@ -111,7 +109,6 @@ impl LawConstants {
             damping_ratio: damping_ratio_for(restitution),
             correction: StepCorrection::of(restitution),
             tangential_ratio,
-            half_tangential_compliance: 0.5 / tangential_ratio,
             time_step,
         }
     }
@@ -123,14 +120,40 @@ impl LawConstants {
         let corrected = (x * (x * self.correction.quadratic + self.correction.linear) + 1.0) * self.damping_ratio;
         corrected * 2.0 * spring.impedance
     }
+
+    /// Stiffness of the friction spring over k. A dashpot taken from the last half step acts like a smaller mass, m_r (1 − ζ ω₀ Δt),
+    /// and the contact is over sooner; a friction spring that is as much stiffer, k_t/(1 − ζ ω₀ Δt), turns the bodies as it should all
+    /// the same. It is made twice as stiff at most: steps that would need more are hardly stable.
+    #[inline(always)]
+    pub fn friction_spring<R: Real>(&self, spring: &Spring<R>) -> FrictionSpring<R> {
+        let lighter =
+            (spring.frequency * (-self.damping_ratio * self.time_step) + 1.0).or_larger(R::all(LEAST_LIGHTER));
+        FrictionSpring { ratio: self.tangential_ratio, lighter }
+    }
+}
+
+/// Stiffness of a friction spring over that of its contact, as a quotient.
+#[derive(Clone, Copy, Debug)]
+pub struct FrictionSpring<R = f64> {
+    /// k_t/k for short steps.
+    ratio: f64,
+    /// 1 − ζ ω₀ Δt, or [`LEAST_LIGHTER`] if that is more.
+    lighter: R,
+}
+
+impl FrictionSpring {
+    /// k_t/k in steps of finite length.
+    pub fn stiffness_ratio(&self) -> f64 {
+        self.ratio / self.lighter
+    }
 }
 
 /// The law's answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<R = f64> {
-    /// Force on the first body (N); the other gets the opposite.
+    /// Force on the first body (N), mean over the step; the other gets the opposite.
     pub force: Triple<R>,
-    /// Magnitude of the normal force (N).
+    /// Magnitude of its normal part (N).
     pub normal_force: R,
     pub memory: Memory<R>,
     /// Elastic energy stored now (J).
@@ -141,7 +164,16 @@ pub struct Response<R = f64> {
     pub lost_friction: R,
 }
 
+/// Least share of its mass that a contact counts as having, whatever its step.
+const LEAST_LIGHTER: f64 = 0.5;
+/// What keeps a quotient a number where there is no contact.
+const SMALLEST: f64 = 1e-100;
+
 /// Force of one contact for one step, or of several side by side.
+///
+/// A contact begins somewhere within a step, a part of the step before its first force. That force is weighted by the time it stands for
+/// ([`first_weight`]), and its friction spring is drawn out for the part of the step in contact. Without this an impact in coarse steps
+/// depends on where in a step it begins.
 ///
 /// Energy is accounted by the trapezoidal rule over the step just made, which is the leapfrog integrator's discrete work but for
 /// terms that swing with the contact and do not add up: dashpot ½(D_old + D_new) u̇ Δt, slip = work done minus change of stored energy.
@@ -154,11 +186,21 @@ pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: 
     let n = point.normal;
     let step = constants.time_step;
     let zero = R::all(0.0);
+    let overlap = zero.or_larger(point.overlap);
     let stiffness = point.overlap.if_above(zero, point.spring.stiffness, zero);
     let separation_rate = dot(point.velocity, n);
+
+    // A contact that began within this step has lasted for a part of it only: its overlap over the way of the step.
+    let way = (separation_rate * -step).or_larger(overlap).or_larger(R::all(SMALLEST));
+    let FrictionSpring { ratio, lighter } = constants.friction_spring(&point.spring);
+    let quotient = R::all(1.0) / (way * lighter);
+    let part = overlap * lighter * quotient;
+    let weight = way.if_above(overlap, first_weight(part, lighter), R::all(1.0));
+
     let spring = stiffness * point.overlap;
     let damping = point.overlap.if_above(zero, constants.damping(&point.spring), zero);
-    let normal_force = zero.or_larger(spring - damping * separation_rate);
+    let at_once = zero.or_larger(spring - damping * separation_rate);
+    let normal_force = at_once * weight;
     let dashpot = normal_force - spring;
     let passed = zero.or_larger(-(point.overlap * (point.overlap + separation_rate * step)));
     let half_touching = point.overlap.if_above(zero, passed, -passed);
@@ -167,19 +209,20 @@ pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: 
 
     let old = carried(memory.tangential, n, point.twist * step);
     let slip = add_scaled(point.velocity, -separation_rate, n);
-    let trial = add_scaled(old, stiffness * (constants.tangential_ratio * step), slip);
+    let trial = add_scaled(old, stiffness * overlap * quotient * (ratio * step), slip);
     let trial_squared = dot(trial, trial);
-    let limit = point.friction * normal_force;
+    let limit = point.friction * at_once;
     let cap = limit / trial_squared.root();
     let scale = trial_squared.if_above(limit * limit, cap, R::all(1.0));
     let tangential = scaled(trial, scale);
 
     let now_squared = trial_squared * scale * scale;
-    let work = (dot(old, slip) + dot(tangential, slip)) * (0.5 * step);
-    let half_compliance = point.spring.compliance * constants.half_tangential_compliance;
+    // Half of what the weight adds works in the next step, with about the same slip.
+    let work = (dot(old, slip) + dot(tangential, slip) * (weight * 2.0 - R::all(1.0))) * (0.5 * step);
+    let half_compliance = point.spring.compliance * lighter * (0.5 / ratio);
     let change = (now_squared - dot(old, old)) * half_compliance;
     Response {
-        force: add_scaled(tangential, -normal_force, n),
+        force: add_scaled(scaled(tangential, weight), -normal_force, n),
         normal_force,
         memory: Memory { tangential, dashpot },
         stored: spring * point.overlap * 0.5 + now_squared * half_compliance,

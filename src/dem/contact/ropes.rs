@@ -142,10 +142,15 @@ fn heir(place: usize, list: &PairList, touches: &[Option<RopeTouch>], barrier: &
 
 /// Energy that a friction spring holds (J), taken as if the line had kept its whole overlap.
 fn stored(memory: &Memory, [member, line]: [u32; 2], context: &RopeContext) -> f64 {
-    let grain = context.grain_modulus * context.grains.sphere(member as usize).1;
-    let rope = context.barrier.contact_modulus * context.barrier.lines[line as usize].radius;
-    let compliance = context.law.half_tangential_compliance / contact_stiffness(grain, rope);
-    Vec3::from(memory.tangential).norm_squared() * compliance
+    let member = context.grains.member(member as usize);
+    let line = &context.barrier.lines[line as usize];
+    let [a, b] = line.nodes.map(|node| &context.barrier.nodes[node as usize]);
+    let share = nearest_on_segment(&member.centre, &a.position, &b.position).share;
+    let grain = context.grain_modulus * member.radius;
+    let rope = context.barrier.contact_modulus * line.radius;
+    let spring = Spring::new(contact_stiffness(grain, rope), member.inverse_mass + inverse_mass_at(a, b, share));
+    0.5 * Vec3::from(memory.tangential).norm_squared() * spring.compliance
+        / context.law.friction_spring(&spring).stiffness_ratio()
 }
 
 /// Member spheres and lines, taken as thick as the thicker of their ends: never closer than they are.

@@ -276,7 +276,13 @@ impl Linked<'_> {
     /// A contact with its normal spring and dashpot, and its friction spring.
     fn contact(&self, link: Link, normal: Vec3, spring: &Spring) -> Link {
         let (along, damping) = (spring.stiffness, self.law.damping(spring));
-        Link { direction: normal, along, across: self.law.tangential_ratio * along, damping, ..link }
+        Link {
+            direction: normal,
+            along,
+            across: self.law.friction_spring(spring).stiffness_ratio() * along,
+            damping,
+            ..link
+        }
     }
 
     fn grain_end(&self, member: u32, foot: &Vec3, share: f64) -> End {

@@ -3,6 +3,7 @@
 pub mod bounces;
 pub mod chain;
 pub mod clump_body;
+pub mod coarse_steps;
 pub mod cooling;
 pub mod energy;
 pub mod gears;

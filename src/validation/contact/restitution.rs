@@ -1,7 +1,7 @@
 //! A1: two equal balls meet head on.
 
 use crate::dem::Vec3;
-use crate::dem::contact::restitution::damping_ratio_for;
+use crate::dem::contact::restitution::{damping_ratio_for, first_weight};
 use crate::dem::model::Model;
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::grains::GrainShape;
@@ -81,13 +81,16 @@ fn meet_from(nominal: f64, steps_per_contact: f64, phase: f64) -> Result<Met, Br
     });
     grains[1].id = 1;
     let omega = (stiffness / reduced).sqrt();
+    let lighter = 1.0 - damping_ratio_for(nominal) * omega * step;
     let model = Model { material: material(nominal, 0.0), ..free_model(grains.to_vec(), GrainShape::Sphere) };
     let mut simulation = simulate(model, step, RADIUS);
     let (mut touching, mut deepest, mut strongest) = (0_u32, 0.0_f64, 0.0_f64);
     for _ in 0..(3.0 * steps_per_contact) as usize + 2 {
         simulation.step()?;
         let [a, b] = [0, 1].map(|row| simulation.grains.grain(row).position);
-        let force = contact_force(&simulation);
+        // The first force stands for more than the instant.
+        let weight = if touching == 0 { first_weight(1.0 - phase, lighter) } else { 1.0 };
+        let force = contact_force(&simulation) / weight;
         touching += u32::from(force > 1e-9 * stiffness * RADIUS);
         deepest = deepest.max(2.0 * RADIUS - (a - b).norm());
         strongest = strongest.max(force);
