@@ -176,6 +176,8 @@ pub struct FlexibleNet {
     pub net_rope: Rope,
     /// How much longer the net's ropes are than the straight sides of the mesh, as a share.
     pub net_slack: f64,
+    /// Straight pieces of which a side of the mesh is made in the simulation, if the design says so.
+    pub net_pieces: Option<u32>,
     pub main_ropes: MainRopes,
     pub lateral_rope: Rope,
     pub lateral_to: LateralTo,

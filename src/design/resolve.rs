@@ -171,6 +171,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
         mesh_opening: value("mesh_opening")?,
         net_rope: rope(e, "net_rope")?,
         net_slack: value("net_slack")?,
+        net_pieces: value("net_pieces").map(|pieces| pieces as u32),
         main_ropes: MainRopes {
             heights: rope_heights(e)?,
             rope: rope(e, "main_ropes")?,

@@ -209,6 +209,11 @@ const FLEXIBLE_NET: &[Key] = &[
         "0 %",
         "how much longer the net's ropes are than the straight sides of the mesh; not for barrier_model cylinders",
     ),
+    Key::optional(
+        "net_pieces",
+        Kind::Count { low: 1, high: 16 },
+        "straight pieces of which the simulation makes each side of a mesh; by default 1, and with fidelity: fine as many as the grains need",
+    ),
     Key::required("main_ropes", Kind::Section(MAIN_ROPES), "horizontal ropes that carry the net"),
     Key::required("lateral_ropes", Kind::Section(LATERAL_ROPES), "ropes along the sides of the net"),
     Key::optional("dissipators", Kind::Section(DISSIPATORS), "one at each end of every main rope that is free to move"),

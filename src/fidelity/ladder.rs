@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
+use crate::fidelity::{needed_pieces, net_pieces};
 
 /// How far off a rung may be: what a finer one may say over what this one says, less one, upwards and downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +45,8 @@ pub const COARSE: f64 = 1.5;
 ///   deviations of it on their mean, and a single one may be the mildest of them (1.6 below): factors of 1.8 and 3;
 /// * coarse grains: besides, what `designs/studies/speed_accuracy.yaml` measures of their size, up to 36 % in forces, and a stroke
 ///   twice as long in `small_net`;
-/// * five starts: what cylinders change against sliding ropes, 3 to 14 % in forces.
+/// * five starts: what cylinders change against sliding ropes, 3 to 14 % in forces, and what divided sides of the mesh let through besides,
+///   1.1 % of the mass in `small_net`; on forces and strokes they change less than the packings scatter.
 ///
 /// A failure need not be as certain as a pass: a demand is beyond its limit for certain if it is so by more than the largest standard
 /// deviation of one packing, or than what the model leaves open.
@@ -71,7 +73,7 @@ pub const RUNGS: [Rung; 5] = [
         name: GRAINS,
         what: "grains as they are, ropes that slide, one start",
         starts: 1,
-        band: Band { force: 0.8, stroke: 2.0, share: 0.02 },
+        band: Band { force: 0.8, stroke: 2.0, share: 0.03 },
         above: Band { force: 0.16, stroke: 0.28, share: 0.02 },
         may_be_left_out: false,
         apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
@@ -80,14 +82,14 @@ pub const RUNGS: [Rung; 5] = [
         name: "starts",
         what: "the same with five starts, their scatter in the demand",
         starts: 5,
-        band: Band { force: 0.15, stroke: 0.2, share: 0.01 },
+        band: Band { force: 0.15, stroke: 0.2, share: 0.02 },
         above: Band { force: 0.15, stroke: 0.2, share: 0.01 },
         may_be_left_out: true,
         apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
     },
     Rung {
         name: FINE,
-        what: "half the step, ropes and rings of cylinders that bend, five starts",
+        what: "half the step, ropes and rings of cylinders that bend, sides of the mesh divided as the grains need, five starts",
         starts: 5,
         band: Band { force: 0.0, stroke: 0.0, share: 0.0 },
         above: Band { force: 0.0, stroke: 0.0, share: 0.0 },
@@ -110,8 +112,13 @@ fn coarsen(design: &mut Design) {
 /// The rung that a run of this many packings is like, whose fineness the design pins.
 pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     let fine = design.simulation.fidelity == FidelityWish::Fine
-        && (design.simulation.barrier_model == BarrierModel::Cylinders
-            || matches!(design.barrier, BarrierDesign::RigidWall(_)));
+        && match &design.barrier {
+            BarrierDesign::RigidWall(_) => true,
+            BarrierDesign::FlexibleNet(net) => {
+                design.simulation.barrier_model == BarrierModel::Cylinders
+                    && net_pieces(design, net) >= needed_pieces(design, net)
+            }
+        };
     // Pinned rings load ropes unevenly, long steps are coarse too: neither is better known than coarse grains.
     let pinned = design.simulation.barrier_model == BarrierModel::PinnedRopes
         && matches!(design.barrier, BarrierDesign::FlexibleNet(_));

@@ -10,7 +10,7 @@ use crate::dem::simulation::Simulation;
 use crate::dem::tables::barrier::Barrier;
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
-use crate::fidelity::Fidelity;
+use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::PackingError;
 use crate::scene::flow::release::{Block, packed_block, shape};
 use crate::scene::net::build::{BuiltNet, build as build_net};
@@ -74,7 +74,9 @@ pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, P
 /// The same, given up when `stop` is set while the flow settles, which takes long where grains are many.
 pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
     let net = match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => Some(build_net(net, &design.channel, design.simulation.barrier_model)),
+        BarrierDesign::FlexibleNet(net) => {
+            Some(build_net(net, &design.channel, design.simulation.barrier_model, net_pieces(design, net)))
+        }
         BarrierDesign::RigidWall(_) => None,
     };
     let block = Block::of(&design.flow, &design.channel, upstream_reach(design, net.as_ref()));

@@ -2,7 +2,7 @@
 
 use crate::dem::recorders::film::bytes_of;
 use crate::design::{BarrierDesign, BarrierModel, Design};
-use crate::fidelity::Fidelity;
+use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::build::expected_time;
 use crate::scene::net::build::build as build_net;
 
@@ -49,7 +49,8 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
     let elements = match &design.barrier {
         BarrierDesign::RigidWall(_) => 0.0,
         BarrierDesign::FlexibleNet(net) => {
-            let barrier = build_net(net, &design.channel, design.simulation.barrier_model).barrier;
+            let barrier =
+                build_net(net, &design.channel, design.simulation.barrier_model, net_pieces(design, net)).barrier;
             (barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len()) as f64
         }
     };

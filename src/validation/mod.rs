@@ -65,6 +65,7 @@ pub const CASES: &[&Case] = &[
     &barrier::brakes::CYCLE,
     &barrier::brakes::STOPPING,
     &barrier::punching::CASE,
+    &barrier::pieces::CASE,
     &barrier::full_scale::BRAKED,
     &barrier::full_scale::UNBRAKED,
     &barrier::variations::SLOPE,

@@ -44,10 +44,11 @@ impl BuiltNet {
     }
 }
 
-/// Builds the net of `design` across `channel`. The barrier's foot is at x = 0.
-pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel) -> BuiltNet {
+/// Builds the net of `design` across `channel`, each side of a mesh of so many straight `pieces`. The barrier's foot is at x = 0.
+pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, pieces: u32) -> BuiltNet {
     let mut builder = Builder {
         design,
+        pieces,
         channel,
         model,
         grid: Grid::fit(design, channel.width),
@@ -75,6 +76,8 @@ pub(super) struct Builder<'a> {
     pub(super) design: &'a FlexibleNet,
     pub(super) channel: &'a Channel,
     model: BarrierModel,
+    /// Of a side of a mesh.
+    pieces: u32,
     pub(super) grid: Grid,
     pub(super) barrier: Barrier,
     pub(super) knots: BTreeMap<(usize, usize), u32>,
@@ -157,8 +160,19 @@ impl Builder<'_> {
                 }
             }
         }
-        for nodes in pairs {
-            self.add_line(nodes, SegmentKind::Net, &self.design.net_rope);
+        for knots in pairs {
+            self.add_side_of_mesh(knots);
+        }
+    }
+
+    /// A side of a mesh from knot to knot, in straight pieces.
+    fn add_side_of_mesh(&mut self, knots: [u32; 2]) {
+        let [from, to] = knots.map(|knot| self.barrier.nodes[knot as usize].position);
+        let inner = (1..self.pieces).map(|piece| from.lerp(&to, f64::from(piece) / f64::from(self.pieces)));
+        let inner: Vec<u32> = inner.collect::<Vec<_>>().into_iter().map(|place| self.add_node(place, false)).collect();
+        let nodes = [&knots[..1], &inner, &knots[1..]].concat();
+        for pair in nodes.windows(2) {
+            self.add_line([pair[0], pair[1]], SegmentKind::Net, &self.design.net_rope);
         }
     }
 
@@ -311,7 +325,7 @@ mod tests {
         let design = read_design("x", include_bytes!("../../../designs/site_a.yaml")).unwrap().design;
         let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
         for model in [BarrierModel::PinnedRopes, BarrierModel::SlidingRopes, BarrierModel::Cylinders] {
-            let barrier = build(net, &design.channel, model).barrier;
+            let barrier = build(net, &design.channel, model, 1).barrier;
             let ends: Vec<u32> = barrier.dissipators.iter().map(|dissipator| dissipator.nodes[1]).collect();
             assert_eq!(ends.len(), 8);
             let segments = barrier.segments.iter().map(|segment| (segment.kind, segment.nodes));

@@ -75,12 +75,13 @@ mod tests {
         let design = read_design("x", include_bytes!("../../../designs/site_a.yaml")).unwrap().design;
         let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
         for model in [BarrierModel::SlidingRopes, BarrierModel::Cylinders] {
-            let bare = build(net, &design.channel, model);
+            let bare = build(net, &design.channel, model, 1);
             let extension = Some(SideExtension { length: 2.0, holding_force: 1e3 });
             let wide = build(
                 &crate::design::FlexibleNet { side_extension: extension, ..(**net).clone() },
                 &design.channel,
                 model,
+                1,
             );
             assert_eq!(bare.screen_rows, bare.rows);
             assert_eq!(wide.rows, bare.rows);

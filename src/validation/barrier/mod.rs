@@ -4,6 +4,7 @@ pub mod beams;
 pub mod brakes;
 pub mod contacts;
 pub mod full_scale;
+pub mod pieces;
 pub mod punching;
 pub mod ropes;
 pub mod stand;

@@ -45,36 +45,67 @@ fn area() -> f64 {
     std::f64::consts::PI * ROPE_RADIUS * ROPE_RADIUS
 }
 
-/// The panel in the plane z = 0; nodes on the frame are fixed. Rest lengths are (1 + `slack`) of the squares' sides.
-fn panel(axial: f64, slack: f64) -> Barrier {
-    let halves = (HALF / (MESH * std::f64::consts::FRAC_1_SQRT_2)).round() as i32;
-    let spacing = HALF / f64::from(halves);
-    let mut barrier = Barrier { friction: 0.3, contact_modulus: MODULUS, ..Barrier::default() };
-    let mut numbers = std::collections::BTreeMap::new();
-    for column in -halves..=halves {
-        for row in (-halves..=halves).filter(|row| (row + column) % 2 == 0) {
-            let fixed = column.abs() == halves || row.abs() == halves;
-            numbers.insert((column, row), barrier.nodes.len() as u32);
-            barrier.nodes.push(Node {
-                position: Vec3::new(f64::from(column), f64::from(row), 0.0) * spacing,
-                velocity: Vec3::zeros(),
-                pace: Vec3::zeros(),
-                mass: 0.0,
-                fixed,
-                radius: ROPE_RADIUS,
-                lines: Vec::new(),
-            });
-        }
+/// A panel in the plane z = 0, whose nodes on the frame are fixed.
+pub(super) struct Panel {
+    /// EA of its ropes (N).
+    pub axial: f64,
+    /// Rest lengths are (1 + slack) of the squares' sides.
+    pub slack: f64,
+    /// Side of its squares (m), about: a whole number fits.
+    pub mesh: f64,
+    /// Straight pieces of a side of a square.
+    pub pieces: u32,
+}
+
+impl Panel {
+    /// The squares' side once a whole number fits (m).
+    pub(super) fn side(&self) -> f64 {
+        self.spacing().1 * std::f64::consts::SQRT_2
     }
-    let side = spacing * std::f64::consts::SQRT_2;
-    for (&(column, row), &node) in &numbers {
-        for other in [(column + 1, row + 1), (column + 1, row - 1)] {
-            let Some(&other) = numbers.get(&other) else { continue };
-            let rest_length = side * (1.0 + slack);
-            let half_mass = 0.5 * DENSITY * area() * side;
-            let stiffness = axial / rest_length;
+
+    /// Half diagonals in half the panel, and the length of one (m).
+    fn spacing(&self) -> (i32, f64) {
+        let halves = (HALF / (self.mesh * std::f64::consts::FRAC_1_SQRT_2)).round() as i32;
+        (halves, HALF / f64::from(halves))
+    }
+
+    fn build(&self) -> Barrier {
+        let (halves, spacing) = self.spacing();
+        let mut barrier = Barrier { friction: 0.3, contact_modulus: MODULUS, ..Barrier::default() };
+        let mut numbers = std::collections::BTreeMap::new();
+        for column in -halves..=halves {
+            for row in (-halves..=halves).filter(|row| (row + column) % 2 == 0) {
+                let fixed = column.abs() == halves || row.abs() == halves;
+                numbers.insert((column, row), barrier.nodes.len() as u32);
+                barrier.nodes.push(knot(Vec3::new(f64::from(column), f64::from(row), 0.0) * spacing, fixed));
+            }
+        }
+        for (&(column, row), &node) in &numbers {
+            for other in [(column + 1, row + 1), (column + 1, row - 1)] {
+                let Some(&other) = numbers.get(&other) else { continue };
+                self.add_side(&mut barrier, [node, other]);
+            }
+        }
+        barrier.connect();
+        barrier
+    }
+
+    fn add_side(&self, barrier: &mut Barrier, ends: [u32; 2]) {
+        let [a, b] = ends.map(|node| barrier.nodes[node as usize].position);
+        let length = (b - a).norm() / f64::from(self.pieces);
+        let rest_length = length * (1.0 + self.slack);
+        let half_mass = 0.5 * DENSITY * area() * length;
+        let stiffness = self.axial / rest_length;
+        let mut last = ends[0];
+        for piece in 1..=self.pieces {
+            let next = if piece == self.pieces {
+                ends[1]
+            } else {
+                barrier.nodes.push(knot(a + (b - a) * (f64::from(piece) / f64::from(self.pieces)), false));
+                barrier.nodes.len() as u32 - 1
+            };
             barrier.segments.push(Segment {
-                nodes: [node, other],
+                nodes: [last, next],
                 kind: SegmentKind::Net,
                 rest_length,
                 stiffness,
@@ -82,33 +113,52 @@ fn panel(axial: f64, slack: f64) -> Barrier {
                 radius: ROPE_RADIUS,
                 strength: Strength::default(),
             });
-            for node in [node, other] {
+            for node in [last, next] {
                 barrier.nodes[node as usize].mass += half_mass;
             }
+            last = next;
         }
     }
-    barrier.connect();
-    barrier
 }
 
-/// Force (N) on the body, as a mean over the last millimetre, at each of the displacements (m), rising.
-fn push(axial: f64, slack: f64, at: &[f64]) -> Result<Vec<f64>, Unstable> {
-    let mut body = ball(0, Vec3::new(0.0, 0.0, BODY_RADIUS + ROPE_RADIUS), BODY_RADIUS, 1e12);
-    body.velocity.z = -SPEED;
-    let model = Model { barrier: Some(panel(axial, slack)), ..free_model(vec![body], GrainShape::Sphere) };
-    let mut simulation = Simulation::new(model, STEP, 0.05, 1e3);
+fn knot(position: Vec3, fixed: bool) -> Node {
+    Node {
+        position,
+        velocity: Vec3::zeros(),
+        pace: Vec3::zeros(),
+        mass: 0.0,
+        fixed,
+        radius: ROPE_RADIUS,
+        lines: Vec::new(),
+    }
+}
+
+/// Force (N) on the body of a radius (m) above the point `at` of the plane, as a mean over the last millimetre, at each of the
+/// displacements (m), rising.
+pub(super) fn push(
+    panel: &Panel,
+    radius: f64,
+    at: [f64; 2],
+    speed: f64,
+    displacements: &[f64],
+) -> Result<Vec<f64>, Unstable> {
+    let mut body = ball(0, Vec3::new(at[0], at[1], radius + ROPE_RADIUS), radius, 1e12);
+    body.velocity.z = -speed;
+    let model = Model { barrier: Some(panel.build()), ..free_model(vec![body], GrainShape::Sphere) };
+    let mut simulation = Simulation::new(model, STEP / f64::from(panel.pieces), 0.05, 1e3);
     let start = simulation.grains.place[0].0[2];
     let mut forces = Vec::new();
-    for &displacement in at {
+    for &displacement in displacements {
         let (mut sum, mut steps) = (0.0, 0);
         while start - simulation.grains.place[0].0[2] < displacement {
             simulation.step()?;
             // The net is light; what is left of its swinging is slowed.
+            let step = simulation.time_step;
             let barrier = simulation.model.barrier.as_mut();
             barrier
                 .into_iter()
                 .flat_map(|barrier| &mut barrier.nodes)
-                .for_each(|node| node.velocity *= 1.0 - SLOWING * STEP);
+                .for_each(|node| node.velocity *= 1.0 - SLOWING * step);
             if start - simulation.grains.place[0].0[2] > displacement - 1e-3 {
                 (sum, steps) = (sum - simulation.sums.net.from_grains.z, steps + 1);
             }
@@ -116,6 +166,11 @@ fn push(axial: f64, slack: f64, at: &[f64]) -> Result<Vec<f64>, Unstable> {
         forces.push(sum / f64::from(steps.max(1)));
     }
     Ok(forces)
+}
+
+/// Force (N) at displacements (m) of the body of the experiment.
+fn push_middle(axial: f64, slack: f64, displacements: &[f64]) -> Result<Vec<f64>, Unstable> {
+    push(&Panel { axial, slack, mesh: MESH, pieces: 1 }, BODY_RADIUS, [0.0; 2], SPEED, displacements)
 }
 
 /// The value between `low` and `high` at which the rising `of` reaches `target`.
@@ -133,16 +188,16 @@ fn fitted(touched: f64) -> Result<[f64; 2], Unstable> {
     // Each depends a little on the other.
     for _ in 0..3 {
         // Less slack makes it taut earlier.
-        slack = -solve(-0.02, 0.0, touched * FORCE, |less| Ok(push(axial, -less, &[TAUT])?[0]))?;
-        axial = solve(1e6, 2e7, FORCE, |axial| Ok(push(axial, slack, &[FAILS])?[0]))?;
+        slack = -solve(-0.02, 0.0, touched * FORCE, |less| Ok(push_middle(axial, -less, &[TAUT])?[0]))?;
+        axial = solve(1e6, 2e7, FORCE, |axial| Ok(push_middle(axial, slack, &[FAILS])?[0]))?;
     }
     Ok([slack, axial])
 }
 
 fn punching() -> Result<Vec<Finding>, Broken> {
-    let thesis = push(MODULUS * area(), 0.0, &[TAUT, FAILS])?;
+    let thesis = push_middle(MODULUS * area(), 0.0, &[TAUT, FAILS])?;
     let [early, late] = [fitted(TOUCHED[0])?, fitted(TOUCHED[1])?];
-    let between = push(late[1], late[0], &[0.1, 0.5 * (TAUT + FAILS), FAILS])?;
+    let between = push_middle(late[1], late[0], &[0.1, 0.5 * (TAUT + FAILS), FAILS])?;
     Ok(vec![
         Finding::told("force at 225 mm, fitted (kN)", between[2] * 1e-3),
         Finding::between("force half-way from taut to failure, over that at failure", between[1] / FORCE, 0.1, 0.5),
