@@ -35,6 +35,7 @@ pub const CASES: &[&Case] = &[
     &contact::chain::CASE,
     &bulk::packing::CASE,
     &bulk::collapse::COLUMN,
+    &bulk::collapse::FLOORS,
     &bulk::silo::CASE,
     &bulk::collapse::DAM,
     &wall::calibration::SLIDE,

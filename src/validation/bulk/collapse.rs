@@ -1,4 +1,4 @@
-//! B1 and B8: columns that collapse on a level floor.
+//! B1, B2 and B8: columns that collapse on a level floor.
 
 use crate::dem::Vec3;
 use crate::dem::model::{Material, Model};
@@ -19,6 +19,17 @@ pub const COLUMN: Case = Case {
     weakness: "24 grains across; where the deposit ends is a matter of definition (here a fifth of the floor covered)",
     cost: Cost::Long,
     run: column,
+};
+
+pub const FLOORS: Case = Case {
+    id: "B2",
+    suite: Suite::Bulk,
+    title: "Run-out of tall columns over floors of different friction",
+    source: "1.6 √a (Lube et al. 2004), 2.0 √a (Lajeunesse et al. 2004) on rough floors; the more a floor rubs, the shorter",
+    tier: Tier::SecondHand,
+    weakness: "floors are plane, those of the experiments rough: grains roll on where they would lock, so that the laws are told, not judged",
+    cost: Cost::Long,
+    run: floors,
 };
 
 pub const DAM: Case = Case {
@@ -53,19 +64,19 @@ fn packed(size: Vec3, seed: u64) -> Result<Vec<Grain>, Broken> {
     Ok(grains)
 }
 
-fn on_floor(grains: Vec<Grain>) -> Model {
+fn on_floor(grains: Vec<Grain>, friction: f64) -> Model {
     let mut model = Model {
         material: Material { modulus: MODULUS, ..material(0.3, FRICTION) },
         gravity: Vec3::z() * -GRAVITY,
         ..free_model(grains, GrainShape::Clump)
     };
-    model.surfaces = vec![floor(FRICTION)];
+    model.surfaces = vec![floor(friction)];
     model
 }
 
 fn column() -> Result<Vec<Finding>, Broken> {
     let aspects = [0.5, 1.0, 3.0];
-    let runouts = side_by_side(aspects.len(), |index| runout(aspects[index]));
+    let runouts = side_by_side(aspects.len(), |index| runout(aspects[index], FRICTION));
     let mut findings = Vec::new();
     for (aspect, runout) in aspects.into_iter().zip(runouts) {
         let lube = if aspect < 1.7 { 1.24 * aspect } else { 1.6 * f64::sqrt(aspect) };
@@ -76,15 +87,38 @@ fn column() -> Result<Vec<Finding>, Broken> {
     Ok(findings)
 }
 
-/// (R∞ − R0)/R0 of a column of height a R0.
-fn runout(aspect: f64) -> Result<f64, Broken> {
+fn floors() -> Result<Vec<Finding>, Broken> {
+    const ASPECTS: [f64; 1] = [4.0];
+    const FLOORS: [f64; 3] = [0.3, 0.5, 1.0];
+    let runs = side_by_side(ASPECTS.len() * FLOORS.len(), |job| {
+        runout(ASPECTS[job / FLOORS.len()], FLOORS[job % FLOORS.len()])
+    });
+    let runs = runs.into_iter().collect::<Result<Vec<f64>, _>>()?;
+    let mut findings = Vec::new();
+    for (aspect, runs) in ASPECTS.into_iter().zip(runs.chunks(FLOORS.len())) {
+        for (friction, run) in FLOORS.into_iter().zip(runs) {
+            let [lube, lajeunesse] = [1.6, 2.0].map(|factor| run / (factor * aspect.sqrt()));
+            findings.push(Finding::told(format!("a = {aspect}, floor {friction}: (R∞ − R0)/R0"), *run));
+            findings.push(Finding::told("over 1.6 √a", lube));
+            findings.push(Finding::told("over 2.0 √a", lajeunesse));
+        }
+        for (pair, between) in runs.windows(2).zip(FLOORS.windows(2)) {
+            let what = format!("a = {aspect}: run-out on a floor of {} over that of {}", between[1], between[0]);
+            findings.push(Finding::between(what, pair[1] / pair[0], 0.5, 1.0));
+        }
+    }
+    Ok(findings)
+}
+
+/// (R∞ − R0)/R0 of a column of height a R0 on a floor with a coefficient of friction.
+fn runout(aspect: f64, friction: f64) -> Result<f64, Broken> {
     let radius = 12.0 * DIAMETER;
     let height = aspect * radius;
     let middle = Vec3::new(radius, radius, 0.0);
     let flat = |grain: &Grain| (grain.position - middle).xy().norm();
     let mut grains = packed(Vec3::new(2.0 * radius, 2.0 * radius, height), 3)?;
     grains.retain(|grain| flat(grain) < radius - 0.5 * DIAMETER);
-    let mut simulation = Simulation::new(on_floor(grains), STEP, 0.3 * DIAMETER, 1e3);
+    let mut simulation = Simulation::new(on_floor(grains, friction), STEP, 0.3 * DIAMETER, 1e3);
     run_until(&mut simulation, 6.0 * (height / GRAVITY).sqrt().max(0.08))?;
     let grains = simulation.snapshot();
     // Share of the floor covered by grains, over rings of one diameter, outwards from the middle.
@@ -106,7 +140,7 @@ fn runout(aspect: f64) -> Result<f64, Broken> {
 fn dam() -> Result<Vec<Finding>, Broken> {
     let (length, height, width) = (0.60, 0.20, 0.08);
     let grains = packed(Vec3::new(length, width, height), 8)?;
-    let mut model = on_floor(grains);
+    let mut model = on_floor(grains, FRICTION);
     model.surfaces.extend([
         plane(SurfaceRole::Side, Vec3::zeros(), Vec3::x(), 0.3),
         plane(SurfaceRole::Side, Vec3::zeros(), Vec3::y(), 0.0),
