@@ -211,17 +211,11 @@ const LEAST_FLUX: f64 = 0.55;
 
 /// A simulated flow that arrives more slowly, or thinner, than the design says tells nothing of the design flow.
 fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
-    let (depth, given) = match design.flow.arrival {
-        Arrival::Surge(surge) => (Some(surge.depth), surge.velocity),
-        Arrival::DamBreak(block) => (block.depth_at_barrier, block.velocity_at_barrier?),
-    };
     let arrives = |seen: &Observed| seen.incoming.velocity.max(seen.front_velocity.unwrap_or(0.0));
     let velocity = simulated.spread(arrives).mean;
     let flux = simulated.spread(|seen| seen.incoming.flux).mean;
-    let wanted = depth.map_or(0.0, |depth| LEAST_FLUX * depth * given * given);
-    // Asked as "like", so that what is not a number is not.
-    let like = velocity >= SLOWEST * given && flux >= wanted;
-    (!like).then(|| {
+    let (depth, given) = given_arrival(&design.flow.arrival)?;
+    (!like_the_design(depth, given, velocity, flux)).then(|| {
         let seen = simulated.first().incoming;
         format!(
             "the simulated flow arrives {:.2} m deep with {:.2} m/s where the design says {}{given:.2} m/s, so that its loads are not those of the design flow; release it so that it arrives as it should",
@@ -230,6 +224,21 @@ fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String
             depth.map_or(String::new(), |depth| format!("{depth:.2} m with "))
         )
     })
+}
+
+/// Depth (m) and velocity (m/s) with which the design says that the flow arrives; nothing where it gives no velocity.
+fn given_arrival(arrival: &Arrival) -> Option<(Option<f64>, f64)> {
+    match arrival {
+        Arrival::Surge(surge) => Some((Some(surge.depth), surge.velocity)),
+        Arrival::DamBreak(block) => Some((block.depth_at_barrier, block.velocity_at_barrier?)),
+    }
+}
+
+/// Whether a flow with a velocity (m/s) and a momentum flux h v² (m³/s²) is the one of a given depth and velocity, or more than it.
+fn like_the_design(depth: Option<f64>, given: f64, velocity: f64, flux: f64) -> bool {
+    let wanted = depth.map_or(0.0, |depth| LEAST_FLUX * depth * given * given);
+    // Asked as "like", so that what is not a number is not.
+    velocity >= SLOWEST * given && flux >= wanted
 }
 
 /// What the guideline fails, no simulation can make hold, however doubtful it is. Then doubt comes before everything; then a single
@@ -259,6 +268,18 @@ mod tests {
         let demand = Demand { guideline: Some(guideline), simulation: Some(simulation), ..Demand::default() };
         let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
         Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, resistance, 1.0)
+    }
+
+    #[test]
+    fn a_flow_that_arrives_slowly_or_thinly_is_not_the_one_of_the_design() {
+        // 1 m deep with 5 m/s: 25 m³/s² of momentum flux.
+        let like = |velocity: f64, flux: f64| like_the_design(Some(1.0), 5.0, velocity, flux);
+        assert!(like(5.0, 25.0) && like(7.0, 40.0) && like(4.1, 14.0));
+        assert!(!like(3.9, 25.0), "slow");
+        assert!(!like(5.0, 13.5), "thin");
+        assert!(!like(f64::NAN, 25.0) && !like(5.0, f64::NAN));
+        // Where no depth is given the velocity alone tells.
+        assert!(like_the_design(None, 5.0, 4.1, 0.0) && !like_the_design(None, 5.0, 3.9, 99.0));
     }
 
     #[test]

@@ -188,8 +188,9 @@ pub fn rope_outside(design: &Design, guideline: &Guideline, rope: usize) -> Opti
 mod tests {
     use super::*;
     use crate::checks::check_all;
-    use crate::demand::Demands;
+    use crate::demand::from_histories::Observed;
     use crate::demand::from_loads::guideline;
+    use crate::demand::{Demands, Seen};
     use crate::design::read::read_design;
 
     fn design() -> Design {
@@ -243,5 +244,72 @@ mod tests {
         assert!(guideline.ropes[1].state.sag > LARGEST_SAG * design.channel.width);
         assert!(rope_outside(&design, &guideline, 1).is_some());
         assert_eq!(verdict(&design, "anchor_2_load", guideline.first_surge()), CheckVerdict::Open);
+    }
+
+    /// Verdict of the net's tension, which the simulation alone judges, where the first surge pulls it with a tension (N).
+    fn net_verdict(design: &Design, tension: f64, first_surge: f64) -> CheckVerdict {
+        let guideline = guideline(design);
+        let seen = Observed { net_tension_peak: tension, ..Observed::of_ropes(3) };
+        let seen = Seen { characteristic: vec![&seen], factored: Vec::new() };
+        let mut outcomes = check_all(design, &Demands::meet(&guideline, &seen, &design.factors));
+        leave_open_outside_range(design, &guideline, Some(first_surge), &mut outcomes);
+        outcomes.iter().find(|outcome| outcome.id == "net_tension").expect("a check").verdict
+    }
+
+    #[test]
+    fn what_would_not_hold_the_full_barrier_in_proportion_is_open() {
+        let mut design = design();
+        // The net holds 100 kN over 1.5.
+        let first = guideline(&design).largest_force / 2.0;
+        assert_eq!(net_verdict(&design, 30e3, first), CheckVerdict::Pass);
+        assert_eq!(net_verdict(&design, 36e3, first), CheckVerdict::Open);
+        assert_eq!(net_verdict(&design, 70e3, first), CheckVerdict::Fail);
+        design.loads.to_the_top = false;
+        assert_eq!(net_verdict(&design, 36e3, first), CheckVerdict::Pass);
+    }
+
+    #[test]
+    fn what_the_simulation_governs_is_open_where_it_lacks_a_load_that_the_design_asks_for() {
+        let first = |design: &Design| guideline(design).largest_force;
+        type Ask = fn(&mut Design);
+        let asked: [Ask; 5] = [
+            |design| design.flow.event_volume = 2.0 * design.flow.volume(),
+            |design| design.loads.point_load = Some((1e3, 1.0)),
+            |design| design.loads.snow_pressure = Some(1e3),
+            |design| design.loads.drained = Some((0.5, 1800.0)),
+            |design| design.loads.self_weight = Some(50.0),
+        ];
+        for ask in asked {
+            let mut design = design();
+            assert_eq!(net_verdict(&design, 30e3, first(&design)), CheckVerdict::Pass);
+            ask(&mut design);
+            assert_eq!(net_verdict(&design, 30e3, first(&design)), CheckVerdict::Open);
+        }
+    }
+
+    #[test]
+    fn a_flow_over_the_barrier_without_its_drag_leaves_pressures_open() {
+        let mut design = design();
+        let first = |design: &Design| guideline(design).first_surge();
+        design.loads.overflow_depth = Some(0.05);
+        assert_eq!(verdict(&design, "rope_3_tension", first(&design)), CheckVerdict::Open);
+        design.loads.overflow_drag = Some((0.3, 0.5));
+        assert_eq!(verdict(&design, "rope_3_tension", first(&design)), CheckVerdict::Pass);
+    }
+
+    #[test]
+    fn what_the_equations_would_fail_at_the_velocity_that_arrives_is_open() {
+        let design = design();
+        let guideline = guideline(&design);
+        let at = |velocity: f64| {
+            let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+            leave_open_faster_arrivals(&design, &guideline, velocity, &mut outcomes);
+            outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Open).count()
+        };
+        let given = guideline.input.velocity;
+        let open = at(given);
+        assert_eq!(at(0.9 * given), open);
+        assert_eq!(at(1.1 * given), open);
+        assert!(at(2.0 * given) > open);
     }
 }

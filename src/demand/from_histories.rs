@@ -95,6 +95,21 @@ pub struct Reading {
 }
 
 impl Observed {
+    /// Nothing seen yet of a net on so many main ropes.
+    #[cfg(test)]
+    pub fn of_ropes(ropes: usize) -> Self {
+        let none = || vec![0.0; ropes];
+        Self {
+            anchor_force_peak: none(),
+            rope_tension_peak: none(),
+            brake_stroke: none(),
+            brake_force_peak: none(),
+            retained: 1.0,
+            residual_height: 1.0,
+            ..Self::default()
+        }
+    }
+
     pub fn read(histories: &Histories, design: &Design, guideline: &Guideline, reading: Reading) -> Self {
         let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
         let smooth = smoothed(&force, reading.window);
@@ -216,5 +231,42 @@ fn residual_height(histories: &Histories) -> f64 {
     match (histories.top_rope_height.first(), histories.top_rope_height.last()) {
         (Some(first), Some(last)) if *first > 0.0 => last / first,
         _ => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Stability;
+    use crate::design::read::read_design;
+    use approx::assert_relative_eq;
+
+    /// By hand, per metre: on a level base below a bed of 40° a force of 30 kN along the bed and 100 kN off it slides the wall with its
+    /// level part, 30 cos 40° + 100 sin 40° = 87.26 kN, and with what its lift, 100 cos 40° − 30 sin 40° = 57.32 kN, takes from friction;
+    /// the lift tips it about the edge of a base of 2 m beside the moment of 50 kN m.
+    #[test]
+    fn a_measured_push_slides_and_tips_a_wall_with_its_lift() {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let crate::design::BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        wall.stability = Some(Stability {
+            thickness: 2.0,
+            density: 2400.0,
+            base_width: 2.0,
+            base_slope: 0.0,
+            base_friction: 0.5,
+            sliding_factor: 1.1,
+            overturning_factor: 1.5,
+        });
+        let width = design.channel.width;
+        let samples = 5;
+        let histories = Histories {
+            force: vec![crate::dem::Vec3::new(30e3, 0.0, 100e3) * width; samples],
+            moment: vec![50e3 * width; samples],
+            ..Histories::default()
+        };
+        let mut observed = Observed::default();
+        observed.measure_wall(&histories, &design, Reading { window: 1, tail: 1 });
+        assert_relative_eq!(observed.wall_sliding_peak, 87.26e3 + 0.5 * 57.32e3, max_relative = 1e-3);
+        assert_relative_eq!(observed.wall_overturning_peak, 50e3 + 2.0 * 57.32e3, max_relative = 1e-3);
     }
 }

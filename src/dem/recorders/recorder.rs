@@ -7,8 +7,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dem::Vec3;
 use crate::dem::net::NetForces;
+use crate::dem::recorders::bolts::share_between_bolts;
 use crate::dem::recorders::dead_zone::{push_at_rest, pushes_by_state};
-use crate::dem::recorders::histories::{Gauge, Histories};
+use crate::dem::recorders::deposit::beyond_the_first_gap;
+use crate::dem::recorders::gauge::{GaugeWindow, front};
+use crate::dem::recorders::histories::Histories;
 use crate::dem::recorders::passage::{Screen, WAYS, Way};
 use crate::dem::recorders::snapshots::{Moment, Snapshot};
 use crate::dem::simulation::{Simulation, Unstable};
@@ -70,19 +73,6 @@ pub struct WallFace {
     pub width: f64,
     /// Upstream from the bed's normal (rad).
     pub lean: f64,
-}
-
-/// A window across the channel, between two distances upstream of the barrier's foot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct GaugeWindow {
-    pub near: f64,
-    pub far: f64,
-    /// Width of the channel (m).
-    pub width: f64,
-    /// kg/m³
-    pub bulk_density: f64,
-    /// Mean diameter of the grains (m).
-    pub mean_diameter: f64,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -183,7 +173,7 @@ impl Recorder {
             sum.bed_force += bed_force(barrier, &net.forces, &self.setup.net_rows);
             add_rows(&mut sum.anchors, &anchor_loads(barrier, &net.forces, self.setup.ropes));
             if self.setup.bolt_spaces > 0 {
-                let loads = self.bolt_loads(barrier, &net.forces);
+                let loads = bolt_loads(barrier, &self.setup, &net.forces);
                 let sums = &mut self.sum.bolts;
                 sums.resize(loads.len(), Vec3::zeros());
                 sums.iter_mut().zip(&loads).for_each(|(sum, load)| *sum += load);
@@ -343,43 +333,15 @@ impl Recorder {
         }
     }
 
-    /// Share of the mass that has come to rest upstream without leaning on the barrier: beyond the first gap in the deposit, a stretch
-    /// of two grains' length that is less than a quarter of a grain deep, and not near the barrier.
+    /// Share of the mass that has come to rest upstream without leaning on the barrier.
     fn stopped_upstream(&self, simulation: &Simulation, grains: &[Grain]) -> f64 {
-        let GaugeWindow { width, bulk_density, mean_diameter, .. } = self.setup.incoming;
         let face = match &simulation.model.barrier {
             Some(barrier) => barrier.nodes.iter().map(|node| node.position.x).fold(0.0, f64::min),
             None => 0.0,
         };
-        let cell = 2.0 * mean_diameter;
-        let mut cells: Vec<f64> = Vec::new();
         let here = grains.iter().filter(|grain| !self.passed.contains_key(&grain.id));
-        for grain in here {
-            let place = ((face - grain.position.x) / cell).max(0.0) as usize;
-            cells.resize(cells.len().max(place + 1), 0.0);
-            cells[place] += grain.body.mass;
-        }
-        let thin = 0.25 * mean_diameter * bulk_density * width * cell;
-        let first = (self.setup.near / cell).ceil() as usize;
-        let gap = (first..cells.len()).find(|&place| cells[place] < thin).unwrap_or(cells.len());
-        cells[gap..].iter().fold(0.0, |sum, mass| sum + mass) / self.setup.mass
-    }
-
-    /// Force on each bolt of the lowest rope: what its knots must be held with, shared by lever between the bolts beside them (N).
-    fn bolt_loads(&self, barrier: &Barrier, forces: &[Vec3]) -> Vec<Vec3> {
-        let (spaces, width) = (self.setup.bolt_spaces, self.setup.incoming.width);
-        let mut loads = vec![Vec3::zeros(); spaces + 1];
-        for &node in self.setup.net_rows.first().into_iter().flatten() {
-            let knot = &barrier.nodes[node as usize];
-            if knot.fixed {
-                let place = (knot.position.y / width).clamp(0.0, 1.0) * spaces as f64;
-                let before = (place as usize).min(spaces - 1);
-                let share = place - before as f64;
-                loads[before] += forces[node as usize] * (1.0 - share);
-                loads[before + 1] += forces[node as usize] * share;
-            }
-        }
-        loads
+        let here = here.map(|grain| (face - grain.position.x, grain.body.mass));
+        beyond_the_first_gap(here, &self.setup.incoming, self.setup.near) / self.setup.mass
     }
 
     fn sample_grains(&mut self, grains: &[Grain]) {
@@ -402,74 +364,6 @@ impl Recorder {
         self.histories.moving.push(moving);
         self.histories.lost.push(self.lost);
     }
-}
-
-/// Windows into which the stretch of the deposit is cut; neighbours overlap by half.
-const DEPOSIT_WINDOWS: usize = 12;
-
-impl GaugeWindow {
-    /// Largest depth that the mass has at bulk density, over windows along the stretch, and the depth of the dead part in that
-    /// same window: a leaning or bulging barrier takes part of each window's room, so the one with most mass is the one that tells.
-    fn depths(&self, grains: &[Grain], dead: &[bool]) -> [f64; 2] {
-        let cell = (self.far - self.near) / (DEPOSIT_WINDOWS + 1) as f64;
-        let mut cells = [[0.0; 2]; DEPOSIT_WINDOWS + 1];
-        for (grain, dead) in grains.iter().zip(dead) {
-            let place = (-grain.position.x - self.near) / cell;
-            if place >= 0.0 && (place as usize) < cells.len() {
-                let [all, at_rest] = &mut cells[place as usize];
-                *all += grain.body.mass;
-                *at_rest += if *dead { grain.body.mass } else { 0.0 };
-            }
-        }
-        let windows = cells.windows(2).map(|pair| [pair[0][0] + pair[1][0], pair[0][1] + pair[1][1]]);
-        let most = windows.fold([0.0; 2], |most, window| if window[0] > most[0] { window } else { most });
-        most.map(|mass| mass / (self.bulk_density * self.width * 2.0 * cell))
-    }
-
-    /// `slow` tells which grains are at rest.
-    fn read(&self, grains: &[Grain], slow: &[bool]) -> Gauge {
-        let stretch = -self.far..=-self.near;
-        let inside = grains.iter().zip(slow).filter(|(grain, _)| stretch.contains(&grain.position.x));
-        let mut heights = Vec::new();
-        let (mut velocity, mut mass, mut momentum_flux, mut at_rest) = (0.0, 0.0, 0.0, 0.0);
-        for (grain, slow) in inside {
-            heights.push(grain.position.z);
-            at_rest += if *slow { grain.body.mass } else { 0.0 };
-            velocity += grain.velocity.x;
-            mass += grain.body.mass;
-            momentum_flux += grain.body.mass * grain.velocity.x.powi(2);
-        }
-        if heights.is_empty() {
-            return Gauge::default();
-        }
-        let count = heights.len();
-        let rank = (count * 9 / 10).min(count - 1);
-        let (_, ninety, _) = heights.select_nth_unstable_by(rank, f64::total_cmp);
-        let full_mass_per_depth = self.bulk_density * self.width * (self.far - self.near);
-        Gauge {
-            thickness: *ninety + 0.5 * self.mean_diameter,
-            velocity: velocity / count as f64,
-            at_rest: at_rest / mass,
-            depth: mass / full_mass_per_depth,
-            flux: momentum_flux / full_mass_per_depth,
-        }
-    }
-}
-
-/// Share of the mass in front of what is called the front.
-const AHEAD: f64 = 0.02;
-
-/// The place along the channel of which this share of the grains' mass is downstream (m).
-fn front(grains: &[Grain]) -> f64 {
-    let mut places: Vec<[f64; 2]> = grains.iter().map(|grain| [grain.position.x, grain.body.mass]).collect();
-    places.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
-    let wanted = AHEAD * places.iter().map(|[_, mass]| mass).sum::<f64>();
-    let mut ahead = 0.0;
-    let reached = places.iter().find(|[_, mass]| {
-        ahead += mass;
-        ahead >= wanted
-    });
-    reached.map_or(0.0, |[place, _]| *place)
 }
 
 fn add_rows(sums: &mut Vec<f64>, values: &[f64]) {
@@ -540,4 +434,12 @@ fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
         *load = load.max(forces[anchor.node as usize].norm());
     }
     loads
+}
+
+/// Force on each bolt of the lowest rope (N).
+fn bolt_loads(barrier: &Barrier, setup: &RecorderSetup, forces: &[Vec3]) -> Vec<Vec3> {
+    let lowest = setup.net_rows.first().into_iter().flatten().map(|&node| node as usize);
+    let held = lowest.filter(|&node| barrier.nodes[node].fixed);
+    let knots = held.map(|node| (barrier.nodes[node].position.y, forces[node]));
+    share_between_bolts(knots, setup.bolt_spaces, setup.incoming.width)
 }
