@@ -32,6 +32,7 @@ pub fn leave_open_outside_range(
     }
     leave_open_later_surges(design, guideline, first_surge, outcomes);
     leave_open_what_was_not_simulated(design, outcomes);
+    leave_open_holds_not_given(design, outcomes);
     leave_open_without_drag(design, outcomes);
     let broken =
         rules(design, guideline).into_iter().filter(|rule| rule.bearing == Bearing::Pressures && !rule.holds());
@@ -135,6 +136,22 @@ fn leave_open_without_drag(design: &Design, outcomes: &mut [Outcome]) {
     }
 }
 
+/// Strips of net along the side walls change what is held and what is loaded, by a force that wall and deposit hold them with: what the
+/// simulation shows with a default that nobody vouches for is open.
+fn leave_open_holds_not_given(design: &Design, outcomes: &mut [Outcome]) {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return };
+    if net.side_extension.is_none_or(|extension| extension.holding_force_given) {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.demand.simulation.is_some()) {
+        if matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
+            outcome.leave_open(Opening::NotGiven(
+                "the simulation holds the strips along the side walls with a force that the design does not give (barrier.flexible_net.side_extension.holding_force)".into(),
+            ));
+        }
+    }
+}
+
 /// What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
 /// later surges of a larger event, a boulder, snow, a flow over the full barrier.
 fn leave_open_what_was_not_simulated(design: &Design, outcomes: &mut [Outcome]) {
@@ -191,6 +208,7 @@ mod tests {
     use crate::demand::from_histories::Observed;
     use crate::demand::from_loads::guideline;
     use crate::demand::{Demands, Seen};
+    use crate::design::SideExtension;
     use crate::design::read::read_design;
 
     fn design() -> Design {
@@ -285,6 +303,19 @@ mod tests {
             ask(&mut design);
             assert_eq!(net_verdict(&design, 30e3, first(&design)), CheckVerdict::Open);
         }
+    }
+
+    #[test]
+    fn a_side_extension_held_by_a_default_leaves_the_simulation_open() {
+        let mut design = design();
+        let first = guideline(&design).largest_force;
+        let mut extend = |holding_force_given| {
+            let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+            net.side_extension = Some(SideExtension { length: 1.0, holding_force: 1e3, holding_force_given });
+            net_verdict(&design, 30e3, first)
+        };
+        assert_eq!(extend(true), CheckVerdict::Pass);
+        assert_eq!(extend(false), CheckVerdict::Open);
     }
 
     #[test]

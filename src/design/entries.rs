@@ -67,6 +67,11 @@ impl Entries {
         }
     }
 
+    /// Whether the file or a named set gives the value, not a default.
+    pub fn given(&self, path: &str) -> bool {
+        self.values.get(path).is_some_and(|entry| entry.origin != Origin::Default)
+    }
+
     pub fn numbers(&self, path: &str) -> Option<&[f64]> {
         match &self.values.get(path)?.value {
             Value::Numbers(numbers) => Some(numbers),

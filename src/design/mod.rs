@@ -213,6 +213,8 @@ pub struct SideExtension {
     pub length: f64,
     /// Force that holds each of its knots (N).
     pub holding_force: f64,
+    /// Whether the design gives that force; else it is a default that nobody vouches for.
+    pub holding_force_given: bool,
 }
 
 impl FlexibleNet {

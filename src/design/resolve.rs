@@ -190,9 +190,13 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
         anchor_resistance: value("anchors.resistance")?,
         bed_bolts: bed_bolts(e),
         bottom: value("bottom.opening").map_or(Bottom::Fixed, Bottom::Opening),
-        side_extension: value("side_extension.length")
-            .zip(value("side_extension.holding_force"))
-            .map(|(length, holding_force)| SideExtension { length, holding_force }),
+        side_extension: value("side_extension.length").zip(value("side_extension.holding_force")).map(
+            |(length, holding_force)| SideExtension {
+                length,
+                holding_force,
+                holding_force_given: e.given("barrier.flexible_net.side_extension.holding_force"),
+            },
+        ),
     })
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use crate::design::{Arrival, BarrierDesign, BarrierModel, Bottom, Design};
+use crate::fidelity::{needed_pieces, net_pieces};
 use crate::pipeline::Run;
 use crate::sources::{ALBABA_2015, CUNDALL_STRACK_1979, EN_1990, EN_1993_1_11, EN_1997_1, OTHER_MODELS, VOLKWEIN_2014};
 
@@ -67,6 +68,11 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             EITHER,
         ),
         (
+            simulated && straight_sides(design),
+            "Each side of a mesh stays straight from knot to knot, while it would bend round a grain: beside a knot the net is up to two fifths too stiff, and it holds up to some 1 % more mass (barrier.flexible_net.net_pieces divides the sides, simulation.fidelity: fine does as well).",
+            EITHER,
+        ),
+        (
             net && simulated && design.factors.load != 1.0,
             "The partial factor on loads makes the flow heavier, in the equations and in the simulation; its velocity, depth and volume stay as given.",
             EITHER,
@@ -90,6 +96,11 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let kept = list.into_iter().filter(|(applies, ..)| *applies).map(|(_, text, safe)| Assumption { text, safe });
     let of_ropes = of_ropes(design).filter(|_| simulated);
     kept.chain(of_ropes.map(|text| Assumption { text, safe: EITHER })).collect()
+}
+
+/// Whether sides of the mesh have fewer pieces in the simulation than the grains need.
+fn straight_sides(design: &Design) -> bool {
+    matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net_pieces(design, net) < needed_pieces(design, net))
 }
 
 /// Whether any of the ropes breaks in the simulation.

@@ -76,7 +76,7 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
         for model in [BarrierModel::SlidingRopes, BarrierModel::Cylinders] {
             let bare = build(net, &design.channel, model, 1);
-            let extension = Some(SideExtension { length: 2.0, holding_force: 1e3 });
+            let extension = Some(SideExtension { length: 2.0, holding_force: 1e3, holding_force_given: true });
             let wide = build(
                 &crate::design::FlexibleNet { side_extension: extension, ..(**net).clone() },
                 &design.channel,
