@@ -1,11 +1,27 @@
-//! Tells the program which commit it is built from, where there is a repository.
+//! Tells the program which commit it is built from, where there is a repository, and whether its sources differ from that commit's.
+
+#![allow(clippy::print_stdout, reason = "cargo reads what a build script prints")]
 
 use std::process::Command;
 
 fn main() {
-    println!("cargo:rerun-if-changed=.git/HEAD");
-    println!("cargo:rerun-if-changed=.git/index");
-    let told = Command::new("git").args(["describe", "--always", "--dirty", "--abbrev=10"]).output();
-    let commit = told.ok().filter(|told| told.status.success()).and_then(|told| String::from_utf8(told.stdout).ok());
-    println!("cargo:rustc-env=BARRIER_CHECK_COMMIT={}", commit.as_deref().map_or("unknown", str::trim));
+    // What is built is told by its sources as well: an edit after the last build must show.
+    for watched in [".git/HEAD", ".git/logs/HEAD", "src", "templates", "Cargo.toml", "Cargo.lock", "build.rs"] {
+        // What does not exist would count as changed in each build.
+        if std::path::Path::new(watched).exists() {
+            println!("cargo:rerun-if-changed={watched}");
+        }
+    }
+    let commit = git(&["rev-parse", "--short=10", "HEAD"]);
+    // Without locks: a status that refreshes the index would make the next build think that something has changed.
+    let changes = git(&["--no-optional-locks", "status", "--porcelain", "--untracked-files=no"]);
+    let edited = if changes.is_some_and(|changes| !changes.is_empty()) { "-dirty" } else { "" };
+    let told = commit.map_or("unknown".to_string(), |commit| format!("{commit}{edited}"));
+    println!("cargo:rustc-env=BARRIER_CHECK_COMMIT={told}");
+}
+
+/// What git says, without the white space around it; nothing where there is no git or no repository.
+fn git(arguments: &[&str]) -> Option<String> {
+    let told = Command::new("git").args(arguments).output().ok().filter(|told| told.status.success())?;
+    String::from_utf8(told.stdout).ok().map(|text| text.trim().to_string())
 }

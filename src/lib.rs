@@ -74,5 +74,6 @@ pub mod simulated;
 pub mod sources;
 pub mod starts;
 pub mod studies;
+pub mod terminal;
 pub mod units;
 pub mod validation;

@@ -10,6 +10,7 @@ use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
 use barrier_check::commands::study::study;
 use barrier_check::commands::validate::{Selection, validate};
+use barrier_check::terminal;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Checks a debris-flow barrier: guideline loads, granular-flow simulation, limits, report.
@@ -164,8 +165,12 @@ fn main() {
                 SchemaOf::Design => design_schema(),
                 SchemaOf::Result => result_schema(),
             };
-            println!("{schema:#}");
-            0
+            if terminal::say(format_args!("{schema:#}")) {
+                0
+            } else {
+                terminal::warn("error: the schema could not be written to standard output");
+                2
+            }
         }
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
         Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.wishes()) as i32,

@@ -3,8 +3,9 @@
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
+use crate::checks::not_covered::{FirstSurge, leave_open_not_covered};
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::checks::range::{leave_open_faster_arrivals, leave_open_outside_range};
+use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::demand::from_histories::Observed;
 use crate::demand::from_loads::{Guideline, guideline};
@@ -189,12 +190,10 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
     let mut outcomes = check_all(design, &demands);
-    let first_surge = simulated.as_ref().map(|simulated| simulated.spread(|seen| seen.force_peak).mean);
-    leave_open_outside_range(design, &guideline, first_surge, &mut outcomes);
-    let arrives = simulated.as_ref().map(|simulated| simulated.spread(|seen| seen.incoming.velocity).mean);
-    if let Some(velocity) = arrives {
-        leave_open_faster_arrivals(design, &guideline, velocity, &mut outcomes);
-    }
+    let mean = |quantity: fn(&Observed) -> f64| simulated.as_ref().map(|simulated| simulated.spread(quantity).mean);
+    let first_surge = FirstSurge { force: mean(|seen| seen.force_peak), velocity: mean(|seen| seen.incoming.velocity) };
+    leave_open_not_covered(design, &guideline, first_surge, &mut outcomes);
+    leave_open_outside_range(design, &guideline, &mut outcomes);
     if let Some(simulated) = &simulated {
         let packings = simulated.starts.len();
         rung_of(design, packings).leave_open_what_is_too_close(packings, &mut outcomes);

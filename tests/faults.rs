@@ -187,3 +187,26 @@ fn dissipators_past_their_stroke_are_no_pass() {
     });
     assert_ne!(used_up, Verdict::Pass);
 }
+
+/// A terminal that is full or gone ends no command: what its product is says so, the others do their work.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_or_closed_terminal_ends_nothing() {
+    use std::process::Stdio;
+    let full = || Stdio::from(std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a full device"));
+    let out = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("full_terminal");
+    let out = out.to_str().expect("path");
+    let run = |arguments: &[&str], stdout: Stdio, stderr: Stdio| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_barrier-check"));
+        command.args(arguments).stdout(stdout).stderr(stderr).status().expect("the program starts").code()
+    };
+    assert_eq!(run(&["schema", "design"], full(), Stdio::null()), Some(2));
+    assert_eq!(run(&["schema", "result"], full(), full()), Some(2));
+    // The verdict is that of a terminal that listens.
+    let loads = ["loads", "tests/fixtures/tiny.yaml", "--out", out];
+    assert_eq!(run(&loads, full(), full()), run(&loads, Stdio::null(), Stdio::null()));
+    assert_eq!(run(&["compare", out, out], full(), full()), run(&["compare", out, out], Stdio::null(), Stdio::null()));
+    assert_eq!(run(&["report", "nowhere"], full(), full()), Some(2));
+    assert_eq!(run(&["resume", "nowhere"], full(), full()), Some(2));
+    assert_eq!(run(&["validate", "nothing"], full(), full()), Some(2));
+}

@@ -163,6 +163,7 @@ fn browser() -> Option<&'static str> {
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find(found)
 }
 
+#[allow(clippy::print_stdout, reason = "who reads the log must know that nothing was looked at")]
 #[test]
 fn the_page_stands_alone_in_a_browser() {
     let Some(browser) = browser() else {

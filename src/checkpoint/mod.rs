@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use sha2::Digest;
 
 use crate::checkpoint::file::{CheckpointError, Kind, read, write};
+use crate::terminal;
 
 /// Name of a vault's folder within that of the report.
 pub const FOLDER: &str = "checkpoint";
@@ -113,7 +114,10 @@ impl Vault {
             Ok(()) => self.kept.store(true, Ordering::Relaxed),
             Err(error) => {
                 if !self.warned.swap(true, Ordering::Relaxed) {
-                    eprintln!("warning: the run could not be kept in {}: {error}; it goes on", self.folder.display());
+                    terminal::warn(format_args!(
+                        "warning: the run could not be kept in {}: {error}; it goes on",
+                        self.folder.display()
+                    ));
                 }
             }
         }
@@ -142,7 +146,9 @@ impl Shelf<'_> {
             match read(path, Kind::Simulation, Some(self.print)) {
                 Ok(content) => return Some(content),
                 Err(CheckpointError::Missing) => {}
-                Err(error) => eprintln!("warning: {} cannot be used: {error}; {otherwise}", path.display()),
+                Err(error) => {
+                    terminal::warn(format_args!("warning: {} cannot be used: {error}; {otherwise}", path.display()));
+                }
             }
         }
         None

@@ -178,6 +178,11 @@ impl Outcome {
         (self.verdict, self.open) = (CheckVerdict::Open, Some(why));
     }
 
+    /// Whether the check holds, so far as it is judged.
+    pub fn holds(&self) -> bool {
+        matches!(self.verdict, CheckVerdict::Pass | CheckVerdict::Warn)
+    }
+
     /// Whether the guideline's demand alone is beyond the capacity: no simulation can make such a check hold.
     pub fn fails_by_equations(&self) -> bool {
         let limit = self.capacity.filter(|_| self.resistance.is_some());

@@ -21,6 +21,7 @@ use crate::problem::{Problem, Problems};
 use crate::scene::estimate::{Estimate, estimate};
 use crate::scene::event::{ProgressReport, Watch};
 use crate::simulated::RunError;
+use crate::terminal;
 
 /// Bytes read of a file at the most; the document refuses anything near.
 const MOST_READ: u64 = 2 << 20;
@@ -52,11 +53,11 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
     let order = Order { name: file.name.clone(), design: file.text.clone(), starts, vary, vtk };
     let vault = open_vault(&folder, order, &file, keep_every, true);
     if Vault::order_in(vault.folder()).is_ok() {
-        eprintln!(
+        terminal::warn(format_args!(
             "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
             vault.folder().display(),
             folder.display()
-        );
+        ));
     }
     run_kept(file, &folder, wishes, &vault)
 }
@@ -67,11 +68,14 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
     let order = match Vault::order_in(&kept) {
         Ok(order) => order,
         Err(CheckpointError::Missing) => {
-            eprintln!("error: {}: no interrupted run is kept there", folder.display());
+            terminal::warn(format_args!("error: {}: no interrupted run is kept there", folder.display()));
             return ExitCode::Undecided;
         }
         Err(error) => {
-            eprintln!("error: the run kept in {} cannot be resumed: {error}. Run the design again", kept.display());
+            terminal::warn(format_args!(
+                "error: the run kept in {} cannot be resumed: {error}. Run the design again",
+                kept.display()
+            ));
             return ExitCode::Undecided;
         }
     };
@@ -109,9 +113,12 @@ fn run_kept(file: DesignFile, folder: &Path, wishes: Wishes, vault: &Vault) -> E
             exit_code(run.verdict)
         }
         Err(error) => {
-            eprintln!("error: {error}");
+            terminal::warn(format_args!("error: {error}"));
             if vault.can_be_resumed() {
-                eprintln!("note: `barrier-check resume {}` goes on where the run was kept last", folder.display());
+                terminal::warn(format_args!(
+                    "note: `barrier-check resume {}` goes on where the run was kept last",
+                    folder.display()
+                ));
             }
             give_up(folder, there_before)
         }
@@ -151,7 +158,7 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     }
     match estimate.too_much() {
         Some(reason) => {
-            eprintln!("error: this design is not run: {reason}");
+            terminal::warn(format_args!("error: this design is not run: {reason}"));
             ExitCode::Undecided
         }
         None => ExitCode::Pass,
@@ -183,7 +190,7 @@ pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
             exit_code(run.verdict)
         }
         Err(error) => {
-            eprintln!("error: {error}");
+            terminal::warn(format_args!("error: {error}"));
             give_up(&folder, there_before)
         }
     }
@@ -214,11 +221,11 @@ fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignF
 /// Makes the folder of the report before the run, so that nobody waits for what cannot be kept.
 fn make_folder(folder: &Path) -> Result<(), ExitCode> {
     if folder.exists() && !folder.is_dir() {
-        eprintln!("error: {} is a file; --out needs a folder", folder.display());
+        terminal::warn(format_args!("error: {} is a file; --out needs a folder", folder.display()));
         return Err(ExitCode::Undecided);
     }
     std::fs::create_dir_all(folder).map_err(|error| {
-        eprintln!("error: the report could not be written to {}: {error}", folder.display());
+        terminal::warn(format_args!("error: the report could not be written to {}: {error}", folder.display()));
         ExitCode::Undecided
     })
 }
@@ -236,7 +243,7 @@ fn give_up(folder: &Path, there_before: bool) -> ExitCode {
 /// Warns of a report that does not belong to this run.
 fn tell_of_earlier_run(folder: &Path) {
     if folder.join("result.json").exists() {
-        eprintln!("note: {} still holds the report of an earlier run", folder.display());
+        terminal::warn(format_args!("note: {} still holds the report of an earlier run", folder.display()));
     }
 }
 

@@ -10,6 +10,7 @@ use crate::commands::report::read_recording;
 use crate::pipeline::Run;
 use crate::report::compare::{Variant, files};
 use crate::report::write::{inner, write_all};
+use crate::terminal;
 
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report and the page
 /// that holds them side by side below `out`. Ends by the worst verdict.
@@ -21,7 +22,7 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     let mut refused = false;
     for (path, source) in paths.iter().zip(&sources) {
         if let Err(error) = source {
-            eprintln!("{}: {error}", path.display());
+            terminal::warn(format_args!("{}: {error}", path.display()));
             refused = true;
         }
     }
@@ -29,24 +30,24 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
         return ExitCode::Undecided;
     }
     for (path, source) in paths.iter().zip(sources.into_iter().flatten()) {
-        eprintln!("{}", path.display());
+        terminal::warn(format_args!("{}", path.display()));
         match source.run(wishes) {
             Ok(run) => variants.push(Variant { folder: free_name(&run.file.name, &mut folders), run }),
             Err(error) => {
-                eprintln!("error: {error}");
+                terminal::warn(format_args!("error: {error}"));
                 return ExitCode::Undecided;
             }
         }
     }
     let written = write(&variants, out, wishes.vtk);
     if let Err(error) = written {
-        eprintln!("error: the comparison could not be written to {}: {error}", out.display());
+        terminal::warn(format_args!("error: the comparison could not be written to {}: {error}", out.display()));
         return ExitCode::Undecided;
     }
     for Variant { run, .. } in &variants {
-        println!("{:<9} {}", run.verdict.word().to_uppercase(), run.file.name);
+        terminal::say(format_args!("{:<9} {}", run.verdict.word().to_uppercase(), run.file.name));
     }
-    println!("comparison: {}", out.join("compare.html").display());
+    terminal::say(format_args!("comparison: {}", out.join("compare.html").display()));
     variants.iter().map(|variant| exit_code(variant.run.verdict)).max().unwrap_or(ExitCode::Undecided)
 }
 

@@ -13,12 +13,13 @@ use crate::report::series;
 use crate::report::view::View;
 use crate::report::vtk;
 use crate::report::write::{ReportFile, inner, remove_unless, write_all};
+use crate::terminal;
 
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
     match write_report(run, folder, with_vtk) {
         Err(error) => {
-            eprintln!("error: {error}");
+            terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
         Ok(view) => {

@@ -7,12 +7,13 @@ use crate::commands::check::Failure;
 use crate::commands::output::hand_over;
 use crate::pipeline::Run;
 use crate::report::recording::{self, decode};
+use crate::terminal;
 
 /// Makes the report in `folder` again from its recording, and the files for ParaView where asked for.
 pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
     match read_recording(folder) {
         Err(error) => {
-            eprintln!("error: {error}");
+            terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
         Ok(run) => hand_over(&run, folder, with_vtk),

@@ -19,16 +19,17 @@ use crate::studies::knobs::Knob;
 use crate::studies::plan::{Plan, StabilityPlan, Study};
 use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
 use crate::studies::stability::{SCENES, map};
+use crate::terminal;
 
 /// Runs what is not kept yet, and writes the page below `out`.
 pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
     match run(path, out) {
         Ok(page) => {
-            println!("study: {}", page.display());
+            terminal::say(format_args!("study: {}", page.display()));
             ExitCode::Pass
         }
         Err(error) => {
-            eprintln!("error: {error}");
+            terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
     }
@@ -60,7 +61,12 @@ fn stability_map(plan: &StabilityPlan, folder: &Path) -> Result<PathBuf, Failure
     write_all(folder, &map_files(&plan.name, &mapped).map_err(|error| error.to_string())?)?;
     for scene in &mapped {
         let caught = if scene.all_caught() { "all caught" } else { "NOT ALL CAUGHT" };
-        println!("{:<22} estimate over true limit {:.2}: {}; {caught}", scene.name, scene.sharpness(), scene.word());
+        terminal::say(format_args!(
+            "{:<22} estimate over true limit {:.2}: {}; {caught}",
+            scene.name,
+            scene.sharpness(),
+            scene.word()
+        ));
     }
     Ok(folder.join("stability.html"))
 }
@@ -98,7 +104,7 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
         Ok(Some(point))
     });
     bar.finish_and_clear();
-    eprintln!("{} runs, {} of them kept from before", tasks.len(), found.load(Ordering::Relaxed));
+    terminal::warn(format_args!("{} runs, {} of them kept from before", tasks.len(), found.load(Ordering::Relaxed)));
     let points = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(tasks.iter().cloned().zip(points).collect())
 }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use crate::commands::ExitCode;
 use crate::report::validation::{Row, render, verdict_line};
 use crate::report::write::write_all;
+use crate::terminal;
 use crate::validation::CASES;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite};
 
@@ -57,13 +58,13 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         Err(unknown) => {
             let suites = Suite::ALL.map(Suite::word).join(", ");
             let ids: Vec<&str> = CASES.iter().map(|case| case.id).collect();
-            eprintln!("error: no such suite or case: {}", unknown.join(", "));
-            eprintln!("suites: {suites}; cases: {}", ids.join(", "));
+            terminal::warn(format_args!("error: no such suite or case: {}", unknown.join(", ")));
+            terminal::warn(format_args!("suites: {suites}; cases: {}", ids.join(", ")));
             return ExitCode::Undecided;
         }
     };
     if cases.is_empty() {
-        eprintln!("error: --quick leaves nothing of {}; run without it", selection.names.join(", "));
+        terminal::warn(format_args!("error: --quick leaves nothing of {}; run without it", selection.names.join(", ")));
         return ExitCode::Undecided;
     }
     let mut ran = Vec::new();
@@ -78,9 +79,11 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         .map_err(|error| error.to_string())
         .and_then(|files| write_all(folder, &files).map_err(|error| error.to_string()));
     match written {
-        Ok(()) => println!("report: {}", folder.join("validation.html").display()),
+        Ok(()) => {
+            terminal::say(format_args!("report: {}", folder.join("validation.html").display()));
+        }
         Err(error) => {
-            eprintln!("error: the report could not be written to {}: {error}", folder.display());
+            terminal::warn(format_args!("error: the report could not be written to {}: {error}", folder.display()));
             return ExitCode::Undecided;
         }
     }

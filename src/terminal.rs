@@ -1,0 +1,44 @@
+//! The one place that writes to the terminal. What cannot be written, because nobody listens or the disk behind is full, ends no run.
+
+use std::fmt::Display;
+use std::io::Write;
+
+/// Writes a line to standard output; whether it could be written.
+pub fn say(line: impl Display) -> bool {
+    line_to(std::io::stdout().lock(), line)
+}
+
+/// Writes a line of warning or error to standard error; whether it could be written.
+pub fn warn(line: impl Display) -> bool {
+    line_to(std::io::stderr().lock(), line)
+}
+
+fn line_to(mut out: impl Write, line: impl Display) -> bool {
+    writeln!(out, "{line}").and_then(|()| out.flush()).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disk that is full.
+    struct Full;
+
+    impl Write for Full {
+        fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+            Err(std::io::ErrorKind::StorageFull.into())
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_line_that_cannot_be_written_is_told_and_ends_nothing() {
+        assert!(!line_to(Full, "x"));
+        let mut kept = Vec::new();
+        assert!(line_to(&mut kept, "x"));
+        assert_eq!(kept, b"x\n");
+    }
+}
