@@ -32,7 +32,7 @@
 //! | a knob to study | a variant and its lines in [`studies::knobs`] |
 //! | a scene of the stability map | a function and a line in [`studies::stability::SCENES`] |
 //! | something a run depends on | a field that is kept with [`dem::simulation::Simulation`]; raise the `FORMAT` of [`checkpoint::file`] |
-//! | something recorded | a field of what [`report::recording`] writes; raise its `FORMAT` and make `tests/fixtures/tiny.bin` anew |
+//! | something recorded | a field of what [`report::recording`] writes; raise its `FORMAT` and make `tests/fixtures/recorded.bin` anew |
 //! | what the replay shows | [`dem::recorders::film`], its packing in [`report::replay`], its drawing in `templates/replay.js` |
 //! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
 //!

@@ -3,6 +3,7 @@
 
 use crate::checks::check_all;
 use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::demand::from_loads::{Guideline, guideline_for};
 use crate::design::{BarrierDesign, Design};
@@ -136,20 +137,30 @@ fn leave_open_without_drag(design: &Design, outcomes: &mut [Outcome]) {
     }
 }
 
-/// Leaves open what the equations would fail with the velocity that the simulated flow arrives with (m/s).
+/// Leaves open what the equations would fail, or would not be known for, with the velocity that the simulated flow arrives with (m/s).
 fn leave_open_faster_arrivals(design: &Design, guideline: &Guideline, velocity: f64, outcomes: &mut [Outcome]) {
     let given = guideline.input.velocity;
     if velocity <= given {
         return;
     }
     let faster = guideline_for(design, GuidelineInput { velocity, ..guideline.input });
-    let then = check_all(design, &Demands::by_equations(&faster, &design.factors));
-    for (outcome, then) in outcomes.iter_mut().zip(&then) {
-        if outcome.holds() && outcome.id == then.id && then.fails_by_equations() {
-            outcome.leave_open(Opening::OutOfRange(format!(
-                "the simulated flow arrives with {velocity:.2} m/s where the equations were given {given:.2} m/s: at that velocity they would fail this check"
-            )));
+    let mut then = check_all(design, &Demands::by_equations(&faster, &design.factors));
+    let before: Vec<bool> = then.iter().map(Outcome::holds).collect();
+    leave_open_outside_range(design, &faster, &mut then);
+    for ((outcome, then), held) in outcomes.iter_mut().zip(&then).zip(before) {
+        if !outcome.holds() || outcome.id != then.id {
+            continue;
         }
+        let why = match () {
+            () if then.fails_by_equations() => "at that velocity they would fail this check",
+            () if held && !then.holds() && (outcome.governed_by_equations() || design.loads.to_the_top) => {
+                "at that velocity they would be used outside the range they are known for"
+            }
+            () => continue,
+        };
+        outcome.leave_open(Opening::OutOfRange(format!(
+            "the simulated flow arrives with {velocity:.2} m/s where the equations were given {given:.2} m/s: {why}"
+        )));
     }
 }
 

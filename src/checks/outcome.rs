@@ -178,6 +178,13 @@ impl Outcome {
         (self.verdict, self.open) = (CheckVerdict::Open, Some(why));
     }
 
+    /// Lets a check that passes stand with a warning.
+    pub fn warn(&mut self) {
+        if self.verdict == CheckVerdict::Pass {
+            self.verdict = CheckVerdict::Warn;
+        }
+    }
+
     /// Whether the check holds, so far as it is judged.
     pub fn holds(&self) -> bool {
         matches!(self.verdict, CheckVerdict::Pass | CheckVerdict::Warn)

@@ -18,6 +18,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![outcome]
 }
 
+/// Share of the mass from which on the curve must be given: finer grains are continued on the slope of the coarser ones.
+const KNOWN_FROM: f64 = 0.3;
+
 /// What the simulation cannot have seen get lost: surges that were not simulated, and grains that were made too coarse for mesh and gap.
 fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     let flow = &design.flow;
@@ -37,6 +40,12 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
                 100.0 * finer
             )));
         }
+    }
+    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) && flow.known_from > KNOWN_FROM {
+        return Some(Opening::NotGiven(format!(
+            "nothing is said of the finest {:.0} % of the flow, which are what passes a net (give flow.grain_sizes.curve from d30 or finer)",
+            100.0 * flow.known_from
+        )));
     }
     if let (None, BarrierDesign::FlexibleNet(net)) = (&flow.cut, &design.barrier)
         && flow.sizes.quantile(0.1) > net.mesh_opening

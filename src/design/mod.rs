@@ -7,6 +7,7 @@ pub mod grain_lengths;
 pub mod key;
 pub mod read;
 pub mod resolve;
+pub mod rope_rules;
 pub mod rules;
 pub mod schema;
 pub mod sizes;
@@ -66,6 +67,8 @@ pub struct Flow {
     pub solid_density: f64,
     /// As simulated.
     pub sizes: SizeCurve,
+    /// Share of the mass below which nothing is given of the curve: it is continued from there.
+    pub known_from: f64,
     /// What of the design's curve was made coarser, if anything was.
     pub cut: Option<CurveCut>,
     /// Length over width of a grain, 1 (sphere) to 2.
@@ -193,7 +196,7 @@ pub struct FlexibleNet {
 /// Bolts at even distances along the lowest rope, the first and the last at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BedBolts {
-    /// About how far apart they are (m).
+    /// How far apart they are at most (m).
     pub spacing: f64,
     /// Characteristic resistance of one (N), if known.
     pub resistance: Option<f64>,
@@ -202,7 +205,8 @@ pub struct BedBolts {
 impl BedBolts {
     /// Spaces between the bolts of a rope of this length.
     pub fn spaces(&self, length: f64) -> usize {
-        (length / self.spacing).round().max(1.0) as usize
+        // A length of so many spacings but for rounding has as many spaces.
+        (length / self.spacing - 1e-9).ceil().max(1.0) as usize
     }
 }
 

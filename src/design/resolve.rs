@@ -1,7 +1,7 @@
 //! From checked entries to the design, in SI.
 
 use crate::design::entries::Entries;
-use crate::design::rules::{coarsened, flow_volume, rope_heights, size_curve};
+use crate::design::rules::{coarsened, curve_known_from, flow_volume, rope_heights, size_curve};
 use crate::design::sizes::SizeCurve;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
@@ -60,6 +60,7 @@ fn flow(e: &Entries) -> Option<Flow> {
         bulk_density,
         solid_density: value("solid_density").unwrap_or(f64::NAN),
         sizes: cut.as_ref().map_or(whole, |cut| cut.whole.cut_below(cut.share)),
+        known_from: curve_known_from(e),
         cut,
         aspect: value("grain_aspect")?,
         grain_friction: value("grain_friction").map_or(f64::NAN, f64::tan),

@@ -2,6 +2,7 @@
 //! silent: that was already reported.
 
 use crate::design::entries::Entries;
+use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::sizes::SizeCurve;
 use crate::problem::Problem;
@@ -47,6 +48,9 @@ pub const RULES: &[Rule] = &[
     net_rope_draws_out_or_breaks,
     main_rope_draws_out_or_breaks,
     lateral_rope_draws_out_or_breaks,
+    net_rope_is_one,
+    main_rope_is_one,
+    lateral_rope_is_one,
 ];
 
 /// Rules that only a simulation needs.
@@ -70,7 +74,7 @@ fn schema_version_is_known(e: &Entries) -> Option<Problem> {
     })
 }
 
-fn at(name: &str) -> String {
+pub fn at(name: &str) -> String {
     format!("{NET}.{name}")
 }
 
@@ -189,6 +193,11 @@ pub fn size_curve(e: &Entries) -> Option<SizeCurve> {
     let points = quantiles(e);
     let rises = points.windows(2).all(|pair| pair[0].1 < pair[1].1);
     (points.len() >= 2 && rises).then(|| SizeCurve::through(&points))
+}
+
+/// The lowest share of the mass of which the design gives a size.
+pub fn curve_known_from(e: &Entries) -> f64 {
+    quantiles(e).first().map_or(0.0, |(share, _)| *share)
 }
 
 fn grains_fit_the_channel(e: &Entries) -> Option<Problem> {

@@ -4,7 +4,7 @@ use crate::checks::credibility::STRAY_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::rope_outside;
-use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
+use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet, OutsideRange};
 use crate::fidelity::ladder::rung_of;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, with_unit};
@@ -27,10 +27,52 @@ const WARNINGS: &[Warning] = &[
     dissipators_used_up,
     ropes_broken,
     sag_beyond_the_equations,
+    formulas_that_stand,
+    parts_that_no_check_sees,
     loads_without_factor,
+    rope_ends_that_hold_all,
     soft_ropes,
     validation_case_like_this,
 ];
+
+/// What the design lets stand that would be open otherwise.
+fn formulas_that_stand(run: &Run) -> Option<String> {
+    let design = &run.file.design;
+    let stand = design.limits.outside_range == OutsideRange::Warn;
+    let warned: Vec<String> =
+        run.outcomes.iter().filter(|one| one.verdict == CheckVerdict::Warn).map(|one| one.title.clone()).collect();
+    (stand && !warned.is_empty()).then(|| {
+        format!(
+            "limits.outside_range: warn lets formulas stand outside the range they are known for, or margins are small, and these checks stand with a warning: {}.",
+            listed(&warned)
+        )
+    })
+}
+
+/// Parts of which the design says so much that a check holds, and no more.
+fn parts_that_no_check_sees(run: &Run) -> Option<String> {
+    match &run.file.design.barrier {
+        BarrierDesign::RigidWall(wall) => match (wall.resistance, wall.stability) {
+            (Some(_), None) => Some("The wall is checked against the resistance that the design gives for the whole force: bending, shear, sliding, overturning and the ground below are in that number or in none (barrier.rigid_wall.stability checks sliding and overturning).".into()),
+            (None, Some(_)) => Some("The wall is checked against sliding and overturning: its own bending and shear, and the ground below, are not (barrier.rigid_wall.resistance).".into()),
+            _ => None,
+        },
+        BarrierDesign::FlexibleNet(net) => net.side_extension.map(|extension| {
+            format!(
+                "The strips along the side walls are held by {} at each knot, as the design says: whether wall and deposit hold that is not checked.",
+                with_unit(extension.holding_force, "N")
+            )
+        }),
+    }
+}
+
+/// Clips and bends hold less than the rope.
+fn rope_ends_that_hold_all(run: &Run) -> Option<String> {
+    net(run)?;
+    (!run.file.entries.given("factors.rope_end")).then(|| {
+        "factors.rope_end is not given: the ends of the ropes are taken to hold the whole breaking load, as sockets do; ferrules and grips hold less (0.8 to 0.9, from memory).".into()
+    })
+}
 
 pub fn warnings(run: &Run) -> Vec<String> {
     WARNINGS.iter().filter_map(|warning| warning(run)).collect()

@@ -82,13 +82,14 @@ impl StepCorrection {
 
 /// Damping ratio that gives `restitution` in steps of x = ω0 Δt, near the `exact` one; nothing where there is none.
 fn stepped_ratio(restitution: f64, exact: f64, x: f64) -> Option<f64> {
+    let weighted = restitution <= WEIGHTED_UP_TO;
     let (mut low, mut high) = (0.5 * exact, 1.2 * exact);
-    if stepped_restitution(low, x) < restitution || stepped_restitution(high, x) > restitution {
+    if stepped_restitution(low, x, weighted) < restitution || stepped_restitution(high, x, weighted) > restitution {
         return None;
     }
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        if stepped_restitution(middle, x) > restitution {
+        if stepped_restitution(middle, x, weighted) > restitution {
             low = middle;
         } else {
             high = middle;
@@ -104,13 +105,22 @@ pub fn first_weight<R: Real>(part: R, lighter: R) -> R {
     (part + 0.5) * ((lighter + -1.0) * (part + -0.5) + 1.0)
 }
 
+/// Restitution up to which the first force of a contact is weighted. What jumps when a contact begins is the dashpot's force; with little of
+/// it the force rises from nothing, and plain steps are the better ones.
+const WEIGHTED_UP_TO: f64 = 0.8;
+
+/// How many times its overlap the way of a step must be for a contact to have begun in it, as far as its force is weighted.
+pub fn begins_beyond(restitution: f64) -> f64 {
+    if restitution <= WEIGHTED_UP_TO { 1.0 } else { f64::INFINITY }
+}
+
 /// Restitution of a contact played through in steps of x, in units of ω0 and the reduced mass; mean over all phases.
-fn stepped_restitution(zeta: f64, x: f64) -> f64 {
+fn stepped_restitution(zeta: f64, x: f64, weighted: bool) -> f64 {
     let rebound = |phase: u32| {
         let mut closing = 1.0_f64;
         let part = (f64::from(phase) + 0.5) / f64::from(PHASES);
         let mut overlap = x * part;
-        let mut weight = first_weight(part, 1.0 - zeta * x);
+        let mut weight = if weighted { first_weight(part, 1.0 - zeta * x) } else { 1.0 };
         while overlap > 0.0 || closing > 0.0 {
             closing -= x * weight * (overlap + 2.0 * zeta * closing).max(0.0);
             overlap += x * closing;
@@ -141,7 +151,8 @@ mod tests {
             let zeta = damping_ratio_for(nominal);
             let StepCorrection { linear, quadratic } = StepCorrection::of(nominal);
             for x in [0.05, 0.3, LONGEST_PHASE] {
-                let stepped = stepped_restitution(zeta * (1.0 + x * (linear + x * quadratic)), x);
+                let stepped =
+                    stepped_restitution(zeta * (1.0 + x * (linear + x * quadratic)), x, nominal <= WEIGHTED_UP_TO);
                 assert_abs_diff_eq!(stepped, nominal, epsilon = 0.005);
             }
         }

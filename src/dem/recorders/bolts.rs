@@ -3,7 +3,7 @@
 use crate::dem::Vec3;
 
 /// Force (N) on each bolt of a rope with so many `spaces` between bolts over a `width` (m). `knots` gives where across the channel each held
-/// knot is (m), and the force that holds it (N): the bolts beside a knot share that by lever.
+/// knot is (m), and the pull of the net on it (N): the bolts beside a knot share that by lever.
 pub fn share_between_bolts(knots: impl Iterator<Item = (f64, Vec3)>, spaces: usize, width: f64) -> Vec<Vec3> {
     let mut loads = vec![Vec3::zeros(); spaces + 1];
     if spaces == 0 {

@@ -1,4 +1,4 @@
-//! What has come to rest upstream and never leant on the barrier.
+//! What lies upstream at the end and never leant on the barrier.
 
 use crate::dem::recorders::gauge::GaugeWindow;
 

@@ -60,7 +60,7 @@ pub struct Histories {
     pub pushes_by_state: Vec<[f64; 2]>,
     /// Depth of the grains at rest where that of all grains at the barrier is largest, at bulk density (m).
     pub dead_depth: Vec<f64>,
-    /// Share of the mass that has come to rest at the barrier.
+    /// Share of the mass that is at rest, wherever it lies, once the barrier has been hit.
     pub dead: Vec<f64>,
     /// Share of the mass still moving upstream of the barrier.
     pub moving: Vec<f64>,

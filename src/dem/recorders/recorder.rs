@@ -333,7 +333,7 @@ impl Recorder {
         }
     }
 
-    /// Share of the mass that has come to rest upstream without leaning on the barrier.
+    /// Share of the mass that lies upstream without leaning on the barrier, at rest or not.
     fn stopped_upstream(&self, simulation: &Simulation, grains: &[Grain]) -> f64 {
         let face = match &simulation.model.barrier {
             Some(barrier) => barrier.nodes.iter().map(|node| node.position.x).fold(0.0, f64::min),

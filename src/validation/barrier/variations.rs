@@ -215,7 +215,7 @@ fn at_rest(barrier: &str, share: Spread) -> Finding {
     Finding::close(what, share.mean, 0.15, 0.1)
 }
 
-/// Share of the mass that has come to rest at the barrier when the force is largest, in the first start.
+/// Share of the mass that is at rest when the force is largest, in the first start.
 fn at_rest_in_the_peak(run: &Simulated) -> f64 {
     let at = run.histories.time.partition_point(|time| *time < run.first().force_peak_time);
     run.histories.dead.get(at).copied().unwrap_or(f64::NAN)

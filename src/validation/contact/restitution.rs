@@ -1,7 +1,7 @@
 //! A1: two equal balls meet head on.
 
 use crate::dem::Vec3;
-use crate::dem::contact::restitution::{damping_ratio_for, first_weight};
+use crate::dem::contact::restitution::{begins_beyond, damping_ratio_for, first_weight};
 use crate::dem::model::Model;
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::grains::GrainShape;
@@ -89,7 +89,8 @@ fn meet_from(nominal: f64, steps_per_contact: f64, phase: f64) -> Result<Met, Br
         simulation.step()?;
         let [a, b] = [0, 1].map(|row| simulation.grains.grain(row).position);
         // The first force stands for more than the instant.
-        let weight = if touching == 0 { first_weight(1.0 - phase, lighter) } else { 1.0 };
+        let weight =
+            if touching == 0 && begins_beyond(nominal).is_finite() { first_weight(1.0 - phase, lighter) } else { 1.0 };
         let force = contact_force(&simulation) / weight;
         touching += u32::from(force > 1e-9 * stiffness * RADIUS);
         deepest = deepest.max(2.0 * RADIUS - (a - b).norm());
