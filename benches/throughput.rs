@@ -9,6 +9,7 @@
 //! threads work together depends on how far apart their cores are, and a virtual machine's cores may be moved at any time; so each
 //! such row tells how long a message from one thread to the other took just then.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a bench prints its table")]
 #![allow(unsafe_code)] // it counts what is allocated
 
 mod cells;
