@@ -6,8 +6,9 @@
 //! half of P. The bolts are taken as unyielding, the load between them as even.
 
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
+use crate::checks::ropes::resistance;
 use crate::demand::{Demand, Demands};
-use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet};
+use crate::design::{BarrierDesign, Bottom, Design};
 use crate::sources::{ANCHOR_FACTOR, NO_LIMIT, ROPE_FACTOR};
 
 /// Ring spacings between two bolts up to which the lowest rope counts as held along its length.
@@ -27,12 +28,11 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     };
     let width = design.channel.width;
     let spacing = width / bolts.spaces(width) as f64;
-    let axial = axial_stiffness(net);
+    let axial = net.main_ropes.rope.axial_stiffness();
     let at_an_end = each(demands.bolt_force, |load| end_bolt(load, axial));
     let between = each(demands.bolt_force, |load| tension_between(load, axial));
     let bolt = Resistance { characteristic, factor: design.factors.anchor };
-    let rope = net.main_ropes.rope.breaking_load * design.factors.rope_end;
-    let rope = Resistance { characteristic: rope, factor: design.factors.rope };
+    let rope = resistance(design, &net.main_ropes.rope);
     let rope_name = CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", "N", ROPE_FACTOR);
     let outcomes = [
         Outcome::at_most(name, at_an_end, bolt, design.limits.anchor_utilisation),
@@ -52,12 +52,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             outcome
         })
         .collect()
-}
-
-/// EA of a main rope (N).
-fn axial_stiffness(net: &FlexibleNet) -> f64 {
-    let rope = &net.main_ropes.rope;
-    rope.modulus * std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2)
 }
 
 /// Tension (N) of a rope with EA (N) that lay straight between two bolts and now carries a load (N), spread evenly. With the span s, the

@@ -151,12 +151,13 @@ fn leave_open_faster_arrivals(design: &Design, guideline: &Guideline, velocity: 
         if !outcome.holds() || outcome.id != then.id {
             continue;
         }
-        let why = match () {
-            () if then.fails_by_equations() => "at that velocity they would fail this check",
-            () if held && !then.holds() && (outcome.governed_by_equations() || design.loads.to_the_top) => {
-                "at that velocity they would be used outside the range they are known for"
-            }
-            () => continue,
+        let equations_count = outcome.governed_by_equations() || design.loads.to_the_top;
+        let why = if then.fails_by_equations() {
+            "at that velocity they would fail this check"
+        } else if held && !then.holds() && equations_count {
+            "at that velocity they would be used outside the range they are known for"
+        } else {
+            continue;
         };
         outcome.leave_open(Opening::OutOfRange(format!(
             "the simulated flow arrives with {velocity:.2} m/s where the equations were given {given:.2} m/s: {why}"

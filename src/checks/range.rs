@@ -67,8 +67,7 @@ fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
         "lateral_tension" => &net.lateral_rope,
         _ => return None,
     };
-    let axial = rope.modulus * std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
-    outcome.demand.simulation.map(|tension| tension / axial).filter(|strain| *strain > LARGEST_STRAIN)
+    outcome.demand.simulation.map(|tension| tension / rope.axial_stiffness()).filter(|strain| *strain > LARGEST_STRAIN)
 }
 
 /// Why the parabola of a main rope is no longer known to hold, if so.
@@ -76,8 +75,7 @@ pub fn rope_outside(design: &Design, guideline: &Guideline, rope: usize) -> Opti
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let state = &guideline.ropes.get(rope)?.state;
     let line = net.main_ropes.rope;
-    let axial = line.modulus * std::f64::consts::FRAC_PI_4 * line.diameter.powi(2);
-    let (sag, strain) = (state.sag / design.channel.width, state.tension / axial);
+    let (sag, strain) = (state.sag / design.channel.width, state.tension / line.axial_stiffness());
     let within = sag <= LARGEST_SAG && strain <= LARGEST_STRAIN;
     (!within).then(|| {
         format!(

@@ -30,7 +30,11 @@ pub fn check_lateral(design: &Design, demands: &Demands) -> Vec<Outcome> {
 }
 
 fn check(design: &Design, rope: &Rope, id: String, title: String, demand: Demand) -> Outcome {
-    let resistance =
-        Resistance { characteristic: rope.breaking_load * design.factors.rope_end, factor: design.factors.rope };
+    let resistance = resistance(design, rope);
     Outcome::at_most(CheckName::new(id, title, "N", ROPE_FACTOR), demand, resistance, design.limits.rope_utilisation)
+}
+
+/// What a rope holds at its ends.
+pub fn resistance(design: &Design, rope: &Rope) -> Resistance {
+    Resistance { characteristic: rope.breaking_load * design.factors.rope_end, factor: design.factors.rope }
 }

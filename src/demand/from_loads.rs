@@ -1,7 +1,5 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
-use std::f64::consts::FRAC_PI_4;
-
 use crate::demand::larger;
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo};
 use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope, later_surge};
@@ -270,7 +268,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
     let rope = net.main_ropes.rope;
     let span = RopeInput {
         span: design.channel.width,
-        axial_stiffness: rope.modulus * FRAC_PI_4 * rope.diameter.powi(2),
+        axial_stiffness: rope.axial_stiffness(),
         dissipator: dissipator(design),
     };
     let top = height_over_bed(design);

@@ -242,6 +242,13 @@ pub struct Rope {
     pub breaks: bool,
 }
 
+impl Rope {
+    /// EA with the full circle of the diameter (N).
+    pub fn axial_stiffness(&self) -> f64 {
+        self.modulus * std::f64::consts::FRAC_PI_4 * self.diameter.powi(2)
+    }
+}
+
 /// The horizontal ropes that carry the net.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MainRopes {

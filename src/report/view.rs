@@ -527,7 +527,7 @@ fn derived_rows(run: &Run) -> Vec<Row> {
         ));
     }
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
-        let axial = |rope: &Rope| rope.modulus * std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
+        let axial = Rope::axial_stiffness;
         for (name, rope) in [("main", &net.main_ropes.rope), ("net", &net.net_rope), ("lateral", &net.lateral_rope)] {
             let how = "modulus times the full circle of the diameter".to_string();
             rows.push(row(&format!("EA of the {name} ropes"), with_unit(axial(rope), "N"), how));
