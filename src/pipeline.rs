@@ -19,7 +19,7 @@ use crate::scene::event::Watch;
 use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
 use crate::simulated::{Detail, RunError, Simulated, simulate};
-use crate::starts::side_by_side;
+use crate::starts::{Spread, side_by_side};
 
 /// What the whole run says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -190,8 +190,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
     let mut outcomes = check_all(design, &demands);
-    let mean = |quantity: fn(&Observed) -> f64| simulated.as_ref().map(|simulated| simulated.spread(quantity).mean);
-    let first_surge = FirstSurge { force: mean(|seen| seen.force_peak), velocity: mean(|seen| seen.incoming.velocity) };
+    let first_surge = simulated.as_ref().map(|simulated| first_surge(design, simulated));
     leave_open_not_covered(design, &guideline, first_surge, &mut outcomes);
     leave_open_outside_range(design, &guideline, &mut outcomes);
     if let Some(simulated) = &simulated {
@@ -202,6 +201,19 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     doubts.extend(simulated.as_ref().and_then(|simulated| slower_than_designed(design, simulated)));
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
+}
+
+fn first_surge(design: &Design, simulated: &Simulated) -> FirstSurge {
+    let band = rung_of(design, simulated.starts.len()).band;
+    let at_rest: Vec<f64> = simulated.starts.iter().filter_map(|start| start.observed.k_effective).collect();
+    FirstSurge {
+        push: simulated.spread(|seen| seen.push_peak).mean,
+        velocity: simulated.spread(|seen| seen.incoming.velocity).mean,
+        earth_pressure: (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean),
+        force_band: band.force,
+        stroke_band: band.stroke,
+        share_band: band.share,
+    }
 }
 
 /// Share of the velocity, and of the momentum flux h v², that the design gives below which the simulated flow is another one.

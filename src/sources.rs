@@ -11,7 +11,7 @@ pub const EN_1997_1: &str = "EN 1997-1: geotechnical design (the partial factor 
 pub const OTHER_MODELS: &str = "Other models of impact and rules of detailing: named with their range and how sure we are of them where they are used; none of them decides a check";
 pub const NO_LIMIT: &str = "no limit set; for information";
 pub const NOTHING_BREAKS: &str = "no rope may break";
-pub const DESIGN_LIMIT: &str = "limit set in the design file";
+pub const DESIGN_LIMIT: &str = "limit of the design file, or its default (see the inputs)";
 pub const ROPE_FACTOR: &str = "breaking load that the ends hold over the rope's partial factor (after EN 1993-1-11, from memory; both are in the design file)";
 pub const ANCHOR_FACTOR: &str =
     "anchor resistance over its partial factor (after EN 1997-1; set it in the design file)";

@@ -35,15 +35,15 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let rope = resistance(design, &net.main_ropes.rope);
     let rope_name = CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", "N", ROPE_FACTOR);
     let outcomes = [
-        Outcome::at_most(name, at_an_end, bolt, design.limits.anchor_utilisation),
-        Outcome::at_most(rope_name, between, rope, design.limits.rope_utilisation),
+        (Kind::Bolts, Outcome::at_most(name, at_an_end, bolt, design.limits.anchor_utilisation)),
+        (Kind::BetweenBolts, Outcome::at_most(rope_name, between, rope, design.limits.rope_utilisation)),
     ];
     outcomes
         .into_iter()
-        .map(|outcome| {
+        .map(|(kind, outcome)| {
             let mut outcome =
                 outcome.only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
-            outcome.kind = Kind::Bolts;
+            outcome.kind = kind;
             if outcome.holds() && spacing > MOST_RINGS * net.main_ropes.ring_spacing {
                 outcome.leave_open(Opening::OutOfRange(format!(
                     "the lowest rope is modelled as held at every ring, and between bolts {spacing:.2} m apart it would hang free (at most {MOST_RINGS} ring spacings)"

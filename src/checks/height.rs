@@ -1,6 +1,6 @@
 //! Height the barrier keeps against the least share the design asks for.
 
-use crate::checks::outcome::{CheckName, Outcome};
+use crate::checks::outcome::{CheckName, Kind, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::sources::DESIGN_LIMIT;
@@ -11,5 +11,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         return Vec::new();
     }
     let name = CheckName::new("residual_height", "Residual height over initial height", "-", DESIGN_LIMIT);
-    vec![Outcome::at_least(name, demands.residual_height, design.limits.residual_height)]
+    let outcome = Outcome::at_least(name, demands.residual_height, design.limits.residual_height);
+    vec![Outcome { kind: Kind::HeightLeft, ..outcome }]
 }

@@ -6,6 +6,7 @@ pub mod brakes;
 pub mod credibility;
 pub mod detailing;
 pub mod height;
+pub mod implausible;
 pub mod not_covered;
 pub mod outcome;
 pub mod range;

@@ -37,8 +37,12 @@ pub enum Kind {
     Any,
     /// The share of the mass that is held.
     MassHeld,
+    /// The share of its height that the barrier keeps.
+    HeightLeft,
     /// The worst bolt of the lowest rope, whose load the equations spread evenly.
     Bolts,
+    /// The lowest rope between its bolts, whose tension grows as the load of the worst bolt to the power of 2/3.
+    BetweenBolts,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
 }

@@ -13,6 +13,8 @@ pub struct Observed {
     /// Largest total force of the smoothed signal (N) and its time (s).
     pub force_peak: f64,
     pub force_peak_time: f64,
+    /// Largest force along the bed of the smoothed signal (N).
+    pub push_peak: f64,
     /// Largest total force within one sampling interval (N).
     pub force_peak_sampled: f64,
     /// The smoothed signal, sample by sample (N).
@@ -196,6 +198,7 @@ impl Observed {
         let unit = guideline.input.density * guideline.input.gravity_normal;
         let width = design.channel.width;
         let thin = 2.0 * design.flow.sizes.quantile(0.5);
+        self.push_peak = peak_along;
         if self.deposit_depth > thin {
             let at_rest = tail_mean(&along, reading.tail);
             self.k_effective = Some(2.0 * at_rest / width / (unit * self.deposit_depth.powi(2)));

@@ -18,7 +18,7 @@ pub const FILE: &str = "recording.bin";
 
 const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]

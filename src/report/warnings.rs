@@ -2,6 +2,7 @@
 
 use crate::checks::credibility::STRAY_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
+use crate::checks::implausible::implausible;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::rope_outside;
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet, OutsideRange};
@@ -15,6 +16,7 @@ type Warning = fn(&Run) -> Option<String>;
 
 /// All warnings, in the order of the report.
 const WARNINGS: &[Warning] = &[
+    inputs_far_from_usual,
     flow_not_stopped,
     flow_that_stopped_upstream,
     slows_on_its_way,
@@ -34,6 +36,20 @@ const WARNINGS: &[Warning] = &[
     soft_ropes,
     validation_case_like_this,
 ];
+
+/// What is allowed, but mostly a slip.
+fn inputs_far_from_usual(run: &Run) -> Option<String> {
+    let odd: Vec<String> = implausible(&run.file.design)
+        .iter()
+        .map(|input| {
+            let [least, most] = input.range.map(|value| with_unit(value, input.unit));
+            format!("{} is {} (usually {least} to {most})", input.what, with_unit(input.found, input.unit))
+        })
+        .collect();
+    (!odd.is_empty()).then(|| {
+        format!("Inputs far from what such barriers usually have; check the number and its unit: {}.", odd.join("; "))
+    })
+}
 
 /// What the design lets stand that would be open otherwise.
 fn formulas_that_stand(run: &Run) -> Option<String> {

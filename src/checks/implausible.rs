@@ -1,0 +1,147 @@
+//! Inputs that are allowed but outside what such barriers usually have: mostly a wrong unit or a slip of the decimal point. They are
+//! told to the reviewer and change no verdict.
+
+use crate::design::{Arrival, BarrierDesign, Design, FlexibleNet, RigidWall, Rope};
+
+/// An input and the range in which it usually lies, both in `unit`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Usual {
+    /// Path of its key in the design file, or what follows from several.
+    pub what: String,
+    pub found: f64,
+    pub unit: &'static str,
+    pub range: [f64; 2],
+}
+
+impl Usual {
+    /// Written so that a NaN is outside.
+    fn holds(&self) -> bool {
+        self.found >= self.range[0] && self.found <= self.range[1]
+    }
+}
+
+fn usual(what: impl Into<String>, found: f64, unit: &'static str, range: [f64; 2]) -> Usual {
+    Usual { what: what.into(), found, unit, range }
+}
+
+/// The inputs of a design that lie outside their usual range.
+pub fn implausible(design: &Design) -> Vec<Usual> {
+    let mut all = of_flow_and_channel(design);
+    all.extend(of_limits_and_factors(design));
+    match &design.barrier {
+        BarrierDesign::RigidWall(wall) => all.extend(of_wall(wall, design.channel.width)),
+        BarrierDesign::FlexibleNet(net) => all.extend(of_net(net)),
+    }
+    all.into_iter().filter(|input| !input.holds()).collect()
+}
+
+fn of_flow_and_channel(design: &Design) -> Vec<Usual> {
+    let (channel, flow) = (&design.channel, &design.flow);
+    let angle = |friction: f64| friction.atan().to_degrees();
+    let mut all = vec![
+        usual("channel.slope", channel.slope.to_degrees(), "deg", [1.0, 50.0]),
+        usual("channel.base_friction", angle(channel.base_friction), "deg", [5.0, 50.0]),
+        usual("flow.grain_friction", angle(flow.grain_friction), "deg", [15.0, 55.0]),
+        usual("flow.solid_density", flow.solid_density, "kg/m³", [2200.0, 3200.0]),
+        usual("flow.bulk_density", flow.bulk_density, "kg/m³", [1000.0, 2500.0]),
+    ];
+    let velocity = match flow.arrival {
+        Arrival::Surge(surge) => Some(("flow.arrival.surge.velocity", surge.velocity)),
+        Arrival::DamBreak(block) => {
+            block.velocity_at_barrier.map(|velocity| ("flow.arrival.dam_break.velocity_at_barrier", velocity))
+        }
+    };
+    all.extend(velocity.map(|(what, velocity)| usual(what, velocity, "m/s", [0.5, 20.0])));
+    all
+}
+
+/// A barrier that may lose most of the flow, or of its height, stops none; resistances without a factor are seldom design values.
+fn of_limits_and_factors(design: &Design) -> Vec<Usual> {
+    let (limits, factors) = (&design.limits, &design.factors);
+    let mut all = vec![usual("limits.retained_mass", limits.retained_mass, "-", [0.5, 1.0])];
+    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) {
+        all.push(usual("limits.residual_height", limits.residual_height, "-", [0.3, 1.0]));
+        all.push(usual("factors.rope", factors.rope, "", [1.2, 5.0]));
+    }
+    all
+}
+
+/// A wall that holds more than about 1 MPa over its face is thicker than it is high.
+fn of_wall(wall: &RigidWall, width: f64) -> Vec<Usual> {
+    let mean = |resistance: f64| resistance / (width * wall.height) * 1e-6;
+    let resistance =
+        wall.resistance.map(|it| usual("barrier.rigid_wall.resistance over its face", mean(it), "MPa", [0.0, 1.0]));
+    let stability = wall.stability.into_iter().flat_map(|stability| {
+        [
+            usual("barrier.rigid_wall.stability.density", stability.density, "kg/m³", [1600.0, 2800.0]),
+            usual(
+                "barrier.rigid_wall.stability.base_friction",
+                stability.base_friction.atan().to_degrees(),
+                "deg",
+                [10.0, 45.0],
+            ),
+        ]
+    });
+    resistance.into_iter().chain(stability).collect()
+}
+
+/// Of anchors, bolts and dissipators in use; the resistance of the ground is seldom more.
+fn of_net(net: &FlexibleNet) -> Vec<Usual> {
+    let ropes =
+        [("net_rope", &net.net_rope), ("main_ropes", &net.main_ropes.rope), ("lateral_ropes", &net.lateral_rope)];
+    let mut all: Vec<Usual> = ropes.into_iter().flat_map(|(name, rope)| of_rope(name, rope)).collect();
+    all.push(usual("barrier.flexible_net.anchors.resistance", net.anchor_resistance, "N", [0.0, 3e6]));
+    let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);
+    all.extend(bolt.map(|it| usual("barrier.flexible_net.anchors.bed_bolt_resistance", it, "N", [0.0, 1e6])));
+    if let Some(dissipator) = net.dissipators {
+        all.push(usual("barrier.flexible_net.dissipators.plateau_force", dissipator.plateau, "N", [0.0, 1e6]));
+        all.push(usual("barrier.flexible_net.dissipators.stroke", dissipator.stroke, "m", [0.0, 6.0]));
+    }
+    all
+}
+
+/// Wire is drawn to 1570 to 2160 MPa and fills 45 to 60 % of the circle; with the full circle the modulus of the best strands is about
+/// 120 GPa. What is soft has a warning of its own.
+fn of_rope(name: &str, rope: &Rope) -> [Usual; 2] {
+    let circle = std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
+    let path = format!("barrier.flexible_net.{name}");
+    [
+        usual(format!("{path}.modulus"), rope.modulus * 1e-9, "GPa", [0.0, 130.0]),
+        usual(
+            format!("{path}.breaking_load over the circle of its diameter"),
+            rope.breaking_load / circle * 1e-9,
+            "GPa",
+            [0.2, 1.3],
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::read::read_design;
+
+    /// What is told of `small_net` with one value replaced.
+    fn told(from: &str, to: &str) -> Vec<String> {
+        let text = include_str!("../../designs/small_net.yaml");
+        assert!(text.contains(from), "{from}");
+        let design = read_design("x", text.replacen(from, to, 1).as_bytes()).unwrap().design;
+        implausible(&design).into_iter().map(|input| input.what).collect()
+    }
+
+    #[test]
+    fn what_is_far_from_usual_is_told() {
+        assert!(told("width: 3 m", "width: 3 m").is_empty());
+        for (from, to, what) in [
+            ("retained_mass: 90 %", "retained_mass: 0.9 %", "limits.retained_mass"),
+            ("residual_height: 50 %", "residual_height: 5 %", "limits.residual_height"),
+            ("resistance: 250 kN", "resistance: 250 MN", "barrier.flexible_net.anchors.resistance"),
+            ("modulus: 10 GPa", "modulus: 200 GPa", "barrier.flexible_net.net_rope.modulus"),
+            ("velocity: 4.6 m/s", "velocity: 26 m/s", "flow.arrival.surge.velocity"),
+            ("solid_density: 2650", "solid_density: 5650", "flow.solid_density"),
+            ("plateau_force: 130 kN", "plateau_force: 1.5 MN", "barrier.flexible_net.dissipators.plateau_force"),
+        ] {
+            assert_eq!(told(from, to), [what]);
+        }
+    }
+}
