@@ -1,13 +1,14 @@
 //! The quick validation cases hold.
 
-use barrier_check::commands::validate::{Selection, run_case};
+use barrier_check::commands::validate::Selection;
 use barrier_check::report::validation::Row;
+use barrier_check::validation::case::Ran;
 
 fn holds(suite: &str) {
     let names = [suite.to_string()];
     let cases = Selection { names: &names, quick_only: true }.cases().expect("suite is known");
     for case in cases {
-        let ran = run_case(case);
+        let ran = Ran::of(case);
         assert!(ran.passed(), "{:#?}", Row::of(&ran));
     }
 }

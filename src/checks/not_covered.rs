@@ -220,8 +220,7 @@ fn leave_open_harder_flows(design: &Design, guideline: &Guideline, seen: FirstSu
         } else {
             continue;
         };
-        outcome
-            .leave_open(Opening::OutOfRange(format!("the simulated flow {found}; with what it shows, {why}")));
+        outcome.leave_open(Opening::OutOfRange(format!("the simulated flow {found}; with what it shows, {why}")));
     }
 }
 

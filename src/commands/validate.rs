@@ -2,27 +2,13 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use crate::commands::ExitCode;
 use crate::report::validation::{Row, render, verdict_line};
 use crate::report::write::write_all;
 use crate::terminal;
 use crate::validation::CASES;
-use crate::validation::case::{Broken, Case, Cost, Finding, Suite};
-
-/// A case that has run.
-pub struct Ran {
-    pub case: &'static Case,
-    pub outcome: Result<Vec<Finding>, Broken>,
-    pub time: Duration,
-}
-
-impl Ran {
-    pub fn passed(&self) -> bool {
-        self.outcome.as_ref().is_ok_and(|findings| findings.iter().all(Finding::holds))
-    }
-}
+use crate::validation::case::{Case, Cost, Ran, Suite};
 
 /// Which cases to run.
 pub struct Selection<'a> {
@@ -69,7 +55,7 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
     }
     let mut ran = Vec::new();
     for case in cases {
-        let done = run_case(case);
+        let done = Ran::of(case);
         tell(&done);
         ran.push(done);
     }
@@ -88,17 +74,6 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         }
     }
     if ran.iter().all(Ran::passed) { ExitCode::Pass } else { ExitCode::Fail }
-}
-
-/// Runs one case.
-pub fn run_case(case: &'static Case) -> Ran {
-    let started = Instant::now();
-    // Inside a pool no step has to enter one; cases that gain from more threads make their own.
-    let outcome = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(case.run),
-        Err(error) => Err(Broken::Scene(error.to_string())),
-    };
-    Ran { case, outcome, time: started.elapsed() }
 }
 
 /// One line for the case, and one for each finding.

@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 use tera::{Context, Tera};
 
-use crate::commands::validate::Ran;
 use crate::report::write::ReportFile;
-use crate::validation::case::{Finding, Wanted};
+use crate::validation::case::{Finding, Ran, Wanted};
 
 const HTML: &str = include_str!("../../templates/validation.html");
 const MARKDOWN: &str = include_str!("../../templates/validation.md");

@@ -1,6 +1,8 @@
 //! What a validation case is: a scene with a known answer, how well it must be met, how good the evidence is and where it
 //! is weak.
 
+use std::time::{Duration, Instant};
+
 use crate::dem::simulation::Unstable;
 
 /// One case: a constant in its own file and a line in [`crate::validation::CASES`].
@@ -16,6 +18,30 @@ pub struct Case {
     pub weakness: &'static str,
     pub cost: Cost,
     pub run: fn() -> Result<Vec<Finding>, Broken>,
+}
+
+/// A case that has run.
+pub struct Ran {
+    pub case: &'static Case,
+    pub outcome: Result<Vec<Finding>, Broken>,
+    pub time: Duration,
+}
+
+impl Ran {
+    /// Runs one case.
+    pub fn of(case: &'static Case) -> Self {
+        let started = Instant::now();
+        // Inside a pool no step has to enter one; cases that gain from more threads make their own.
+        let outcome = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+            Ok(pool) => pool.install(case.run),
+            Err(error) => Err(Broken::Scene(error.to_string())),
+        };
+        Self { case, outcome, time: started.elapsed() }
+    }
+
+    pub fn passed(&self) -> bool {
+        self.outcome.as_ref().is_ok_and(|findings| findings.iter().all(Finding::holds))
+    }
 }
 
 /// The suites that `barrier-check validate` knows.
