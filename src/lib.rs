@@ -49,7 +49,8 @@
 //! * The same file and seed give the same result bit for bit, on any number of threads: work is cut into blocks by the
 //!   number of grains alone, blocks never write each other's rows, and sums run in a fixed order. Vector instructions
 //!   are chosen at run time ([`dem::simd::widest`]), but always eight numbers stand side by side, every lane does the same
-//!   operations in the same order, and nothing is fused.
+//!   operations in the same order, and nothing is fused. What is not rounded exactly (sines, powers) goes through the crate `libm`, not
+//!   through the system's library; `clippy.toml` keeps it so.
 //! * A block is moved as soon as it and all before it are loaded ([`dem::sweep`]); until then its rows stand still.
 //! * A pair of bodies that could touch in the step at hand is evaluated in it: lists expire and sleeping pairs wake by bounds
 //!   on motion, never by guesses ([`dem::neighbours::clocks`]).

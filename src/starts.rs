@@ -63,12 +63,17 @@ impl Spread {
     }
 }
 
+const ROUNDED: f64 = 1e9;
+
 /// k_n = t_0.95(n − 1) √(1 + 1/n): a normal quantity whose scatter is known from n values alone (EN 1990:2002, Annex D,
-/// table D.1, "V_X unknown").
+/// table D.1, "V_X unknown"). Rounded to ten digits: the distribution goes through the system's mathematical library, whose last bits
+/// differ between machines.
 pub fn k_n(starts: usize) -> f64 {
     let count = starts as f64;
     match StudentsT::new(0.0, 1.0, count - 1.0) {
-        Ok(student) if starts > 1 => student.inverse_cdf(0.95) * (1.0 + 1.0 / count).sqrt(),
+        Ok(student) if starts > 1 => {
+            (student.inverse_cdf(0.95) * (1.0 + 1.0 / count).sqrt() * ROUNDED).round() / ROUNDED
+        }
         _ => f64::INFINITY,
     }
 }

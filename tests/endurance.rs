@@ -66,7 +66,7 @@ fn heap() -> Simulation {
         barrier: Some(barrier),
         material,
         surfaces: vec![floor(0.3)],
-        gravity: Vec3::new(9.81 * slope.sin(), 0.0, -9.81 * slope.cos()),
+        gravity: Vec3::new(9.81 * libm::sin(slope), 0.0, -9.81 * libm::cos(slope)),
         ..free_model(grains, GrainShape::Clump)
     };
     let mut simulation = Simulation::new(model, STEP, 0.3 * RADIUS, 1e3);

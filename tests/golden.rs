@@ -35,12 +35,12 @@ fn digest(model: BarrierModel, threads: usize, steps: usize) -> String {
     })
 }
 
-/// Functions of the mathematical library differ between systems; the numbers are those of Linux on x86-64.
-#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+/// The same on every machine: what the standard rounds exactly is left to the machine, all else goes through the crate libm, and nothing
+/// is fused. `machines.rs` shows it for x86-64 with and without fused multiplication.
 #[test]
 fn the_last_bit_is_as_it_was() {
-    assert_eq!(digest(BarrierModel::SlidingRopes, 1, 6000), "f5a17815498dc931");
-    assert_eq!(digest(BarrierModel::Cylinders, 2, 2500), "9d28d7f042b70981");
+    assert_eq!(digest(BarrierModel::SlidingRopes, 1, 6000), "594f03a4d6946218");
+    assert_eq!(digest(BarrierModel::Cylinders, 2, 2500), "1406122ca9680022");
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn rope(height: f64, speed: f64, slope: f64) -> Simulation {
     let (y, z) = (Vec3::y(), Vec3::z());
     let planes = [plane(Vec3::zeros(), z), plane(Vec3::zeros(), y), plane(y * 4.0, -y)];
     barrier.ground = Some(Ground::under(&barrier.nodes, planes, [1e8, 4e9]));
-    let gravity = Vec3::new(GRAVITY * slope.sin(), 0.0, -GRAVITY * slope.cos());
+    let gravity = Vec3::new(GRAVITY * libm::sin(slope), 0.0, -GRAVITY * libm::cos(slope));
     let model = Model { barrier: Some(barrier), gravity, ..free_model(Vec::new(), GrainShape::Sphere) };
     let mut simulation = Simulation::new(model, 2e-5, 0.1, 1e3);
     simulation.start_account();
@@ -54,7 +54,7 @@ fn knot(simulation: &Simulation) -> &Node {
 #[test]
 fn a_rope_on_a_slope_slides_as_a_block_does_and_stands_where_friction_holds_it() {
     for (slope, expected) in
-        [(30_f64, GRAVITY * (30_f64.to_radians().sin() - FRICTION * 30_f64.to_radians().cos())), (15.0, 0.0)]
+        [(30_f64, GRAVITY * (libm::sin(30_f64.to_radians()) - FRICTION * libm::cos(30_f64.to_radians()))), (15.0, 0.0)]
     {
         let mut simulation = rope(RADIUS, 0.0, slope.to_radians());
         let (settled, time) = (10_000, 50_000);

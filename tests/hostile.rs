@@ -89,7 +89,7 @@ fn scaled(value: &str, random: &mut fastrand::Rng) -> String {
     let end = value.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(value.len());
     let Ok(number) = value[..end].parse::<f64>() else { return value.to_string() };
     let factor = match random.u8(0..4) {
-        0 => 10_f64.powf(random.f64() * 12.0 - 6.0),
+        0 => libm::pow(10_f64, random.f64() * 12.0 - 6.0),
         1 => -1.0,
         _ => 0.3 + 2.0 * random.f64(),
     };

@@ -91,7 +91,7 @@ impl State {
     }
 
     fn scale(&self) -> f64 {
-        (self.count.min(LARGEST_MADE) as f64 / LABORATORY).cbrt()
+        libm::cbrt(self.count.min(LARGEST_MADE) as f64 / LABORATORY)
     }
 
     fn make(&self) -> Vec<Grain> {
@@ -178,7 +178,7 @@ impl State {
             surfaces,
             barrier: None,
             material: Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 1.327 },
-            gravity: Vec3::new(slope.sin(), 0.0, -slope.cos()) * 9.81,
+            gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * 9.81,
             wall_levels: Vec::new(),
             outlet: f64::INFINITY,
         }

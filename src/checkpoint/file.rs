@@ -122,6 +122,16 @@ pub fn clear(folder: &Path) {
     let _ = fs::remove_dir(folder);
 }
 
+/// Names of the files of simulations in a vault's folder.
+pub fn simulations(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| is_ours(name) && name.ends_with(".bin") && !name.starts_with("order")).collect()
+}
+
 /// Whether a file's name is one that the program gives: `order`, or sixteen hexadecimal digits, with one of three endings.
 fn is_ours(name: &str) -> bool {
     let Some((stem, end)) = name.rsplit_once('.') else { return false };

@@ -8,6 +8,7 @@
 
 pub mod file;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -58,6 +59,8 @@ pub struct Vault {
     /// Whether anything has been kept, and whether it was told that nothing can be.
     kept: AtomicBool,
     warned: AtomicBool,
+    /// Names of the files that the simulations of this run have asked for.
+    asked: Mutex<BTreeSet<String>>,
 }
 
 impl Vault {
@@ -65,7 +68,8 @@ impl Vault {
     /// A `fresh` one takes nothing of what is there.
     pub fn new(folder: PathBuf, order: Order, every: Duration, keep_done: bool, fresh: bool) -> Self {
         let no = || AtomicBool::new(false);
-        Self { folder, order, every, keep_done, fresh, ordered: Mutex::new(false), kept: no(), warned: no() }
+        let (ordered, asked) = (Mutex::new(false), Mutex::default());
+        Self { folder, order, every, keep_done, fresh, ordered, kept: no(), warned: no(), asked }
     }
 
     /// The order of the vault in `folder`.
@@ -82,8 +86,16 @@ impl Vault {
         &self.folder
     }
 
-    /// Throws everything away: the run is done.
+    /// Throws everything away: the run is done. A resumed run to which nothing of what lay there belonged has begun anew, which is told.
     pub fn clear(&self) {
+        let asked = self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let others = file::simulations(&self.folder).into_iter().filter(|name| !asked.contains(name)).count();
+        if !self.fresh && others > 0 {
+            terminal::warn(format_args!(
+                "note: {others} of the simulations kept in {} belong to none of this run and were not used",
+                self.folder.display()
+            ));
+        }
         file::clear(&self.folder);
     }
 
@@ -91,8 +103,9 @@ impl Vault {
     pub fn shelf(&self, identity: &str) -> Shelf<'_> {
         let digest = sha2::Sha256::digest(identity.as_bytes());
         let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-        let print = self.order.print(identity);
-        Shelf { vault: self, name: format!("{name}.bin"), print, last: Mutex::new(Instant::now()) }
+        let (name, print) = (format!("{name}.bin"), self.order.print(identity));
+        self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(name.clone());
+        Shelf { vault: self, name, print, last: Mutex::new(Instant::now()) }
     }
 
     fn put_order(&self) -> std::io::Result<()> {

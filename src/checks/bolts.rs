@@ -57,12 +57,12 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
 /// Tension (N) of a rope with EA (N) that lay straight between two bolts and now carries a load (N), spread evenly. With the span s, the
 /// sag f = P s/(8 T) and the stretch 8 f²/(3 s²) = T/EA it is (P² EA/24)^⅓, whatever the span.
 fn tension_between(load: f64, axial: f64) -> f64 {
-    (load * load * axial / 24.0).cbrt()
+    libm::cbrt(load * load * axial / 24.0)
 }
 
 /// Load (N) of the bolt at an end of the rope, which no rope pulls from the other side, or of one along it if that is more.
 fn end_bolt(load: f64, axial: f64) -> f64 {
-    let end = tension_between(load, axial).hypot(0.5 * load);
+    let end = libm::hypot(tension_between(load, axial), 0.5 * load);
     // Written so that a NaN stays one.
     if end <= load { load } else { end }
 }

@@ -85,7 +85,7 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
             ..least(
                 "Froude number",
                 input.froude(),
-                (5.3 / input.dynamic_pressure).powf(1.0 / 1.5),
+                libm::pow(5.3 / input.dynamic_pressure, 1.0 / 1.5),
                 "",
                 "where 5.3 Fr^−1.5 of Cui et al. 2015 equals the design's λ",
                 "a model that follows the Froude number asks for more than the design's λ: compare with \"Other models for the first surge\" and raise λ if they agree",
@@ -228,7 +228,7 @@ fn of_sag(design: &Design, guideline: &Guideline) -> Option<Rule> {
 
 fn of_point_load(design: &Design, net: &FlexibleNet) -> Option<Rule> {
     let (_, height) = design.loads.point_load?;
-    let second = net.main_ropes.heights.get(1)? * (design.channel.slope + net.tilt).cos();
+    let second = net.main_ropes.heights.get(1)? * libm::cos(design.channel.slope + net.tilt);
     (net.bottom == Bottom::Fixed).then(|| {
         least(
             "Height of the point load over the second main rope",

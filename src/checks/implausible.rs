@@ -37,7 +37,7 @@ pub fn implausible(design: &Design) -> Vec<Usual> {
 
 fn of_flow_and_channel(design: &Design) -> Vec<Usual> {
     let (channel, flow) = (&design.channel, &design.flow);
-    let angle = |friction: f64| friction.atan().to_degrees();
+    let angle = |friction: f64| libm::atan(friction).to_degrees();
     let mut all = vec![
         usual("channel.slope", channel.slope.to_degrees(), "deg", [1.0, 50.0]),
         usual("channel.base_friction", angle(channel.base_friction), "deg", [5.0, 50.0]),
@@ -76,7 +76,7 @@ fn of_wall(wall: &RigidWall, width: f64) -> Vec<Usual> {
             usual("barrier.rigid_wall.stability.density", stability.density, "kg/m³", [1600.0, 2800.0]),
             usual(
                 "barrier.rigid_wall.stability.base_friction",
-                stability.base_friction.atan().to_degrees(),
+                libm::atan(stability.base_friction).to_degrees(),
                 "deg",
                 [10.0, 45.0],
             ),

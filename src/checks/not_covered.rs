@@ -116,7 +116,7 @@ fn used_when_full(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option<[f64
     let power = if outcome.kind == Kind::BetweenBolts { 2.0 / 3.0 } else { 1.0 };
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
-        let full = demand * f64::powf(more * (1.0 + band), power);
+        let full = demand * libm::pow(more * (1.0 + band), power);
         // Asked so that what is not a number stays so.
         (if full > cap { cap } else { full }) / capacity
     };

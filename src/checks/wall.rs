@@ -97,7 +97,7 @@ mod tests {
         let weight = 2400.0 * crate::units::GRAVITY * 2.0 * 5.5;
         assert_relative_eq!(sliding.capacity.unwrap(), 0.7 * weight / 1.1, max_relative = 1e-9);
         let along = guideline(&design).largest_force / design.channel.width;
-        let level = along / 40_f64.to_radians().cos();
+        let level = along / libm::cos(40_f64.to_radians());
         assert_relative_eq!(sliding.demand.guideline.unwrap(), level, max_relative = 1e-9);
     }
 }

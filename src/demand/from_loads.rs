@@ -109,7 +109,7 @@ pub fn input(design: &Design) -> GuidelineInput {
     let barrier_height = height_over_bed(design);
     let empty = GuidelineInput {
         density: design.flow.bulk_density,
-        gravity_normal: GRAVITY * slope.cos(),
+        gravity_normal: GRAVITY * libm::cos(slope),
         earth_pressure: design.factors.earth_pressure,
         dynamic_pressure: design.factors.dynamic_pressure,
         depth,
@@ -148,7 +148,7 @@ impl EventFill {
 
 pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
     let volume_per_width = design.flow.event_volume / design.channel.width;
-    let repose = design.flow.grain_friction.atan();
+    let repose = libm::atan(design.flow.grain_friction);
     let height = |falls: f64| deposit_height(volume_per_width, design.channel.slope, falls, lean(design));
     EventFill {
         level: height(0.0),
@@ -199,7 +199,7 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
     let stability = wall.stability?;
     let (base_slope, bed_slope) = (stability.base_slope, design.channel.slope);
     Some(WallInput {
-        height: wall.height * wall.lean.cos() / (bed_slope - base_slope).cos(),
+        height: wall.height * libm::cos(wall.lean) / libm::cos(bed_slope - base_slope),
         thickness: stability.thickness,
         base_width: stability.base_width,
         density: stability.density,
@@ -213,13 +213,13 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
 /// Height of the barrier's top above the bed, normal to it (m).
 pub fn height_over_bed(design: &Design) -> f64 {
     match &design.barrier {
-        BarrierDesign::RigidWall(wall) => wall.height * wall.lean.cos(),
+        BarrierDesign::RigidWall(wall) => wall.height * libm::cos(wall.lean),
         BarrierDesign::FlexibleNet(net) => {
             let gap = match net.bottom {
                 Bottom::Fixed => 0.0,
                 Bottom::Opening(gap) => gap,
             };
-            net.height * (design.channel.slope + net.tilt).cos() + gap
+            net.height * libm::cos(design.channel.slope + net.tilt) + gap
         }
     }
 }
@@ -242,9 +242,9 @@ fn incoming(design: &Design) -> (f64, f64) {
 /// (Mangeney, Heinrich & Roche 2000). No granular front is faster, so this is an upper bound.
 fn front_velocity(design: &Design, block: &DamBreak) -> f64 {
     let slope = design.channel.slope;
-    let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
+    let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
     let sliding = 2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length);
-    let start = RITTER_FRONT.powi(2) * GRAVITY * slope.cos() * block.height;
+    let start = RITTER_FRONT.powi(2) * GRAVITY * libm::cos(slope) * block.height;
     sliding.max(start + 2.0 * acceleration.max(0.0) * block.distance).sqrt()
 }
 
@@ -272,7 +272,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
         dissipator: dissipator(design),
     };
     let top = height_over_bed(design);
-    let above_bed = |along: f64| top - (net.height - along) * lean(design).cos();
+    let above_bed = |along: f64| top - (net.height - along) * libm::cos(lean(design));
     let heights: Vec<f64> = net.main_ropes.heights.iter().map(|along| above_bed(*along)).collect();
     let last = heights.len() - 1;
     let weight = design.loads.self_weight.map_or(0.0, |weight| weight * net.height);
@@ -285,7 +285,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
                 let spread = case.strip_force(low, high) + point_on_rope(case, &heights, index, span.span);
                 let hung = if index == last { weight } else { 0.0 };
                 // The weight hangs plumb, the pressure acts along the bed: they are (90° − α) apart.
-                (spread * spread + hung * hung + 2.0 * spread * hung * design.channel.slope.sin()).sqrt()
+                (spread * spread + hung * hung + 2.0 * spread * hung * libm::sin(design.channel.slope)).sqrt()
             };
             // The surge whose moving flow starts or ends with the strip may lie between the stages.
             let room = (input.fill_height - input.moving_depth()).max(0.0);

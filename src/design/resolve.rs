@@ -42,9 +42,9 @@ fn channel(e: &Entries) -> Option<Channel> {
         width: value("width")?,
         slope: value("slope")?,
         wall_height: value("wall_height")?,
-        base_friction: value("base_friction").map_or(f64::NAN, f64::tan),
-        side_friction: value("side_friction").map_or(f64::NAN, f64::tan),
-        barrier_friction: value("barrier_friction").map_or(f64::NAN, f64::tan),
+        base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
+        side_friction: value("side_friction").map_or(f64::NAN, libm::tan),
+        barrier_friction: value("barrier_friction").map_or(f64::NAN, libm::tan),
     })
 }
 
@@ -63,7 +63,7 @@ fn flow(e: &Entries) -> Option<Flow> {
         known_from: curve_known_from(e),
         cut,
         aspect: value("grain_aspect")?,
-        grain_friction: value("grain_friction").map_or(f64::NAN, f64::tan),
+        grain_friction: value("grain_friction").map_or(f64::NAN, libm::tan),
         restitution: value("restitution")?,
         modulus: value("contact_modulus")?,
         arrival: arrival(e)?,
@@ -79,8 +79,8 @@ const FLATTEST_FRONT: f64 = 0.261_799_387_799_149_4;
 /// Angle to the bed of the front of a granular flow, tan = tan φ − tan α, with the friction angle φ of the grains and the slope α
 /// (Pouliquen 1999, for the thin tip of a front on a rough bed).
 fn granular_front(e: &Entries) -> Option<f64> {
-    let steepness = e.number("flow.grain_friction").map_or(0.0, f64::tan) - e.number("channel.slope")?.tan();
-    Some(steepness.atan().max(FLATTEST_FRONT))
+    let steepness = e.number("flow.grain_friction").map_or(0.0, libm::tan) - libm::tan(e.number("channel.slope")?);
+    Some(libm::atan(steepness).max(FLATTEST_FRONT))
 }
 
 fn arrival(e: &Entries) -> Option<Arrival> {
@@ -132,7 +132,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             density: value("density")?,
             base_width: value("base_width").unwrap_or(thickness),
             base_slope: value("base_slope")?,
-            base_friction: value("base_friction").map_or(f64::NAN, f64::tan),
+            base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
             sliding_factor: value("sliding_factor")?,
             overturning_factor: value("overturning_factor")?,
         })
@@ -177,7 +177,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             heights: rope_heights(e)?,
             rope: rope(e, "main_ropes")?,
             ring_spacing: value("main_ropes.rings.spacing")?,
-            ring_friction: value("main_ropes.rings.friction")?.tan(),
+            ring_friction: libm::tan(value("main_ropes.rings.friction")?),
             ring_diameter: value("main_ropes.rings.diameter")?,
             ring_modulus: value("main_ropes.rings.modulus")?,
             element_length: value("main_ropes.element_length")?,
@@ -256,7 +256,7 @@ fn loads(e: &Entries) -> Option<OtherLoads> {
     let pair = |first: &str, second: &str| value(first).zip(value(second));
     Some(OtherLoads {
         overflow_depth: value("overflow_depth"),
-        overflow_drag: value("overflow_friction").map(f64::tan).zip(value("overflow_length")),
+        overflow_drag: value("overflow_friction").map(libm::tan).zip(value("overflow_length")),
         to_the_top: e.text("loads.filling")? == "to_the_top",
         drained: pair("drained.earth_pressure_k", "drained.density"),
         point_load: pair("point_load.force", "point_load.height"),

@@ -355,11 +355,11 @@ fn point_load_on_the_barrier(e: &Entries) -> Option<Problem> {
     let path = "loads.point_load.height";
     let height = e.number(path)?;
     let wall = e.number("barrier.rigid_wall.height").zip(e.number("channel.slope")).map(|(height, slope)| {
-        e.number("barrier.rigid_wall.tilt").map_or(height, |tilt| height * (slope + tilt).cos())
+        e.number("barrier.rigid_wall.tilt").map_or(height, |tilt| height * libm::cos(slope + tilt))
     });
     let top = wall.or_else(|| {
         let lean = e.number("channel.slope")? + e.number(&at("tilt"))?;
-        Some(e.number(&at("height"))? * lean.cos() + e.number(&at("bottom.opening")).unwrap_or(0.0))
+        Some(e.number(&at("height"))? * libm::cos(lean) + e.number(&at("bottom.opening")).unwrap_or(0.0))
     })?;
     (height > top).then(|| {
         let allowed = format!("no more than the barrier's top, {} above the bed and normal to it", length(top));
@@ -580,7 +580,7 @@ fn dam_break_clears_the_barrier(e: &Entries) -> Option<Problem> {
     let barrier = if e.has_section(NET) { NET } else { "barrier.rigid_wall" };
     let of_barrier = |key: &str| e.number(&format!("{barrier}.{key}"));
     let lean = of_barrier("tilt").map_or(0.0, |tilt| tilt + e.number("channel.slope").unwrap_or(0.0));
-    let reach = (of_barrier("height")? * lean.sin()).max(0.0) + 0.5 * size_curve(e)?.quantile(1.0);
+    let reach = (of_barrier("height")? * libm::sin(lean)).max(0.0) + 0.5 * size_curve(e)?.quantile(1.0);
     (distance < reach).then(|| {
         let found =
             format!("a gate {} from the foot of a barrier that reaches {} upstream", length(distance), length(reach));

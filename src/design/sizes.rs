@@ -16,8 +16,8 @@ impl SizeCurve {
     /// outermost slopes on a logarithmic diameter axis. Needs two quantiles or more.
     pub fn through(quantiles: &[(f64, f64)]) -> Self {
         let extend = |from: (f64, f64), to: (f64, f64), share: f64| {
-            let slope = (to.1 / from.1).ln() / (to.0 - from.0);
-            (share, to.1 * (slope * (share - to.0)).exp())
+            let slope = libm::log(to.1 / from.1) / (to.0 - from.0);
+            (share, to.1 * libm::exp(slope * (share - to.0)))
         };
         let mut points = quantiles.to_vec();
         let count = points.len();
@@ -36,13 +36,13 @@ impl SizeCurve {
             Self::ByNumber { smallest, largest } => {
                 // Uniform in number: the mass finer than d grows with the fourth power of d.
                 let (low, high) = (smallest.powi(4), largest.powi(4));
-                (low + share * (high - low)).powf(0.25)
+                libm::pow(low + share * (high - low), 0.25)
             }
             Self::Unknown => f64::NAN,
             Self::ByMass(points) => {
                 let upper = points.iter().position(|point| point.0 >= share).unwrap_or(points.len() - 1).max(1);
                 let ((s0, d0), (s1, d1)) = (points[upper - 1], points[upper]);
-                d0 * (d1 / d0).powf(((share - s0) / (s1 - s0)).clamp(0.0, 1.0))
+                d0 * libm::pow(d1 / d0, ((share - s0) / (s1 - s0)).clamp(0.0, 1.0))
             }
         }
     }
@@ -124,7 +124,7 @@ impl SizeCurve {
             sum += mass_of(middle);
         }
         // The last grain overshoots: scale all by the same tiny amount so that the mass is exact.
-        let scale = (mass / sum).cbrt();
+        let scale = libm::cbrt(mass / sum);
         diameters.iter_mut().for_each(|diameter| *diameter *= scale);
         diameters
     }

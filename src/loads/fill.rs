@@ -6,7 +6,7 @@
 /// heap against the barrier, and ψ may be as much as its angle of repose. Infinite where surface and barrier do not meet the bed in a
 /// triangle.
 pub fn deposit_height(volume_per_width: f64, slope: f64, falls: f64, lean: f64) -> f64 {
-    let spread = (slope + falls).tan().recip() + lean.tan();
+    let spread = libm::tan(slope + falls).recip() + libm::tan(lean);
     if spread > 0.0 && slope + falls < std::f64::consts::FRAC_PI_2 + lean {
         (2.0 * volume_per_width / spread).sqrt()
     } else {
@@ -43,9 +43,9 @@ pub struct Retention {
 impl Deposit {
     /// V = ½ b H² (cot(θ − θ') + tan lean); for a plumb barrier b h'²/(2 (tan θ − tan θ')) with h' = H/cos θ. Derived.
     pub fn retention(self, flow_volume: f64) -> Retention {
-        let base = self.height * ((self.slope - self.surface).tan().recip() + self.lean.tan());
+        let base = self.height * (libm::tan(self.slope - self.surface).recip() + libm::tan(self.lean));
         let volume = 0.5 * self.width * self.height * base;
-        Retention { deposit: self, volume, length: base * self.slope.cos(), surges: volume / flow_volume }
+        Retention { deposit: self, volume, length: base * libm::cos(self.slope), surges: volume / flow_volume }
     }
 }
 
@@ -57,7 +57,11 @@ mod tests {
     #[test]
     fn a_level_deposit_fills_the_triangle_behind_the_barrier() {
         let height = deposit_height(10.0, 0.5, 0.0, 0.3);
-        assert_relative_eq!(0.5 * height * height * (1.0 / 0.5_f64.tan() + 0.3_f64.tan()), 10.0, max_relative = 1e-12);
+        assert_relative_eq!(
+            0.5 * height * height * (1.0 / libm::tan(0.5_f64) + libm::tan(0.3_f64)),
+            10.0,
+            max_relative = 1e-12
+        );
         assert_eq!(deposit_height(10.0, 0.0, 0.0, 0.0), 0.0);
     }
 
@@ -77,8 +81,13 @@ mod tests {
     fn matches_the_derived_volume() {
         // Plumb, H_b 5 m filled to 3/4, θ 20°, θ' 13.33°, b 12 m: 664.5 m³ over 29.5 m.
         let slope = 20_f64.to_radians();
-        let shape =
-            Deposit { width: 12.0, slope, lean: slope, height: 3.75 * slope.cos(), surface: 13.333_f64.to_radians() };
+        let shape = Deposit {
+            width: 12.0,
+            slope,
+            lean: slope,
+            height: 3.75 * libm::cos(slope),
+            surface: 13.333_f64.to_radians(),
+        };
         let held = shape.retention(332.25);
         assert_relative_eq!(held.volume, 664.5, max_relative = 1e-3);
         assert_relative_eq!(held.length, 29.5, max_relative = 2e-3);

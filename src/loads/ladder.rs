@@ -109,7 +109,7 @@ pub const MODELS: &[Model] = &[
         range: "viscous flume, h 7 to 11 cm, v 2.4 to 5.2 m/s",
         froude: None,
         certainty: Certainty::Read,
-        force: |input| [5.3 * input.froude().powf(-1.5) * momentum(input); 2],
+        force: |input| [5.3 * libm::pow(input.froude(), -1.5) * momentum(input); 2],
     },
     Model {
         name: "Hungr et al. 1984",
@@ -142,7 +142,7 @@ pub const MODELS: &[Model] = &[
         froude: None,
         certainty: Certainty::Memory,
         force: |input| {
-            let speed = (input.gravity_normal * input.depth).powf(0.6) * input.velocity.powf(0.8);
+            let speed = libm::pow(input.gravity_normal * input.depth, 0.6) * libm::pow(input.velocity, 0.8);
             [5.0 * input.density * speed * input.depth; 2]
         },
     },

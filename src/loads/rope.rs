@@ -54,7 +54,7 @@ impl RopeInput {
 
     /// Equilibrium with a given stroke at both ends, by bisection on the sag.
     fn with_stroke(&self, load: f64, stroke: f64) -> RopeState {
-        let tension_at = |sag: f64| (load * self.span * self.span / (8.0 * sag)).hypot(0.5 * load * self.span);
+        let tension_at = |sag: f64| libm::hypot(load * self.span * self.span / (8.0 * sag), 0.5 * load * self.span);
         let excess =
             |sag: f64| self.arc(sag) - self.span * (1.0 + tension_at(sag) / self.axial_stiffness) - 2.0 * stroke;
         let (mut low, mut high) = (1e-9 * self.span, self.span);
@@ -79,7 +79,7 @@ impl RopeInput {
         if slope < 1e-6 {
             return self.span * (1.0 + slope * slope / 6.0);
         }
-        0.5 * self.span * ((1.0 + slope * slope).sqrt() + slope.asinh() / slope)
+        0.5 * self.span * ((1.0 + slope * slope).sqrt() + libm::asinh(slope) / slope)
     }
 }
 

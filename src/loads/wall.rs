@@ -36,25 +36,25 @@ impl WallInput {
 
     /// Demand on sliding over the load R along the bed: its part along the base, and what its lift takes of the friction.
     pub fn sliding_share(&self) -> f64 {
-        let (sine, cosine) = self.difference().sin_cos();
-        cosine + self.face_lean.tan() * sine + self.base_friction * self.lift_share()
+        let (sine, cosine) = libm::sincos(self.difference());
+        cosine + libm::tan(self.face_lean) * sine + self.base_friction * self.lift_share()
     }
 
     /// Lift off the base over the load R along the bed.
     pub fn lift_share(&self) -> f64 {
-        let (sine, cosine) = self.difference().sin_cos();
-        (self.face_lean.tan() * cosine - sine).max(0.0)
+        let (sine, cosine) = libm::sincos(self.difference());
+        (libm::tan(self.face_lean) * cosine - sine).max(0.0)
     }
 
     /// Demand on sliding of a force on the wall (N/m), along the bed and normal to it, likewise.
     pub fn sliding_demand(&self, along: f64, off: f64) -> f64 {
-        let (sine, cosine) = self.difference().sin_cos();
+        let (sine, cosine) = libm::sincos(self.difference());
         along * cosine + off * sine + self.base_friction * self.lift(along, off)
     }
 
     /// Lift off the base of that force (N/m).
     pub fn lift(&self, along: f64, off: f64) -> f64 {
-        let (sine, cosine) = self.difference().sin_cos();
+        let (sine, cosine) = libm::sincos(self.difference());
         let lift = off * cosine - along * sine;
         // Asked so that what is not a number stays so.
         if lift <= 0.0 { 0.0 } else { lift }
@@ -63,13 +63,16 @@ impl WallInput {
     /// Force per width that friction can hold beyond the wall's own pull down the slope, without partial factor on it (N/m):
     /// N tan φ, and T.
     pub fn sliding(&self) -> [f64; 2] {
-        [self.weight() * self.base_slope.cos() * self.base_friction, self.weight() * self.base_slope.sin()]
+        [self.weight() * libm::cos(self.base_slope) * self.base_friction, self.weight() * libm::sin(self.base_slope)]
     }
 
     /// Moments about the downstream edge (N m/m): what holds, and what the wall's own pull adds to the load.
     pub fn overturning(&self) -> [f64; 2] {
         let arm = self.base_width - 0.5 * self.thickness;
-        [self.weight() * self.base_slope.cos() * arm, self.weight() * self.base_slope.sin() * 0.5 * self.height]
+        [
+            self.weight() * libm::cos(self.base_slope) * arm,
+            self.weight() * libm::sin(self.base_slope) * 0.5 * self.height,
+        ]
     }
 }
 
@@ -103,7 +106,7 @@ mod tests {
             thickness: 1.0,
             base_width: 1.0,
             density: 2400.0,
-            base_friction: slope.tan(),
+            base_friction: libm::tan(slope),
             base_slope: slope,
             bed_slope: slope,
             face_lean: 0.0,
@@ -126,12 +129,12 @@ mod tests {
         };
         // Plumb on a level base: a force R along the bed is R / cos α, level, and lifts nothing.
         let plumb = wall(0.7);
-        assert_relative_eq!(plumb.sliding_share(), 1.0 / 0.7_f64.cos(), max_relative = 1e-12);
+        assert_relative_eq!(plumb.sliding_share(), 1.0 / libm::cos(0.7_f64), max_relative = 1e-12);
         assert!(plumb.lift_share() < 1e-12);
-        let force = [0.7_f64.cos(), 0.7_f64.sin()];
+        let force = [libm::cos(0.7_f64), libm::sin(0.7_f64)];
         assert_relative_eq!(plumb.sliding_demand(force[0], force[1]), 1.0, max_relative = 1e-12);
         // Normal to the bed it is pressed down.
-        assert_relative_eq!(wall(0.0).sliding_share(), 0.7_f64.cos(), max_relative = 1e-12);
+        assert_relative_eq!(wall(0.0).sliding_share(), libm::cos(0.7_f64), max_relative = 1e-12);
         let over = wall(1.0);
         assert!(over.lift_share() > 0.0 && over.sliding_share() > plumb.sliding_share());
         assert!(plumb.lift(f64::NAN, 1.0).is_nan());

@@ -182,7 +182,7 @@ fn observed_cell(spread: Spread, first: Option<Spread>, unit: &str) -> Cell {
 fn differs(one: &Spread, other: &Spread) -> bool {
     let difference = (one.mean - other.mean).abs();
     if one.starts > 1 && other.starts > 1 {
-        return difference > CLEAR * one.deviation.hypot(other.deviation);
+        return difference > CLEAR * libm::hypot(one.deviation, other.deviation);
     }
     difference > UNTOLD * other.mean.abs()
 }

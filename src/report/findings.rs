@@ -33,7 +33,7 @@ fn per_width(force: f64, design: &Design) -> String {
 
 fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     let weight = design.flow.mass * GRAVITY;
-    let downhill = with_unit(weight * design.channel.slope.sin(), "N");
+    let downhill = with_unit(weight * libm::sin(design.channel.slope), "N");
     let incoming =
         format!("{} deep, {}", with_unit(seen.incoming.depth, "m"), with_unit(seen.incoming.velocity, "m/s"));
     let fastest = format!("at {:.2} s", seen.velocity_peak_time);
@@ -96,7 +96,7 @@ fn extension_row(seen: &Observed) -> Option<Row> {
 
 /// The force at rest beside the weight of what is held.
 fn at_rest_remark(design: &Design, seen: &Observed) -> String {
-    let downhill = seen.retained * design.flow.mass * GRAVITY * design.channel.slope.sin();
+    let downhill = seen.retained * design.flow.mass * GRAVITY * libm::sin(design.channel.slope);
     let springs = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let why = if seen.force_residual > downhill && springs {
         "; more, because the barrier has sprung back and presses the deposit up the slope, against the friction of the bed"

@@ -235,7 +235,7 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
         rope.load / 1e3,
         rope.load / 1e3,
         rope.state.sag,
-        horizontal.hypot(half),
+        libm::hypot(horizontal, half),
     )
 }
 

@@ -210,7 +210,7 @@ pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
         height: run.guideline.input.barrier_height,
         wall: match &design.barrier {
             BarrierDesign::RigidWall(wall) => {
-                Some([-wall.lean.sin(), wall.lean.cos()].map(|share| wall.height * share))
+                Some([-libm::sin(wall.lean), libm::cos(wall.lean)].map(|share| wall.height * share))
             }
             BarrierDesign::FlexibleNet(_) => None,
         },
@@ -301,7 +301,9 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
 pub fn replay(run: &Run, seen: &Simulated) -> Option<Replay> {
     let channel = &run.file.design.channel;
     let wall = match &run.file.design.barrier {
-        BarrierDesign::RigidWall(wall) => Some([-wall.lean.sin(), wall.lean.cos()].map(|share| wall.height * share)),
+        BarrierDesign::RigidWall(wall) => {
+            Some([-libm::sin(wall.lean), libm::cos(wall.lean)].map(|share| wall.height * share))
+        }
         BarrierDesign::FlexibleNet(_) => None,
     };
     pack(&seen.histories.film, &Stage { width: channel.width, slope: channel.slope, wall })

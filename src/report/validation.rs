@@ -102,7 +102,7 @@ fn number(value: f64) -> String {
     if value == 0.0 {
         "0".to_string()
     } else if (1e-3..1e5).contains(&size) {
-        let digits = (3 - size.log10().floor() as i32).max(0) as usize;
+        let digits = (3 - libm::log10(size).floor() as i32).max(0) as usize;
         format!("{value:.digits$}")
     } else {
         format!("{value:.3e}")

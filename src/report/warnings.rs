@@ -150,7 +150,7 @@ fn flow_that_stopped_upstream(run: &Run) -> Option<String> {
 fn slows_on_its_way(run: &Run) -> Option<String> {
     let design = &run.file.design;
     let Arrival::Surge(surge) = design.flow.arrival else { return None };
-    let (slope, friction) = (design.channel.slope, design.channel.base_friction.atan());
+    let (slope, friction) = (design.channel.slope, libm::atan(design.channel.base_friction));
     let seen = run.simulated.as_ref().map_or(String::new(), |seen| {
         let front = seen
             .first()

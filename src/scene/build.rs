@@ -64,7 +64,7 @@ const SETTLING_DRAG: f64 = 2.5;
 
 /// Gravity in the channel frame.
 fn gravity(slope: f64) -> Vec3 {
-    Vec3::new(GRAVITY * slope.sin(), 0.0, -GRAVITY * slope.cos())
+    Vec3::new(GRAVITY * libm::sin(slope), 0.0, -GRAVITY * libm::cos(slope))
 }
 
 /// Builds the scene: packs the flow, lets it settle behind the gate, puts the barrier up.
@@ -131,7 +131,7 @@ pub fn expected_time(design: &Design) -> f64 {
         Arrival::Surge(surge) => (surge.length + surge.run_in) / surge.velocity,
         Arrival::DamBreak(DamBreak { length, distance, .. }) => {
             let slope = design.channel.slope;
-            let acceleration = GRAVITY * (slope.sin() - design.channel.base_friction * slope.cos());
+            let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
             (2.0 * (distance + length) / acceleration.max(0.1)).sqrt()
         }
     }
@@ -140,7 +140,7 @@ pub fn expected_time(design: &Design) -> f64 {
 /// How far upstream of its foot the barrier reaches (m).
 fn reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
     match &design.barrier {
-        BarrierDesign::RigidWall(wall) => (wall.height * wall.lean.sin()).max(0.0),
+        BarrierDesign::RigidWall(wall) => (wall.height * libm::sin(wall.lean)).max(0.0),
         BarrierDesign::FlexibleNet(_) => net.map_or(0.0, BuiltNet::reach),
     }
 }
@@ -203,7 +203,7 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
         all.push(surface(SurfaceRole::Gate, x * block.front, -x, [Span::unbounded(z), across], channel.side_friction));
     }
     if let BarrierDesign::RigidWall(wall) = &design.barrier {
-        let (sine, cosine) = wall.lean.sin_cos();
+        let (sine, cosine) = libm::sincos(wall.lean);
         let (up, upstream) = (z * cosine - x * sine, -x * cosine - z * sine);
         let spans = [Span::bounded(up, 0.0, wall.height), across];
         all.push(surface(SurfaceRole::Wall, Vec3::zeros(), upstream, spans, channel.barrier_friction));

@@ -176,7 +176,7 @@ pub fn tell(runs: &[(Setting, Vec<Point>)]) -> Vec<Told> {
                     let [this, other] = [points.as_slice(), reference].map(|points| spread(points, *read));
                     let relative = |spread: Spread| spread.deviation / other.mean / (spread.starts as f64).sqrt();
                     (other.mean != 0.0)
-                        .then(|| (*name, this.mean / other.mean - 1.0, relative(this).hypot(relative(other))))
+                        .then(|| (*name, this.mean / other.mean - 1.0, libm::hypot(relative(this), relative(other))))
                 })
                 .collect(),
         })

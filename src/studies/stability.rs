@@ -305,7 +305,7 @@ const DENSITY: f64 = 2600.0;
 /// A small push that differs from body to body (m/s).
 fn nudge(number: usize) -> Vec3 {
     let turn = 2.4 * number as f64;
-    Vec3::new(turn.cos(), turn.sin(), (1.7 * turn).cos()) * 1e-3
+    Vec3::new(libm::cos(turn), libm::sin(turn), libm::cos(1.7 * turn)) * 1e-3
 }
 
 fn row() -> Model {
@@ -355,7 +355,11 @@ fn wedge() -> Model {
     model.material = material(1.0, 0.0);
     let half = 20_f64.to_radians();
     let near = RADIUS * (1.0 - PRESSED);
-    let normals = [Vec3::new(half.sin(), 0.0, half.cos()), Vec3::new(half.sin(), 0.0, -half.cos()), -Vec3::x()];
+    let normals = [
+        Vec3::new(libm::sin(half), 0.0, libm::cos(half)),
+        Vec3::new(libm::sin(half), 0.0, -libm::cos(half)),
+        -Vec3::x(),
+    ];
     model.surfaces = normals.map(|normal| plane(SurfaceRole::Side, normal * -near, normal, 0.0)).to_vec();
     model
 }

@@ -93,7 +93,7 @@ pub fn momenta(grains: &[Grain]) -> (Vec3, Vec3) {
 /// A cloud of clumps thrown together: `count` grains on a jittered grid, flying towards the middle.
 pub fn cloud(count: usize, seed: u64) -> Vec<Grain> {
     let mut random = fastrand::Rng::with_seed(seed);
-    let side = (count as f64).cbrt().ceil() as usize;
+    let side = libm::cbrt(count as f64).ceil() as usize;
     let spacing = 0.03;
     let middle = Vec3::repeat(0.5 * spacing * side as f64);
     (0..count)

@@ -12,7 +12,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use nalgebra::UnitQuaternion;
+use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::dem::Vec3;
 use crate::dem::elements::strength::Strength;
@@ -417,8 +417,11 @@ impl<F: FnMut(usize, &Strain)> Work for StrainAll<'_, F> {
     }
 }
 
-/// A frame whose first axis runs along `line`.
+/// A frame whose first axis runs along `line`: turned from the x axis by the shortest way, by a half turn about z where that is not one.
+/// With the unit vector t along the line the quaternion is (1 + x·t, x × t), made one long.
 pub fn frame_along(line: &Vec3) -> UnitQuaternion<f64> {
-    UnitQuaternion::rotation_between(&Vec3::x(), line)
-        .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::PI))
+    let along = line.normalize();
+    let turn = Quaternion::from_parts(1.0 + along.x, Vec3::x().cross(&along));
+    let half_turn = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 0.0, 0.0, 1.0));
+    UnitQuaternion::try_new(turn, 1e-12).unwrap_or(half_turn)
 }

@@ -29,15 +29,15 @@ pub fn push_at_rest(simulation: &Simulation, grains: &[Grain], dead: &[bool]) ->
             SurfaceRole::Side | SurfaceRole::Gate => {}
         }
     }
-    let slope = gravity.x.atan2(-gravity.z);
+    let slope = libm::atan2(gravity.x, -gravity.z);
     // On the grains: the base pushes up (z) and holds back (−x); the wall pushes back (−x) and holds up (z).
-    let base_angle = (-base.x).atan2(base.z);
-    let wall_angle = if wall.x == 0.0 { 0.0 } else { (wall.z / -wall.x).atan() };
+    let base_angle = libm::atan2(-base.x, base.z);
+    let wall_angle = if wall.x == 0.0 { 0.0 } else { libm::atan(wall.z / -wall.x) };
     let weight = mass * gravity.norm();
     if base.z <= 0.0 || mass == 0.0 {
         return 0.0;
     }
-    weight * (slope - base_angle).sin() * wall_angle.cos() / (base_angle + wall_angle).cos()
+    weight * libm::sin(slope - base_angle) * libm::cos(wall_angle) / libm::cos(base_angle + wall_angle)
 }
 
 /// Forces along the channel with which grains at rest and moving grains touch the barrier at this instant (N).

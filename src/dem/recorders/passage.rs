@@ -37,7 +37,7 @@ impl Screen {
 
     /// A wall with its foot at x = 0.
     pub fn of_wall(wall: &WallFace) -> Self {
-        let (sine, cosine) = wall.lean.sin_cos();
+        let (sine, cosine) = libm::sincos(wall.lean);
         let row = |up: f64| [0.0, wall.width].map(|across| Vec3::new(-sine * up, across, cosine * up)).to_vec();
         Self { rows: vec![row(0.0), row(wall.height)], nearest_x: (-sine * wall.height).min(0.0) }
     }

@@ -46,7 +46,7 @@ impl GrainBody {
     pub fn clump(diameter: f64, aspect: f64, density: f64) -> Self {
         let wanted_volume = std::f64::consts::PI / 6.0 * diameter.powi(3);
         let unit_volume = Self::union_of_two(1.0, aspect - 1.0, 1.0).mass;
-        let radius = (wanted_volume / unit_volume).cbrt();
+        let radius = libm::cbrt(wanted_volume / unit_volume);
         Self::union_of_two(radius, (aspect - 1.0) * radius, density)
     }
 

@@ -160,7 +160,7 @@ pub mod tests {
     pub fn input() -> GuidelineInput {
         GuidelineInput {
             density: 2000.0,
-            gravity_normal: 9.81 * 20_f64.to_radians().cos(),
+            gravity_normal: 9.81 * libm::cos(20_f64.to_radians()),
             earth_pressure: 1.0,
             dynamic_pressure: 1.0,
             depth: 1.0,

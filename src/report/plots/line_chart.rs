@@ -230,7 +230,7 @@ fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
 /// A step of 1, 2 or 5 times a power of ten that cuts `span` into four to ten parts.
 fn nice_step(span: f64) -> f64 {
     let rough = span / 6.0;
-    let power = 10_f64.powf(rough.log10().floor());
+    let power = libm::pow(10_f64, libm::log10(rough).floor());
     let choices = [1.0, 2.0, 5.0, 10.0];
     choices.into_iter().map(|choice| choice * power).find(|step| *step >= rough).unwrap_or(power)
 }

@@ -51,7 +51,7 @@ impl Scales {
 
 /// Where a value lies between two others on a logarithmic scale.
 fn share(value: f64, low: f64, high: f64) -> f64 {
-    (value / low).ln() / (high / low).ln()
+    libm::log(value / low) / libm::log(high / low)
 }
 
 impl Pareto {
@@ -127,8 +127,8 @@ fn draw_line(number: usize, line: &Line, scales: &Scales, out: &mut String) {
 
 /// 1, 2 and 5 times the powers of ten between two values.
 fn ticks(low: f64, high: f64) -> Vec<f64> {
-    let from = low.log10().floor() as i32;
-    let powers = from..=high.log10().ceil() as i32;
+    let from = libm::log10(low).floor() as i32;
+    let powers = from..=libm::log10(high).ceil() as i32;
     let values = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|first| first * 10_f64.powi(power)));
     values.filter(|value| (low..=high).contains(value)).map(|value| (value * 1e6).round() / 1e6).collect()
 }

@@ -30,7 +30,7 @@ pub struct Setting {
 }
 
 pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
-    let (sine, cosine) = setting.slope.sin_cos();
+    let (sine, cosine) = libm::sincos(setting.slope);
     let turned = |place: &Vec3| (place.x * cosine + place.z * sine, place.z * cosine - place.x * sine);
     let reach = setting.height / cosine;
     let (left, right) = (-UPSTREAM * reach, DOWNSTREAM * reach);

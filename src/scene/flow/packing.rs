@@ -168,7 +168,7 @@ type Counts = nalgebra::Vector3<usize>;
 /// Grains on a jittered grid that fills the box, sizes and directions at random.
 fn scatter(bodies: &[GrainBody], room: PackingRoom, seed: u64) -> Vec<Grain> {
     let mut random = fastrand::Rng::with_seed(seed);
-    let cell = (room.volume() / bodies.len().max(1) as f64).cbrt();
+    let cell = libm::cbrt(room.volume() / bodies.len().max(1) as f64);
     let mut counts = room.size.map(|length| (length / cell).round().max(1.0) as usize);
     let spacing = |counts: &Counts| room.size.component_div(&counts.map(|count| count as f64));
     let place = |cell: usize, counts: &Counts, within: Vec3| {

@@ -36,8 +36,11 @@ impl Block {
                 Self { front: -distance, length, height, nose: 0.0, tip: 0.0, velocity: 0.0 }
             }
             Arrival::Surge(Surge { length, depth, velocity, front_angle, run_in }) => {
-                let nose = (depth / front_angle.tan()).clamp(0.0, 2.0 * LONGEST_NOSE * length);
-                let gain = 2.0 * GRAVITY * (channel.slope.sin() - channel.base_friction * channel.slope.cos()) * run_in;
+                let nose = (depth / libm::tan(front_angle)).clamp(0.0, 2.0 * LONGEST_NOSE * length);
+                let gain = 2.0
+                    * GRAVITY
+                    * (libm::sin(channel.slope) - channel.base_friction * libm::cos(channel.slope))
+                    * run_in;
                 let velocity = (velocity * velocity - gain).max(0.25 * velocity * velocity).sqrt();
                 let thin = (TIP * flow.sizes.quantile(0.5)).min(depth);
                 let tip = 0.5 * thin * thin * nose / depth;

@@ -102,7 +102,7 @@ impl Builder<'_> {
     /// Unit vectors up the barrier's plane and out of it, upstream.
     pub(super) fn directions(&self) -> [Vec3; 2] {
         let lean = self.channel.slope + self.design.tilt;
-        [Vec3::new(-lean.sin(), 0.0, lean.cos()), Vec3::new(-lean.cos(), 0.0, -lean.sin())]
+        [Vec3::new(-libm::sin(lean), 0.0, libm::cos(lean)), Vec3::new(-libm::cos(lean), 0.0, -libm::sin(lean))]
     }
 
     /// A point of the barrier's plane: `across` from the first side wall, `up` along the plane.
@@ -112,7 +112,7 @@ impl Builder<'_> {
             Bottom::Fixed => 0.0,
             Bottom::Opening(gap) => gap,
         };
-        Vec3::new(-lean.sin() * up, across, lean.cos() * up + lift)
+        Vec3::new(-libm::sin(lean) * up, across, libm::cos(lean) * up + lift)
     }
 
     pub(super) fn add_node(&mut self, position: Vec3, fixed: bool) -> u32 {

@@ -158,16 +158,16 @@ struct Shape {
 
 impl Shape {
     fn of(root: f64) -> Self {
-        Self { root, ratio: (root.cosh() + root.cos()) / (root.sinh() + root.sin()) }
+        Self { root, ratio: (libm::cosh(root) + libm::cos(root)) / (libm::sinh(root) + libm::sin(root)) }
     }
 
     fn value(&self, x: f64) -> f64 {
         let s = self.root * x;
-        s.cosh() - s.cos() - self.ratio * (s.sinh() - s.sin())
+        libm::cosh(s) - libm::cos(s) - self.ratio * (libm::sinh(s) - libm::sin(s))
     }
 
     fn slope(&self, x: f64) -> f64 {
         let s = self.root * x;
-        self.root * (s.sinh() + s.sin() - self.ratio * (s.cosh() - s.cos()))
+        self.root * (libm::sinh(s) + libm::sin(s) - self.ratio * (libm::cosh(s) - libm::cos(s)))
     }
 }

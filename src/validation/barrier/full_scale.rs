@@ -114,7 +114,7 @@ fn braked() -> Result<Vec<Finding>, Broken> {
     findings.extend(held_against(&limited, "sliding, stroke of 2.5 m", &FB_ED, false));
     let rougher = run_changed(SITE_A, 4, |design| {
         unlimited(design);
-        design.channel.base_friction = ROUGHER_BED.to_radians().tan();
+        design.channel.base_friction = libm::tan(ROUGHER_BED.to_radians());
     })?;
     findings.extend(held_against(&rougher, "sliding, bed 27° (flow 5 % slower)", &FB_ED, false));
     Ok(findings)

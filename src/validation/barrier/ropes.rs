@@ -224,7 +224,7 @@ fn braked() -> Result<Vec<Finding>, Broken> {
     let weight = load * SPAN;
     let (vertical, stretch) = (0.5 * weight, section().axial);
     let horizontal = (plateau * plateau - vertical * vertical).sqrt();
-    let own_span = horizontal * SPAN / stretch + 2.0 * horizontal / load * (vertical / horizontal).asinh();
+    let own_span = horizontal * SPAN / stretch + 2.0 * horizontal / load * libm::asinh(vertical / horizontal);
     let stroke = 0.5 * (SPAN - own_span) * plateau / horizontal;
     let own_sag = weight * SPAN / (8.0 * stretch) + (plateau - horizontal) / load;
     let sag = own_sag + stroke * vertical / plateau;

@@ -156,7 +156,7 @@ fn fit(profile: &[(f64, f64)]) -> (f64, f64) {
     let all: f64 = profile.iter().map(|(_, stress)| (stress - mean).powi(2)).sum();
     let left = |length: f64| {
         // For a given length the best weight ρ g follows by least squares.
-        let shape = |depth: f64| length * (1.0 - (-depth / length).exp());
+        let shape = |depth: f64| length * (1.0 - libm::exp(-depth / length));
         let (up, down) = profile.iter().fold((0.0, 0.0), |(up, down), (depth, stress)| {
             (up + shape(*depth) * stress, down + shape(*depth).powi(2))
         });

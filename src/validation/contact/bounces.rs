@@ -59,8 +59,8 @@ fn bounced(height: f64, stiffness: f64, restitution: f64) -> f64 {
     // Overlap and its rate at a time, from overlap 0 and the speed of the fall.
     let at = |time: f64| {
         let sine = (speed - zeta * frequency * weight) / damped;
-        let (s, c) = (damped * time).sin_cos();
-        let decay = (-zeta * frequency * time).exp();
+        let (s, c) = libm::sincos(damped * time);
+        let decay = libm::exp(-zeta * frequency * time);
         let swing = sine * s - weight * c;
         let rate = damped * (sine * c + weight * s) - zeta * frequency * swing;
         (weight + decay * swing, decay * rate)

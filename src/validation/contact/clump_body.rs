@@ -87,7 +87,7 @@ fn precession() -> Result<Vec<Finding>, Broken> {
     let steps = (turns * std::f64::consts::TAU / 50.0 / 1e-5).round() as usize;
     step_on(&mut simulation, steps)?;
     let grain = simulation.grains.grain(0);
-    let angle = grain.axis.y.atan2(grain.axis.x);
+    let angle = libm::atan2(grain.axis.y, grain.axis.x);
     let expected = (steps as f64 * 1e-5 * 50.0).rem_euclid(std::f64::consts::TAU);
     let off = (angle - expected + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
     Ok(vec![

@@ -39,7 +39,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
 fn cooling_time(seed: u64) -> Result<(f64, f64), Broken> {
     let count = SIDE.pow(3);
     let volume = count as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / FRACTION;
-    let size = volume.cbrt();
+    let size = libm::cbrt(volume);
     let mut simulation = simulate_gas(size, seed);
     let mass = simulation.grains.bodies[0].mass;
     // Elastic at first, so that the velocities become Maxwell's.

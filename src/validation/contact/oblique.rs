@@ -118,7 +118,7 @@ fn aluminium_oxide() -> Result<Vec<Finding>, Broken> {
     let mut findings = Vec::new();
     for (degrees, tangential, spin) in [(40.0_f64, 0.7829, -544.2), (60.0, 0.8948, -355.2), (80.0, 0.9679, -123.4)] {
         let angle = degrees.to_radians();
-        let velocity = Vec3::new(angle.sin(), 0.0, -angle.cos()) * speed;
+        let velocity = Vec3::new(libm::sin(angle), 0.0, -libm::cos(angle)) * speed;
         let (out, turning) =
             after(&Impact { radius, density: 4000.0, modulus: 1e10, restitution, friction, velocity, spin: 0.0 })?;
         findings.push(Finding::near(format!("{degrees}°: e_t"), out.x / velocity.x, tangential, 0.01));
@@ -126,7 +126,7 @@ fn aluminium_oxide() -> Result<Vec<Finding>, Broken> {
         findings.push(Finding::near(format!("{degrees}°: ω (rad/s)"), -turning, spin, 0.01));
     }
     let angle = 10_f64.to_radians();
-    let velocity = Vec3::new(angle.sin(), 0.0, -angle.cos()) * speed;
+    let velocity = Vec3::new(libm::sin(angle), 0.0, -libm::cos(angle)) * speed;
     let (out, _) =
         after(&Impact { radius, density: 4000.0, modulus: 1e10, restitution, friction, velocity, spin: 0.0 })?;
     findings.push(Finding::told("10°: e_t (linear law 3/7)", out.x / velocity.x));

@@ -36,7 +36,7 @@ fn on_floor(velocity: f64, friction: f64, slope: f64) -> Simulation {
     grain.velocity.x = velocity;
     let mut model = Model {
         material: material(0.3, friction),
-        gravity: Vec3::new(slope.sin(), 0.0, -slope.cos()) * GRAVITY,
+        gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * GRAVITY,
         ..free_model(vec![grain], GrainShape::Sphere)
     };
     model.surfaces = vec![floor(friction)];
@@ -66,11 +66,11 @@ fn slope() -> Result<Vec<Finding>, Broken> {
     let mut findings = Vec::new();
     for degrees in [20.0_f64, 40.0, 58.0] {
         let slope = degrees.to_radians();
-        let mut simulation = on_floor(0.0, 25_f64.to_radians().tan(), slope);
+        let mut simulation = on_floor(0.0, libm::tan(25_f64.to_radians()), slope);
         run_until(&mut simulation, 0.1)?;
         let acceleration = simulation.grains.grain(0).velocity.x / simulation.time;
         let what = format!("acceleration on {degrees}° (m/s²)");
-        findings.push(Finding::near(what, acceleration, 5.0 / 7.0 * GRAVITY * slope.sin(), 0.005));
+        findings.push(Finding::near(what, acceleration, 5.0 / 7.0 * GRAVITY * libm::sin(slope), 0.005));
     }
     Ok(findings)
 }

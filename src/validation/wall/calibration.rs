@@ -100,7 +100,7 @@ fn heap() -> Result<Vec<Finding>, Broken> {
 fn slide() -> Result<Vec<Finding>, Broken> {
     let runs = runs()?;
     let slope = 40_f64.to_radians();
-    let expected = GRAVITY * (slope.sin() - 25_f64.to_radians().tan() * slope.cos());
+    let expected = GRAVITY * (libm::sin(slope) - libm::tan(25_f64.to_radians()) * libm::cos(slope));
     let (acceleration, _) = spread(runs, |run| {
         // While the whole block slides and nothing has met the wall.
         let at = |time: f64| run.histories.time.partition_point(|t| *t < time);
@@ -108,7 +108,7 @@ fn slide() -> Result<Vec<Finding>, Broken> {
         let gained = run.histories.velocity[to][0] - run.histories.velocity[from][0];
         gained / (run.histories.time[to] - run.histories.time[from])
     });
-    let friction = (GRAVITY * slope.sin() - acceleration) / (GRAVITY * slope.cos());
+    let friction = (GRAVITY * libm::sin(slope) - acceleration) / (GRAVITY * libm::cos(slope));
     Ok(vec![
         Finding::between("acceleration of the mean velocity (m/s²)", acceleration, 0.90 * expected, 1.05 * expected),
         // B11: the bed's own 0.466, and a little for the side walls; never more than tan 40°.

@@ -115,7 +115,7 @@ fn identity() -> Result<Vec<Finding>, Broken> {
     for (depth, velocity, slope) in [(0.5, 3.0, 10.0_f64), (1.0, 6.0, 20.0), (2.0, 9.0, 35.0)] {
         let input = GuidelineInput {
             density: 1900.0,
-            gravity_normal: GRAVITY * slope.to_radians().cos(),
+            gravity_normal: GRAVITY * libm::cos(slope.to_radians()),
             earth_pressure: 1.2,
             dynamic_pressure: 0.7,
             depth,

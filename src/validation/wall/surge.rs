@@ -62,7 +62,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
     let middle = spreads[1];
     for (modulus, spread) in MODULI.into_iter().zip(&spreads) {
         // Of one packing, as a designer meets it.
-        let scatter = spread.deviation.hypot(middle.deviation).max(1e-9);
+        let scatter = libm::hypot(spread.deviation, middle.deviation).max(1e-9);
         let apart = (spread.mean - middle.mean) / scatter;
         let what = format!(
             "largest force of {} GPa less that of 0.1 GPa, over the scatter of their difference",

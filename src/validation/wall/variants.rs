@@ -176,10 +176,10 @@ impl Amplitude {
 
 /// Slope of the straight line through the points' logarithms, and its standard error from the scatter of the starts.
 fn slope(points: &[Amplitude]) -> (f64, f64) {
-    let middle = points.iter().map(|point| point.coarser.ln()).sum::<f64>() / points.len() as f64;
-    let width: f64 = points.iter().map(|point| (point.coarser.ln() - middle).powi(2)).sum();
-    let weight = |point: &Amplitude| (point.coarser.ln() - middle) / width;
-    let slope = points.iter().map(|point| weight(point) * point.mean.ln()).sum();
+    let middle = points.iter().map(|point| libm::log(point.coarser)).sum::<f64>() / points.len() as f64;
+    let width: f64 = points.iter().map(|point| (libm::log(point.coarser) - middle).powi(2)).sum();
+    let weight = |point: &Amplitude| (libm::log(point.coarser) - middle) / width;
+    let slope = points.iter().map(|point| weight(point) * libm::log(point.mean)).sum();
     let variance = |point: &Amplitude| (weight(point) * point.spread / point.mean).powi(2) / point.starts;
     (slope, points.iter().map(variance).sum::<f64>().sqrt())
 }
