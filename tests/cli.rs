@@ -222,8 +222,7 @@ fn a_run_that_cannot_finish_is_undecided() {
     let design =
         std::fs::read_to_string("designs/small_net.yaml").expect("design").replace("longest: 20 s", "longest: 0.3 s");
     let out = folder("unfinished");
-    std::fs::create_dir_all(&out).expect("folder");
-    let path = out.join("unfinished.yaml");
+    let path = out.with_extension("yaml");
     std::fs::write(&path, design).expect("design is written");
     let output = run(&[path.to_str().expect("path"), "--out", out.to_str().expect("path")]);
     assert_eq!(output.status.code(), Some(2));

@@ -3,6 +3,7 @@
 //! Sealed ([`crate::sealed`]), in the wire format of postcard: what kind of file it is, the program that wrote it, the SHA-256 of the
 //! design it belongs to, and the content. A file is written beside its place, synced and renamed; the one it replaces stays as the one before.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -15,6 +16,9 @@ use crate::sealed::{Broken, seal, unseal};
 const NAME: &[u8; 8] = b"BARRKPT\n";
 /// Changes whenever anything that is kept changes.
 const FORMAT: u32 = 3;
+
+/// Bytes of a file at the most: ten times those of the largest run that is allowed.
+const LONGEST: u64 = 8 << 30;
 
 /// The program that writes, down to the commit: another one would go on differently.
 const PROGRAM: &str = concat!(env!("CARGO_PKG_VERSION"), " ", env!("BARRIER_CHECK_COMMIT"));
@@ -87,7 +91,12 @@ pub fn write<T: Serialize>(path: &Path, kind: Kind, design: Option<[u8; 32]>, co
 
 /// Reads a file of the given kind, kept for the given design.
 pub fn read<T: DeserializeOwned>(path: &Path, kind: Kind, design: Option<[u8; 32]>) -> Result<T, CheckpointError> {
-    let bytes = fs::read(path).map_err(|error| match error.kind() {
+    // Looked at first: a pipe would wait for somebody to write, a device has no end.
+    let regular = fs::metadata(path).and_then(|found| match found.is_file() && found.len() <= LONGEST {
+        true => fs::read(path),
+        false => Err(io::Error::other("it is no regular file of a fair size")),
+    });
+    let bytes = regular.map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => CheckpointError::Missing,
         _ => CheckpointError::Unreadable(error),
     })?;
@@ -120,6 +129,15 @@ pub fn clear(folder: &Path) {
         }
     }
     let _ = fs::remove_dir(folder);
+}
+
+/// Removes the simulations of a vault but for those named.
+pub fn clear_others(folder: &Path, names: &BTreeSet<String>) {
+    for name in simulations(folder).into_iter().filter(|name| !names.contains(name)) {
+        let path = folder.join(name);
+        let _ = fs::remove_file(previous(&path));
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// Names of the files of simulations in a vault's folder.

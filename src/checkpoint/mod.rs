@@ -23,7 +23,7 @@ use crate::terminal;
 
 /// Name of a vault's folder within that of the report.
 pub const FOLDER: &str = "checkpoint";
-const ORDER: &str = "order.bin";
+pub const ORDER: &str = "order.bin";
 
 /// What was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,21 +108,24 @@ impl Vault {
         Shelf { vault: self, name, print, last: Mutex::new(Instant::now()) }
     }
 
+    /// Once something of this run is kept, the order takes the place of the one before, and only then what was kept for that one goes: a
+    /// program that is killed in between leaves one of the two.
     fn put_order(&self) -> std::io::Result<()> {
         let mut ordered = self.ordered.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if !*ordered {
-            if self.fresh {
-                file::clear(&self.folder);
-            }
             write(&self.folder.join(ORDER), Kind::Order, None, &self.order)?;
             *ordered = true;
+            if self.fresh {
+                let asked = self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                file::clear_others(&self.folder, &asked);
+            }
         }
         Ok(())
     }
 
     fn put<T: Serialize>(&self, name: &str, print: [u8; 32], content: &T) {
-        let result =
-            self.put_order().and_then(|()| write(&self.folder.join(name), Kind::Simulation, Some(print), content));
+        let kept = write(&self.folder.join(name), Kind::Simulation, Some(print), content);
+        let result = kept.and_then(|()| self.put_order());
         match result {
             Ok(()) => self.kept.store(true, Ordering::Relaxed),
             Err(error) => {

@@ -1,6 +1,6 @@
 //! `barrier-check DESIGN`: from a design file to a report and an exit code.
 
-use std::io::{IsTerminal, Read, Write};
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,20 +11,19 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, Order, Vault};
 use crate::commands::ExitCode;
-use crate::commands::output::{exit_code, summarise, write_report};
+use crate::commands::input::{self, LONGEST_TEXT};
+use crate::commands::output::{exit_code, hand_over, summarise, write_report};
 use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, Purpose, read_design, read_design_for};
 use crate::fidelity::choose;
 use crate::load_cases::{cases, factored};
 use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
+use crate::report::folder::{Folder, Named, folder_name};
 use crate::scene::estimate::{Estimate, estimate};
 use crate::scene::event::{ProgressReport, Watch};
 use crate::simulated::RunError;
 use crate::terminal;
-
-/// Bytes read of a file at the most; the document refuses anything near.
-const MOST_READ: u64 = 2 << 20;
 
 /// Whether Ctrl-C was pressed.
 pub static STOP: AtomicBool = AtomicBool::new(false);
@@ -49,21 +48,26 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
+    let place = folder.path().to_path_buf();
     let Wishes { starts, vary, vtk, .. } = wishes;
     let order = Order { name: file.name.clone(), design: file.text.clone(), starts, vary, vtk };
-    let vault = open_vault(&folder, order, &file, keep_every, true);
+    let vault = open_vault(&place, order, &file, keep_every, true);
     if Vault::order_in(vault.folder()).is_ok() {
         terminal::warn(format_args!(
             "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
             vault.folder().display(),
-            folder.display()
+            place.display()
         ));
     }
-    run_kept(file, &folder, wishes, &vault)
+    run_kept(file, folder, wishes, &vault)
 }
 
 /// Goes on with a run that was interrupted, whose report was to go to `folder`.
 pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> ExitCode {
+    let claimed = match folder.is_dir().then(|| claim(folder, None, Named::Explicitly)).transpose() {
+        Ok(claimed) => claimed,
+        Err(code) => return code,
+    };
     let kept = folder.join(checkpoint::FOLDER);
     let order = match Vault::order_in(&kept) {
         Ok(order) => order,
@@ -82,13 +86,14 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
     let file = match read_design(&format!("{}.yaml", order.name), &order.design) {
         Ok(file) => file,
         Err(problems) => {
-            let _ = write!(std::io::stderr(), "{problems}");
+            terminal::warn(problems.to_string().trim_end());
             return ExitCode::Undecided;
         }
     };
+    let Some(claimed) = claimed else { return ExitCode::Undecided };
     let Order { starts, vary, vtk, .. } = order;
     let vault = open_vault(folder, order, &file, keep_every, false);
-    run_kept(file, folder, Wishes { threads, starts, vary, vtk }, &vault)
+    run_kept(file, claimed, Wishes { threads, starts, vary, vtk }, &vault)
 }
 
 fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Duration, fresh: bool) -> Vault {
@@ -101,15 +106,12 @@ fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Durati
 }
 
 /// Runs a design whose simulations are kept in `vault`, and writes its report into `folder`.
-fn run_kept(file: DesignFile, folder: &Path, wishes: Wishes, vault: &Vault) -> ExitCode {
-    let there_before = folder.exists();
-    if let Err(code) = make_folder(folder) {
-        return code;
-    }
-    match simulate(file, wishes, Some(vault)).and_then(|run| Ok((write_report(&run, folder, wishes.vtk)?, run))) {
+fn run_kept(file: DesignFile, mut folder: Folder, wishes: Wishes, vault: &Vault) -> ExitCode {
+    let ran = simulate(file, wishes, Some(vault));
+    match ran.and_then(|run| Ok((write_report(&run, &mut folder, wishes.vtk)?, run))) {
         Ok((view, run)) => {
             vault.clear();
-            summarise(&view, folder, wishes.vtk);
+            summarise(&view, folder.path(), wishes.vtk);
             exit_code(run.verdict)
         }
         Err(error) => {
@@ -117,10 +119,11 @@ fn run_kept(file: DesignFile, folder: &Path, wishes: Wishes, vault: &Vault) -> E
             if vault.can_be_resumed() {
                 terminal::warn(format_args!(
                     "note: `barrier-check resume {}` goes on where the run was kept last",
-                    folder.display()
+                    folder.path().display()
                 ));
             }
-            give_up(folder, there_before)
+            tell_of_earlier_run(folder.path());
+            ExitCode::Undecided
         }
     }
 }
@@ -130,7 +133,7 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let file = match load(path) {
         Ok(file) => file,
         Err(problems) => {
-            let _ = write!(std::io::stderr(), "{problems}");
+            terminal::warn(problems.to_string().trim_end());
             return ExitCode::Undecided;
         }
     };
@@ -175,69 +178,42 @@ fn duration(seconds: f64) -> String {
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
 pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
-    let (file, folder) = match prepare(Purpose::Equations, path, out) {
+    let (file, mut folder) = match prepare(Purpose::Equations, path, out) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
-    let there_before = folder.exists();
-    if let Err(code) = make_folder(&folder) {
-        return code;
-    }
-    let run = by_equations(file);
-    match write_report(&run, &folder, false) {
-        Ok(view) => {
-            summarise(&view, &folder, false);
-            exit_code(run.verdict)
-        }
-        Err(error) => {
-            terminal::warn(format_args!("error: {error}"));
-            give_up(&folder, there_before)
-        }
-    }
+    hand_over(&by_equations(file), &mut folder, false)
 }
 
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// The design, and the folder its report goes to.
-fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignFile, PathBuf), ExitCode> {
+fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignFile, Folder), ExitCode> {
     let suffix = match purpose {
         Purpose::Simulation => "",
         Purpose::Equations => "_loads",
     };
-    let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(format!("{name}{suffix}")), PathBuf::from);
+    let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(folder_name(name) + suffix), PathBuf::from);
     match load_for(purpose, path) {
         Ok(file) => {
-            let folder = folder_of(&file.name);
+            let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
+            let folder = claim(&folder_of(&file.name), Some(path), named)?;
             Ok((file, folder))
         }
         Err(problems) => {
-            let _ = write!(std::io::stderr(), "{problems}");
+            terminal::warn(problems.to_string().trim_end());
             tell_of_earlier_run(&folder_of(&path.file_stem().unwrap_or_default().to_string_lossy()));
             Err(ExitCode::Undecided)
         }
     }
 }
 
-/// Makes the folder of the report before the run, so that nobody waits for what cannot be kept.
-fn make_folder(folder: &Path) -> Result<(), ExitCode> {
-    if folder.exists() && !folder.is_dir() {
-        terminal::warn(format_args!("error: {} is a file; --out needs a folder", folder.display()));
-        return Err(ExitCode::Undecided);
-    }
-    std::fs::create_dir_all(folder).map_err(|error| {
-        terminal::warn(format_args!("error: the report could not be written to {}: {error}", folder.display()));
+/// Takes the folder of a report before the run, so that nobody waits for what cannot be kept.
+pub fn claim(folder: &Path, source: Option<&Path>, named: Named) -> Result<Folder, ExitCode> {
+    Folder::claim(folder, source, named).map_err(|refusal| {
+        terminal::warn(format_args!("error: {refusal}"));
         ExitCode::Undecided
     })
-}
-
-/// Leaves the folder as it was.
-fn give_up(folder: &Path, there_before: bool) -> ExitCode {
-    if !there_before {
-        // Only if it is empty.
-        let _ = std::fs::remove_dir(folder);
-    }
-    tell_of_earlier_run(folder);
-    ExitCode::Undecided
 }
 
 /// Warns of a report that does not belong to this run.
@@ -255,14 +231,14 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 /// The same for a purpose.
 fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
     let name = path.display().to_string();
-    let mut bytes = Vec::new();
-    let opened = std::fs::File::open(path).and_then(|file| file.take(MOST_READ).read_to_end(&mut bytes));
-    if let Err(error) = opened {
-        let problem = Problem::new("", format!("a file that cannot be read: {error}"), "a design file in YAML")
-            .hint("the examples are in the folder `designs`");
-        return Err(Problems { file: name, list: vec![problem] });
+    match input::read(path, LONGEST_TEXT, b"") {
+        Ok(bytes) => read_design_for(purpose, &name, &bytes),
+        Err(error) => {
+            let problem = Problem::new("", format!("a file that cannot be read: {error}"), "a design file in YAML")
+                .hint("the examples are in the folder `designs`");
+            Err(Problems { file: name, list: vec![problem] })
+        }
     }
-    read_design_for(purpose, &name, &bytes)
 }
 
 /// Listens for Ctrl-C and for being asked to end: the first time the run is kept at its next stop and ends, the second time the

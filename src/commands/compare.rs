@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, Wishes, load, simulate};
-use crate::commands::output::{exit_code, write_report};
+use crate::commands::output::{exit_code, put, write_report};
 use crate::commands::report::read_recording;
 use crate::pipeline::Run;
 use crate::report::compare::{Variant, files};
-use crate::report::write::{inner, write_all};
+use crate::report::folder::{Folder, Named, folder_name};
 use crate::terminal;
 
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report and the page
@@ -29,17 +29,31 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     if refused {
         return ExitCode::Undecided;
     }
-    for (path, source) in paths.iter().zip(sources.into_iter().flatten()) {
+    // Their folders too: no run whose report cannot be written.
+    let sources: Vec<Source> = sources.into_iter().flatten().collect();
+    let names: Vec<String> = sources.iter().map(|source| free_name(source.name(), &mut folders)).collect();
+    let claimed = Folder::claim(out, None, Named::Explicitly).and_then(|page| {
+        let reports = names.iter().map(|name| page.claim_inner(name)).collect::<Result<Vec<_>, _>>()?;
+        Ok((page, reports))
+    });
+    let (mut page, mut reports) = match claimed {
+        Ok(claimed) => claimed,
+        Err(refusal) => {
+            terminal::warn(format_args!("error: {refusal}"));
+            return ExitCode::Undecided;
+        }
+    };
+    for ((path, source), folder) in paths.iter().zip(sources).zip(names) {
         terminal::warn(format_args!("{}", path.display()));
         match source.run(wishes) {
-            Ok(run) => variants.push(Variant { folder: free_name(&run.file.name, &mut folders), run }),
+            Ok(run) => variants.push(Variant { folder, run }),
             Err(error) => {
                 terminal::warn(format_args!("error: {error}"));
                 return ExitCode::Undecided;
             }
         }
     }
-    let written = write(&variants, out, wishes.vtk);
+    let written = write(&variants, &mut page, &mut reports, wishes.vtk);
     if let Err(error) = written {
         terminal::warn(format_args!("error: the comparison could not be written to {}: {error}", out.display()));
         return ExitCode::Undecided;
@@ -65,6 +79,13 @@ impl Source {
         load(path).map(|file| Self::Design(Box::new(file))).map_err(|problems| problems.to_string().into())
     }
 
+    fn name(&self) -> &str {
+        match self {
+            Self::Design(file) => &file.name,
+            Self::Recorded(run) => &run.file.name,
+        }
+    }
+
     fn run(self, wishes: Wishes) -> Result<Run, Failure> {
         match self {
             Self::Design(file) => simulate(*file, wishes, None),
@@ -73,18 +94,18 @@ impl Source {
     }
 }
 
-fn write(variants: &[Variant], out: &Path, with_vtk: bool) -> Result<(), Failure> {
-    for variant in variants {
-        write_report(&variant.run, &inner(out, &variant.folder)?, with_vtk)?;
+fn write(variants: &[Variant], page: &mut Folder, reports: &mut [Folder], with_vtk: bool) -> Result<(), Failure> {
+    for (variant, folder) in variants.iter().zip(reports) {
+        write_report(&variant.run, folder, with_vtk)?;
     }
-    let page = files(variants).map_err(|error| error.to_string())?;
-    Ok(write_all(out, &page)?)
+    put(page, &files(variants).map_err(|error| error.to_string())?)
 }
 
-/// The name, or with a number behind it if it is taken.
+/// A name for the folder of a design's report, with a number behind it if it is taken.
 fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let name = folder_name(name);
     let numbered = (2..).map(|number| format!("{name}_{number}"));
-    let free = std::iter::once(name.to_string()).chain(numbered).find(|name| !taken.contains(name));
+    let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
     let free = free.unwrap_or_default();
     taken.insert(free.clone());
     free

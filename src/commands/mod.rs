@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod compare;
+pub mod input;
 pub mod output;
 pub mod report;
 pub mod schema;

@@ -6,48 +6,48 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::check::Failure;
 use crate::pipeline::{Run, Verdict};
+use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;
 use crate::report::recording;
 use crate::report::render::render;
 use crate::report::series;
 use crate::report::view::View;
 use crate::report::vtk;
-use crate::report::write::{ReportFile, inner, remove_unless, write_all};
 use crate::terminal;
 
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
-pub fn hand_over(run: &Run, folder: &Path, with_vtk: bool) -> ExitCode {
+pub fn hand_over(run: &Run, folder: &mut Folder, with_vtk: bool) -> ExitCode {
     match write_report(run, folder, with_vtk) {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
         Ok(view) => {
-            summarise(&view, folder, with_vtk);
+            summarise(&view, folder.path(), with_vtk);
             exit_code(run.verdict)
         }
     }
 }
 
 /// Writes all files of the report into `folder`; returns what they show.
-pub fn write_report(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failure> {
-    let told =
-        |error: Failure| Failure::from(format!("the report could not be written to {}: {error}", folder.display()));
-    write_all_of(run, folder, with_vtk).map_err(told)
+pub fn write_report(run: &Run, folder: &mut Folder, with_vtk: bool) -> Result<View, Failure> {
+    let view = View::of(run);
+    let files = files(run, &view, with_vtk);
+    files.and_then(|files| put(folder, &files)).map_err(|error| {
+        Failure::from(format!("the report could not be written to {}: {error}", folder.path().display()))
+    })?;
+    Ok(view)
 }
 
-fn write_all_of(run: &Run, folder: &Path, with_vtk: bool) -> Result<View, Failure> {
-    let view = View::of(run);
-    let files = files(run, &view)?;
-    if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
-        write_all(&inner(folder, vtk::FOLDER)?, &vtk::files(&seen.histories.film))?;
+/// Writes files, and tells what of the user's they would have replaced.
+pub fn put(folder: &mut Folder, files: &[ReportFile]) -> Result<(), Failure> {
+    for [name, to] in folder.write(files)? {
+        terminal::warn(format_args!(
+            "note: {} was not written by this program; it is now {to}",
+            folder.path().join(name).display()
+        ));
     }
-    // The report last: who finds it finds all.
-    write_all(folder, &files)?;
-    // What an earlier run has left and this one has not written would pass for its own.
-    let written: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
-    remove_unless(folder, &["histories.csv", "histories.parquet"], &written);
-    Ok(view)
+    Ok(())
 }
 
 /// What the program ends with after a verdict.
@@ -59,7 +59,7 @@ pub fn exit_code(verdict: Verdict) -> ExitCode {
     }
 }
 
-fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
+fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Failure> {
     let rendered = render(view).map_err(|error| error.to_string())?;
     let mut files =
         vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
@@ -67,6 +67,10 @@ fn files(run: &Run, view: &View) -> Result<Vec<ReportFile>, Failure> {
     if let Some(simulated) = &run.simulated {
         files.push(ReportFile::new("histories.csv", series::csv(&simulated.histories)));
         files.push(ReportFile::new("histories.parquet", series::parquet(&simulated.histories)?));
+    }
+    if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
+        let named = |file: ReportFile| ReportFile { name: format!("{}/{}", vtk::FOLDER, file.name), ..file };
+        files.extend(vtk::files(&seen.histories.film).into_iter().map(named));
     }
     files.push(ReportFile::new("design.yaml", run.file.text.clone()));
     files.push(ReportFile::new(recording::FILE, recording::encode(run)?));

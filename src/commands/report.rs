@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use crate::commands::ExitCode;
-use crate::commands::check::Failure;
+use crate::commands::check::{Failure, claim};
+use crate::commands::input::{self, LONGEST_RECORDING};
 use crate::commands::output::hand_over;
 use crate::pipeline::Run;
+use crate::report::folder::Named;
 use crate::report::recording::{self, decode};
 use crate::terminal;
 
@@ -16,14 +18,17 @@ pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
-        Ok(run) => hand_over(&run, folder, with_vtk),
+        Ok(run) => match claim(folder, None, Named::Explicitly) {
+            Ok(mut folder) => hand_over(&run, &mut folder, with_vtk),
+            Err(code) => code,
+        },
     }
 }
 
 /// The run recorded in `folder`.
 pub fn read_recording(folder: &Path) -> Result<Run, Failure> {
     let file = folder.join(recording::FILE);
-    let bytes = std::fs::read(&file).map_err(|error| {
+    let bytes = input::read(&file, LONGEST_RECORDING, recording::NAME).map_err(|error| {
         format!("{}: {error}. A folder written by `barrier-check DESIGN` is wanted", file.display())
     })?;
     Ok(decode(&bytes).map_err(|error| format!("{}: {error}", file.display()))?)

@@ -8,10 +8,12 @@ use sha2::Digest;
 
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, STOP, load};
+use crate::commands::input::{self, LONGEST_TEXT};
+use crate::commands::output::put;
 use crate::design::read::DesignFile;
+use crate::report::folder::{Folder, Named, folder_name, inner};
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
-use crate::report::write::write_all;
 use crate::scene::event::Watch;
 use crate::simulated::RunError;
 use crate::starts::side_by_side;
@@ -36,29 +38,34 @@ pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
 }
 
 fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes = input::read(path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{}: it is not text in UTF-8", path.display()))?;
     let study = Study::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
-    let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join("studies").join(name), PathBuf::from);
+    let folder_of = |name: &str| {
+        let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
+        let folder = out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
+        Folder::claim(&folder, Some(path), named)
+    };
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,
-        Study::Stability(plan) => return stability_map(&plan, &folder_of(&plan.name)),
+        Study::Stability(plan) => return stability_map(&plan, folder_of(&plan.name)?),
     };
     let beside = path.parent().unwrap_or(Path::new("."));
     let scenes = plan.scenes.iter().map(|scene| load(&beside.join(scene)).map_err(|problems| problems.to_string()));
     let scenes = scenes.collect::<Result<Vec<DesignFile>, String>>()?;
-    let folder = folder_of(&plan.name);
-    let kept = folder.join("kept");
+    let mut folder = folder_of(&plan.name)?;
+    let kept = inner(folder.path(), "kept")?;
     std::fs::create_dir_all(&kept)?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
-    write_all(&folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
-    Ok(folder.join("study.html"))
+    put(&mut folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
+    Ok(folder.path().join("study.html"))
 }
 
 /// Maps every scene, side by side, and writes the page.
-fn stability_map(plan: &StabilityPlan, folder: &Path) -> Result<PathBuf, Failure> {
+fn stability_map(plan: &StabilityPlan, mut folder: Folder) -> Result<PathBuf, Failure> {
     let threads = rayon::current_num_threads();
     let mapped = side_by_side(threads, SCENES.len(), |index| map(&SCENES[index], &plan.shares, plan.steps));
-    write_all(folder, &map_files(&plan.name, &mapped).map_err(|error| error.to_string())?)?;
+    put(&mut folder, &map_files(&plan.name, &mapped).map_err(|error| error.to_string())?)?;
     for scene in &mapped {
         let caught = if scene.all_caught() { "all caught" } else { "NOT ALL CAUGHT" };
         terminal::say(format_args!(
@@ -68,7 +75,7 @@ fn stability_map(plan: &StabilityPlan, folder: &Path) -> Result<PathBuf, Failure
             scene.word()
         ));
     }
-    Ok(folder.join("stability.html"))
+    Ok(folder.path().join("stability.html"))
 }
 
 /// Every task with its result, kept or made; nothing where the scene cannot be prepared with that setting.

@@ -4,8 +4,10 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::commands::ExitCode;
+use crate::commands::check::claim;
+use crate::commands::output::put;
+use crate::report::folder::Named;
 use crate::report::validation::{Row, render, verdict_line};
-use crate::report::write::write_all;
 use crate::terminal;
 use crate::validation::CASES;
 use crate::validation::case::{Case, Cost, Ran, Suite};
@@ -53,6 +55,10 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         terminal::warn(format_args!("error: --quick leaves nothing of {}; run without it", selection.names.join(", ")));
         return ExitCode::Undecided;
     }
+    let mut folder = match claim(folder, None, Named::Explicitly) {
+        Ok(folder) => folder,
+        Err(code) => return code,
+    };
     let mut ran = Vec::new();
     for case in cases {
         let done = Ran::of(case);
@@ -63,7 +69,8 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
     let _ = writeln!(std::io::stdout(), "{}", verdict_line(&rows));
     let written = render(&rows)
         .map_err(|error| error.to_string())
-        .and_then(|files| write_all(folder, &files).map_err(|error| error.to_string()));
+        .and_then(|files| put(&mut folder, &files).map_err(|error| error.to_string()));
+    let folder = folder.path();
     match written {
         Ok(()) => {
             terminal::say(format_args!("report: {}", folder.join("validation.html").display()));

@@ -109,6 +109,9 @@ fn coarsen(design: &mut Design) {
     design.flow.sizes = design.flow.sizes.scaled(COARSE);
 }
 
+/// Packings from which their scatter is told by themselves: the table that k_n is from begins with three.
+const LEAST_STARTS: usize = 3;
+
 /// The rung that a run of this many packings is like, whose fineness the design pins.
 pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     let fine = design.simulation.fidelity == FidelityWish::Fine
@@ -125,7 +128,7 @@ pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     if pinned || design.simulation.fidelity == FidelityWish::Fast {
         return RUNGS.iter().find(|rung| rung.name == COARSE_GRAINS).unwrap_or(&RUNGS[0]);
     }
-    let like = |rung: &&Rung| rung.starts > 1 && starts >= rung.starts as usize && (fine || rung.name != FINE);
+    let like = |rung: &&Rung| rung.starts > 1 && starts >= LEAST_STARTS && (fine || rung.name != FINE);
     RUNGS.iter().rfind(like).or_else(|| RUNGS.iter().find(|rung| rung.name == GRAINS)).unwrap_or(&RUNGS[0])
 }
 
@@ -179,7 +182,7 @@ impl Rung {
             if close {
                 let finer = match packings {
                     1 => "one simulation is not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)".to_string(),
-                    2..5 => format!("{packings} simulations are not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)"),
+                    2 => format!("{packings} simulations are not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)"),
                     _ => "it is closer to its limit than this model is accurate".to_string(),
                 };
                 outcome.leave_open(Opening::TooClose(finer));

@@ -8,12 +8,12 @@ use crate::checks::outcome::Outcome;
 use crate::dem::recorders::histories::smoothed;
 use crate::pipeline::Run;
 use crate::report::findings::over_starts;
+use crate::report::folder::ReportFile;
 use crate::report::numbers::{with_scatter, with_unit};
 use crate::report::pictures::Chart;
 use crate::report::plots::line_chart::{LineChart, Series, resampled};
 use crate::report::render::{Rendered, render_as};
 use crate::report::view::{is_share, summary, used};
-use crate::report::write::ReportFile;
 use crate::scene::build::SAMPLES_PER_WINDOW;
 use crate::simulated::Simulated;
 use crate::starts::Spread;
@@ -52,7 +52,8 @@ struct Head {
     letter: char,
     name: String,
     title: String,
-    folder: String,
+    /// Its folder as a link writes it.
+    link: String,
     verdict: &'static str,
     verdict_line: String,
     sha256: String,
@@ -101,11 +102,17 @@ fn head(variant: &Variant, letter: char) -> Head {
             Some(_) => format!("{}: {}", project.name, project.barrier),
             None => format!("{}: {} (equations alone)", project.name, project.barrier),
         },
-        folder: variant.folder.clone(),
+        link: in_a_link(&variant.folder),
         verdict: variant.run.verdict.word(),
         verdict_line: summary(&variant.run),
         sha256: variant.run.file.sha256.clone(),
     }
+}
+
+/// A name within a relative link (RFC 3986): all but letters, digits and four marks as bytes in hexadecimal digits.
+fn in_a_link(name: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
+    name.bytes().map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") }).collect()
 }
 
 /// Ids of all variants in the order in which they first come up.

@@ -2,8 +2,11 @@
 
 pub mod compare;
 pub mod findings;
+pub mod folder;
 pub mod json;
 pub mod loads;
+pub mod lock;
+pub mod manifest;
 pub mod numbers;
 pub mod pictures;
 pub mod plots;
@@ -18,4 +21,3 @@ pub mod validation;
 pub mod view;
 pub mod vtk;
 pub mod warnings;
-pub mod write;

@@ -16,7 +16,7 @@ use crate::simulated::Simulated;
 /// Name of the file.
 pub const FILE: &str = "recording.bin";
 
-const NAME: &[u8; 8] = b"BARRCHK\n";
+pub const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
 const FORMAT: u32 = 6;
 

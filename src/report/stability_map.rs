@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use crate::report::folder::ReportFile;
 use crate::report::numbers::quoted;
 use crate::report::pictures::Chart;
 use crate::report::plots::escape;
 use crate::report::render::{Rendered, render_as};
-use crate::report::write::ReportFile;
 use crate::studies::stability::{Fate, Mapped};
 
 const HTML: &str = include_str!("../../templates/stability.html");

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use crate::report::folder::ReportFile;
 use crate::report::numbers::quoted;
 use crate::report::pictures::Chart;
 use crate::report::plots::pareto::{Line, Pareto};
 use crate::report::render::{Rendered, render_as};
-use crate::report::write::ReportFile;
 use crate::studies::knobs::Knob;
 use crate::studies::speed_accuracy::{OBSERVABLES, Point, Setting, Told, floor, tell};
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use tera::{Context, Tera};
 
-use crate::report::write::ReportFile;
+use crate::report::folder::ReportFile;
 use crate::validation::case::{Finding, Ran, Wanted};
 
 const HTML: &str = include_str!("../../templates/validation.html");

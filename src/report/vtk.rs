@@ -8,7 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use crate::dem::recorders::film::{Film, Frame};
 use crate::dem::tables::barrier::SegmentKind;
-use crate::report::write::ReportFile;
+use crate::report::folder::ReportFile;
 
 /// Folder of the files within the report's.
 pub const FOLDER: &str = "vtk";

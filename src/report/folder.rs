@@ -1,0 +1,479 @@
+//! The folder of a report: whose it is, who may write into it, and how its files get there, whole or not at all.
+//!
+//! Nothing of the user's is lost: a folder that holds files and is not that of an earlier run is refused, and so is one in which files of
+//! an earlier run were changed; what turns up during a run is moved aside. `manifest.json` tells which files are the program's.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use sha2::Digest;
+
+use crate::checkpoint;
+use crate::report::lock::{self, Lock};
+use crate::report::manifest::{self, Manifest, digest_of, hexadecimal, is_plain};
+use crate::report::recording;
+
+/// The file that is put in place last.
+const RESULT: &str = "result.json";
+
+/// A file of the report by its name, which may lie in one folder below.
+pub struct ReportFile {
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+impl ReportFile {
+    pub fn new(name: impl Into<String>, content: impl Into<Vec<u8>>) -> Self {
+        Self { name: name.into(), bytes: content.into() }
+    }
+}
+
+/// Why nothing is written into a folder.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    #[error("{0} is a file; a folder is wanted")]
+    File(String),
+    #[error(
+        "{0} holds files that barrier-check has not written ({1}), and they might be lost: name a new or empty folder with --out"
+    )]
+    Foreign(String, String),
+    #[error(
+        "in {0}, files of an earlier run have been changed since ({1}), and the changes would be lost: move them elsewhere, or name another folder with --out"
+    )]
+    Changed(String, String),
+    #[error(
+        "{0} holds the report of another design file of the same name: name a folder with --out (`--out {0}` if that report may go)"
+    )]
+    OtherDesign(String),
+    #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
+    Taken(String),
+    #[error("nothing can be written into {0}: {1}")]
+    Unwritable(String, io::Error),
+}
+
+/// How a folder was named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Named {
+    /// By the user.
+    Explicitly,
+    /// By the program, after the design file.
+    ByDefault,
+}
+
+/// A folder in which this program alone writes, until it is dropped.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    there_before: bool,
+    manifest: Manifest,
+    // Last, so that the folder is in order before the next may have it.
+    lock: Option<Lock>,
+}
+
+impl Folder {
+    /// Takes a folder for writing, and makes it where it is not there. `source` is the design file whose report it will hold.
+    pub fn claim(path: &Path, source: Option<&Path>, named: Named) -> Result<Self, Refusal> {
+        let unwritable = |error: io::Error| Refusal::Unwritable(path.display().to_string(), error);
+        if path.exists() && !path.is_dir() {
+            return Err(Refusal::File(path.display().to_string()));
+        }
+        let there_before = path.exists();
+        fs::create_dir_all(path).map_err(unwritable)?;
+        let mut folder = Self { path: path.to_path_buf(), there_before, manifest: Manifest::default(), lock: None };
+        folder.whose()?;
+        folder.lock =
+            Some(Lock::take(path).map_err(unwritable)?.ok_or_else(|| Refusal::Taken(path.display().to_string()))?);
+        // Another run may have ended in between.
+        folder.whose()?;
+        let place = source.and_then(|source| place_beside(source, path));
+        if named == Named::ByDefault
+            && let (Some(known), Some(place)) = (&folder.manifest.source, &place)
+            && known != place
+        {
+            return Err(Refusal::OtherDesign(path.display().to_string()));
+        }
+        let changed = folder.changed();
+        if !changed.is_empty() {
+            return Err(Refusal::Changed(path.display().to_string(), listed(&changed)));
+        }
+        folder.remove_leftovers();
+        folder.manifest.source = place.or(folder.manifest.source.take());
+        folder.put_manifest().map_err(unwritable)?;
+        Ok(folder)
+    }
+
+    /// Takes a folder within this one, of a report of its own.
+    pub fn claim_inner(&self, name: &str) -> Result<Self, Refusal> {
+        let path = inner(&self.path, name)
+            .map_err(|error| Refusal::Unwritable(self.path.join(name).display().to_string(), error))?;
+        Self::claim(&path, None, Named::Explicitly)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Reads the manifest, or tells that the folder is not the program's.
+    fn whose(&mut self) -> Result<(), Refusal> {
+        let read = fs::read(self.path.join(manifest::FILE)).ok().and_then(|bytes| Manifest::read(&bytes));
+        if let Some(manifest) = read {
+            self.manifest = manifest;
+            return Ok(());
+        }
+        // A recording that was brought here is to have its report; a run that was interrupted is to go on.
+        let recorded = digest_in(&self.path.join(recording::FILE)).filter(|_| self.has_recording());
+        let kept = self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER).is_file();
+        let mut foreign = self.others();
+        foreign
+            .retain(|name| !(name == recording::FILE && recorded.is_some()) && !(name == checkpoint::FOLDER && kept));
+        if !foreign.is_empty() {
+            return Err(Refusal::Foreign(self.path.display().to_string(), listed(&foreign)));
+        }
+        let files = recorded.map(|digest| (recording::FILE.to_string(), digest)).into_iter().collect();
+        self.manifest = Manifest { files, ..Manifest::default() };
+        Ok(())
+    }
+
+    fn has_recording(&self) -> bool {
+        let mut head = [0; recording::NAME.len()];
+        let read = File::open(self.path.join(recording::FILE)).and_then(|mut file| file.read_exact(&mut head));
+        read.is_ok() && head == *recording::NAME
+    }
+
+    /// What lies in the folder besides the lock, the manifest and what a killed program has left.
+    fn others(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.retain(|name| name != lock::FILE && name != manifest::FILE && !is_temporary(name));
+        names.sort();
+        names
+    }
+
+    /// Files that the program has written and somebody has changed.
+    fn changed(&self) -> Vec<String> {
+        let changed = |name: &&String| {
+            let path = self.path.join(name);
+            fs::symlink_metadata(&path).is_ok() && !self.is_ours(name)
+        };
+        self.manifest.names().filter(changed).cloned().collect()
+    }
+
+    /// Whether the file of this name is as the program wrote it.
+    fn is_ours(&self, name: &str) -> bool {
+        digest_in(&self.path.join(name)).is_some_and(|digest| self.manifest.wrote(name, &digest))
+    }
+
+    /// Writes `files`, and removes what the program has put there before and does not write now. All are first written beside their
+    /// places and then renamed one by one, `result.json` last, so that a reader who finds that file finds the others complete. What is
+    /// not the program's is moved aside; returned is what was moved, and to where.
+    pub fn write(&mut self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
+        let digests: BTreeMap<String, String> =
+            files.iter().map(|file| (file.name.clone(), digest_of(&file.bytes))).collect();
+        self.manifest = std::mem::take(&mut self.manifest).replaced_by(program(), digests);
+        let placed = self.place(files);
+        if placed.is_err() {
+            for file in files {
+                let _ = fs::remove_file(self.temporary(&file.name));
+            }
+        } else {
+            self.manifest.replaced.clear();
+        }
+        self.put_manifest()?;
+        placed
+    }
+
+    fn place(&self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
+        for file in files {
+            if !is_plain(&file.name) {
+                return Err(io::Error::other(format!("{:?} is no name for a file of the report", file.name)));
+            }
+            if let Some(below) = Path::new(&file.name).parent().filter(|below| !below.as_os_str().is_empty()) {
+                fs::create_dir_all(inner(&self.path, &below.to_string_lossy())?)?;
+            }
+            create(&self.temporary(&file.name), &file.bytes)?;
+        }
+        let moved = files.iter().filter_map(|file| self.move_aside(&file.name).transpose());
+        let moved = moved.collect::<io::Result<Vec<_>>>()?;
+        self.put_manifest()?;
+        // While the others are replaced there is no result, rather than the old one among new files.
+        let result = self.path.join(RESULT);
+        if result.exists() {
+            fs::remove_file(&result)?;
+        }
+        let last = |file: &&ReportFile| file.name == RESULT;
+        let put = |file: &ReportFile| fs::rename(self.temporary(&file.name), self.path.join(&file.name));
+        files.iter().filter(|file| !last(file)).try_for_each(put)?;
+        for name in self.manifest.replaced.keys().filter(|name| !self.manifest.files.contains_key(*name)) {
+            if self.is_ours(name) {
+                let _ = fs::remove_file(self.path.join(name));
+                // Only where it is empty now.
+                let below = Path::new(name).parent().filter(|below| !below.as_os_str().is_empty());
+                below.map(|below| fs::remove_dir(self.path.join(below)));
+            }
+        }
+        files.iter().filter(last).try_for_each(put)?;
+        sync(&self.path);
+        Ok(moved)
+    }
+
+    /// Moves what stands in the place of a file and is not the program's.
+    fn move_aside(&self, name: &str) -> io::Result<Option<[String; 2]>> {
+        let place = self.path.join(name);
+        if fs::symlink_metadata(&place).is_err() || self.is_ours(name) {
+            return Ok(None);
+        }
+        let free = (1..).map(|number| format!("{name}.{number}.kept")).find(|to| {
+            let taken = fs::symlink_metadata(self.path.join(to));
+            taken.is_err()
+        });
+        let to = free.unwrap_or_default();
+        fs::rename(&place, self.path.join(&to))?;
+        Ok(Some([name.to_string(), to]))
+    }
+
+    fn put_manifest(&self) -> io::Result<()> {
+        let text = serde_json::to_string_pretty(&self.manifest).map_err(io::Error::other)? + "\n";
+        let temporary = self.temporary(manifest::FILE);
+        create(&temporary, text.as_bytes())?;
+        fs::rename(temporary, self.path.join(manifest::FILE))
+    }
+
+    /// Where a file is written before it takes its place.
+    fn temporary(&self, name: &str) -> PathBuf {
+        let place = self.path.join(name);
+        let last = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        place.with_file_name(format!(".{last}.{}.tmp", std::process::id()))
+    }
+
+    /// Removes what programs that were killed while they wrote have left; with the lock held nobody else is writing.
+    fn remove_leftovers(&self) {
+        for entry in fs::read_dir(&self.path).into_iter().flatten().flatten() {
+            if is_temporary(&entry.file_name().to_string_lossy()) {
+                let _ = fs::remove_file(entry.path());
+            }
+        }
+    }
+}
+
+impl Drop for Folder {
+    /// A folder into which nothing came is left as it was.
+    fn drop(&mut self) {
+        if self.lock.is_some() && self.manifest.files.is_empty() && self.others().is_empty() {
+            let _ = fs::remove_file(self.path.join(manifest::FILE));
+        }
+        self.lock = None;
+        if !self.there_before {
+            // Only if it is empty.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}
+
+/// The folder `name` within `folder`; refused where it is a link that leads elsewhere, or no plain name.
+pub fn inner(folder: &Path, name: &str) -> io::Result<PathBuf> {
+    let inner = folder.join(name);
+    if !is_plain(name) {
+        return Err(io::Error::other(format!("{name:?} is no name for a folder")));
+    }
+    match fs::symlink_metadata(&inner) {
+        Ok(found) if found.is_symlink() => {
+            Err(io::Error::other(format!("{} is a link; a folder is wanted", inner.display())))
+        }
+        _ => Ok(inner),
+    }
+}
+
+/// A name for a folder after what a design is called: letters, digits and a few marks, none that leads elsewhere.
+pub fn folder_name(name: &str) -> String {
+    const LONGEST: usize = 100;
+    let plain = |letter: char| letter.is_alphanumeric() || " _-.()+,=&@".contains(letter);
+    let named: String = name.chars().take(LONGEST).map(|letter| if plain(letter) { letter } else { '_' }).collect();
+    let named = named.trim_matches(|letter: char| letter == '.' || letter == ' ');
+    if named.is_empty() { "design".to_string() } else { named.to_string() }
+}
+
+/// A file that did not exist, synced. Never through a link that somebody has put there.
+fn create(place: &Path, bytes: &[u8]) -> io::Result<()> {
+    let _ = fs::remove_file(place);
+    let mut file = File::create_new(place)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// Not every system lets a folder be synced.
+fn sync(folder: &Path) {
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+}
+
+fn program() -> String {
+    format!("barrier-check {}, commit {}", env!("CARGO_PKG_VERSION"), env!("BARRIER_CHECK_COMMIT"))
+}
+
+/// `.name.process.tmp`
+fn is_temporary(name: &str) -> bool {
+    let inside = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
+    inside.and_then(|name| name.rsplit_once('.')).is_some_and(|(_, process)| process.parse::<u32>().is_ok())
+}
+
+/// SHA-256 of a regular file; nothing of anything else.
+fn digest_in(path: &Path) -> Option<String> {
+    fs::symlink_metadata(path).ok().filter(fs::Metadata::is_file)?;
+    let mut file = File::open(path).ok()?;
+    let mut hash = sha2::Sha256::new();
+    let mut part = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut part).ok()? {
+            0 => return Some(hexadecimal(&hash.finalize())),
+            count => hash.update(&part[..count]),
+        }
+    }
+}
+
+/// The place of a design file as seen from the folder, as a digest: the same when both are moved together.
+fn place_beside(source: &Path, folder: &Path) -> Option<String> {
+    let (source, folder) = (source.canonicalize().ok()?, folder.canonicalize().ok()?);
+    let common = source.components().zip(folder.components()).take_while(|(one, other)| one == other).count();
+    let down: PathBuf = source.components().skip(common).collect();
+    let up = folder.components().count() - common;
+    Some(digest_of(format!("{up} up, then {}", down.display()).as_bytes())[..16].to_string())
+}
+
+fn listed(names: &[String]) -> String {
+    const MOST: usize = 4;
+    let shown = names.iter().take(MOST).cloned().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(MOST) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("barrier-check-{}-folder-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        folder
+    }
+
+    fn files(names: &[&str]) -> Vec<ReportFile> {
+        names.iter().map(|name| ReportFile::new(*name, format!("what {name} says"))).collect()
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .expect("a folder")
+            .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn claim(path: &Path) -> Result<Folder, Refusal> {
+        Folder::claim(path, None, Named::Explicitly)
+    }
+
+    #[test]
+    fn what_a_run_no_longer_writes_goes_and_what_is_the_user_s_stays() {
+        let path = place("stale");
+        claim(&path).unwrap().write(&files(&["report.md", "old.svg", "vtk/1.vtu", "result.json"])).unwrap();
+        fs::write(path.join("notes.txt"), "mine").unwrap();
+        claim(&path).unwrap().write(&files(&["report.md", "new.svg", "result.json"])).unwrap();
+        assert_eq!(names(&path), ["manifest.json", "new.svg", "notes.txt", "report.md", "result.json"]);
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    #[test]
+    fn a_folder_of_the_user_and_a_changed_report_are_refused_and_left_alone() {
+        let path = place("foreign");
+        fs::create_dir_all(&path).unwrap();
+        fs::write(path.join("design.yaml"), "mine").unwrap();
+        assert!(matches!(claim(&path), Err(Refusal::Foreign(_, names)) if names == "design.yaml"));
+        assert_eq!(names(&path), ["design.yaml"]);
+        fs::remove_file(path.join("design.yaml")).unwrap();
+        claim(&path).unwrap().write(&files(&["report.md", "result.json"])).unwrap();
+        fs::write(path.join("report.md"), "with my remarks").unwrap();
+        assert!(matches!(claim(&path), Err(Refusal::Changed(_, names)) if names == "report.md"));
+        assert_eq!(fs::read_to_string(path.join("report.md")).unwrap(), "with my remarks");
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    #[test]
+    fn what_turns_up_during_a_run_is_moved_aside() {
+        let path = place("aside");
+        let mut folder = claim(&path).unwrap();
+        fs::write(path.join("report.md"), "mine").unwrap();
+        let moved = folder.write(&files(&["report.md", "result.json"])).unwrap();
+        assert_eq!(moved, [["report.md".to_string(), "report.md.1.kept".to_string()]]);
+        assert_eq!(fs::read_to_string(path.join("report.md.1.kept")).unwrap(), "mine");
+        drop(folder);
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    #[test]
+    fn a_replacement_that_was_cut_short_is_the_program_s_own() {
+        let path = place("cut");
+        claim(&path).unwrap().write(&files(&["report.md", "one.svg", "result.json"])).unwrap();
+        // Killed after the first of the new files has taken its place.
+        let mut folder = claim(&path).unwrap();
+        let new = ["report.md", "one.svg"].map(|name| (name.to_string(), digest_of(b"new")));
+        folder.manifest = folder.manifest.clone().replaced_by(program(), new.into_iter().collect());
+        folder.put_manifest().unwrap();
+        fs::write(path.join("report.md"), "new").unwrap();
+        drop(folder);
+        claim(&path).unwrap().write(&files(&["report.md", "result.json"])).unwrap();
+        assert_eq!(names(&path), ["manifest.json", "report.md", "result.json"]);
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    #[test]
+    fn a_folder_into_which_nothing_came_is_left_as_it_was() {
+        let path = place("empty");
+        drop(claim(&path).unwrap());
+        assert!(!path.exists());
+        fs::create_dir_all(&path).unwrap();
+        drop(claim(&path).unwrap());
+        assert_eq!(names(&path), Vec::<String>::new());
+        let held = claim(&path).unwrap();
+        assert!(matches!(claim(&path), Err(Refusal::Taken(_))));
+        drop(held);
+        fs::remove_dir(path).unwrap();
+    }
+
+    #[test]
+    fn two_design_files_of_one_name_are_told_apart_unless_the_folder_is_named() {
+        let path = place("two");
+        for design in ["a", "b"] {
+            fs::create_dir_all(path.join(design)).unwrap();
+            fs::write(path.join(design).join("net.yaml"), "x").unwrap();
+        }
+        let (a, b, out) = (path.join("a/net.yaml"), path.join("b/net.yaml"), path.join("out"));
+        Folder::claim(&out, Some(&a), Named::ByDefault).unwrap().write(&files(&["result.json"])).unwrap();
+        assert!(Folder::claim(&out, Some(&a), Named::ByDefault).is_ok());
+        assert!(matches!(Folder::claim(&out, Some(&b), Named::ByDefault), Err(Refusal::OtherDesign(_))));
+        // Moved together they are the same.
+        let moved = place("moved");
+        fs::rename(&path, &moved).unwrap();
+        assert!(Folder::claim(&moved.join("out"), Some(&moved.join("a/net.yaml")), Named::ByDefault).is_ok());
+        assert!(Folder::claim(&moved.join("out"), Some(&moved.join("b/net.yaml")), Named::Explicitly).is_ok());
+        fs::remove_dir_all(moved).unwrap();
+    }
+
+    #[test]
+    fn names_of_folders_lead_nowhere_else() {
+        for (name, expected) in [
+            ("site_a", "site_a"),
+            ("Net Steg #2", "Net Steg _2"),
+            ("..", "design"),
+            (".hidden", "hidden"),
+            ("a/../../b", "a_.._.._b"),
+            ("Wildbach 土石流", "Wildbach 土石流"),
+            ("javascript:alert(1)", "javascript_alert(1)"),
+        ] {
+            assert_eq!(folder_name(name), expected);
+        }
+    }
+}
