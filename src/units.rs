@@ -20,38 +20,113 @@ pub enum Dimension {
     Share,
 }
 
-/// Symbol, dimension, SI value of one unit.
+/// Symbol, dimension, SI value of one unit. Of each dimension the first is the one used in examples.
 const UNITS: &[(&str, Dimension, f64)] = &[
     ("mm", Dimension::Length, 1e-3),
     ("cm", Dimension::Length, 1e-2),
+    ("dm", Dimension::Length, 1e-1),
     ("m", Dimension::Length, 1.0),
     ("km", Dimension::Length, 1e3),
     ("m3", Dimension::Volume, 1.0),
+    ("dm3", Dimension::Volume, 1e-3),
+    ("l", Dimension::Volume, 1e-3),
+    ("cm3", Dimension::Volume, 1e-6),
     ("kg", Dimension::Mass, 1.0),
+    ("g", Dimension::Mass, 1e-3),
     ("t", Dimension::Mass, 1e3),
+    ("Mg", Dimension::Mass, 1e3),
+    ("kt", Dimension::Mass, 1e6),
     ("kg/m3", Dimension::Density, 1.0),
     ("t/m3", Dimension::Density, 1e3),
+    ("Mg/m3", Dimension::Density, 1e3),
     ("g/cm3", Dimension::Density, 1e3),
+    ("kg/dm3", Dimension::Density, 1e3),
+    ("kg/l", Dimension::Density, 1e3),
     ("N", Dimension::Force, 1.0),
+    ("daN", Dimension::Force, 1e1),
     ("kN", Dimension::Force, 1e3),
     ("MN", Dimension::Force, 1e6),
     ("Pa", Dimension::Pressure, 1.0),
+    ("hPa", Dimension::Pressure, 1e2),
     ("kPa", Dimension::Pressure, 1e3),
     ("MPa", Dimension::Pressure, 1e6),
     ("GPa", Dimension::Pressure, 1e9),
+    ("N/m2", Dimension::Pressure, 1.0),
     ("kN/m2", Dimension::Pressure, 1e3),
+    ("MN/m2", Dimension::Pressure, 1e6),
+    ("GN/m2", Dimension::Pressure, 1e9),
+    ("N/cm2", Dimension::Pressure, 1e4),
+    ("kN/cm2", Dimension::Pressure, 1e7),
     ("N/mm2", Dimension::Pressure, 1e6),
+    ("kN/mm2", Dimension::Pressure, 1e9),
+    ("bar", Dimension::Pressure, 1e5),
     ("N/m", Dimension::Stiffness, 1.0),
     ("kN/m", Dimension::Stiffness, 1e3),
     ("MN/m", Dimension::Stiffness, 1e6),
+    ("N/cm", Dimension::Stiffness, 1e2),
+    ("kN/cm", Dimension::Stiffness, 1e5),
+    ("N/mm", Dimension::Stiffness, 1e3),
+    ("kN/mm", Dimension::Stiffness, 1e6),
     ("deg", Dimension::Angle, std::f64::consts::PI / 180.0),
     ("rad", Dimension::Angle, 1.0),
+    ("gon", Dimension::Angle, std::f64::consts::PI / 200.0),
     ("m/s", Dimension::Velocity, 1.0),
+    ("cm/s", Dimension::Velocity, 1e-2),
     ("km/h", Dimension::Velocity, 1.0 / 3.6),
     ("s", Dimension::Time, 1.0),
     ("ms", Dimension::Time, 1e-3),
     ("min", Dimension::Time, 60.0),
+    ("h", Dimension::Time, 3600.0),
     ("%", Dimension::Share, 0.01),
+    ("‰", Dimension::Share, 0.001),
+];
+
+/// Units that are not taken, because they are not metric, stand for several things or are no symbols: what is typed in them is told in
+/// one that is. Symbol, dimension, SI value of one.
+const FOREIGN: &[(&str, Dimension, f64)] = &[
+    ("in", Dimension::Length, 0.0254),
+    ("inch", Dimension::Length, 0.0254),
+    ("ft", Dimension::Length, 0.3048),
+    ("feet", Dimension::Length, 0.3048),
+    ("yd", Dimension::Length, 0.9144),
+    ("metre", Dimension::Length, 1.0),
+    ("metres", Dimension::Length, 1.0),
+    ("meter", Dimension::Length, 1.0),
+    ("meters", Dimension::Length, 1.0),
+    ("cbm", Dimension::Volume, 1.0),
+    ("litre", Dimension::Volume, 1e-3),
+    ("litres", Dimension::Volume, 1e-3),
+    ("liter", Dimension::Volume, 1e-3),
+    ("L", Dimension::Volume, 1e-3),
+    ("yd3", Dimension::Volume, 0.764_554_857_984),
+    ("ft3", Dimension::Volume, 0.028_316_846_592),
+    ("lb", Dimension::Mass, 0.453_592_37),
+    ("tonne", Dimension::Mass, 1e3),
+    ("tonnes", Dimension::Mass, 1e3),
+    ("to", Dimension::Mass, 1e3),
+    ("pcf", Dimension::Density, 16.018_463_373_960_14),
+    ("lb/ft3", Dimension::Density, 16.018_463_373_960_14),
+    ("kgf", Dimension::Force, 9.806_65),
+    ("kp", Dimension::Force, 9.806_65),
+    ("tf", Dimension::Force, 9806.65),
+    ("lbf", Dimension::Force, 4.448_221_615_260_5),
+    ("kip", Dimension::Force, 4448.221_615_260_5),
+    ("psi", Dimension::Pressure, 6894.757_293_168),
+    ("ksi", Dimension::Pressure, 6_894_757.293_168),
+    ("psf", Dimension::Pressure, 47.880_258_980_34),
+    ("kg/cm2", Dimension::Pressure, 98_066.5),
+    ("degree", Dimension::Angle, std::f64::consts::PI / 180.0),
+    ("degrees", Dimension::Angle, std::f64::consts::PI / 180.0),
+    ("ft/s", Dimension::Velocity, 0.3048),
+    ("mph", Dimension::Velocity, 0.447_04),
+    ("kmh", Dimension::Velocity, 1.0 / 3.6),
+    ("kph", Dimension::Velocity, 1.0 / 3.6),
+    ("sec", Dimension::Time, 1.0),
+    ("seconds", Dimension::Time, 1.0),
+    ("minutes", Dimension::Time, 60.0),
+    ("hours", Dimension::Time, 3600.0),
+    ("percent", Dimension::Share, 0.01),
+    ("pct", Dimension::Share, 0.01),
 ];
 
 /// Why a text is not the wanted quantity: what it is taken for, and what would help.
@@ -137,14 +212,19 @@ fn factor_of(symbol: &str) -> Option<(Dimension, f64)> {
 pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
     let trimmed = text.trim();
     let fail = |found: String, hint: Option<String>| Err(NotAQuantity { found, hint });
-    if comma_in_number(trimmed) {
-        let hint = format!("use a point as decimal separator: `{}`", trimmed.replacen(',', ".", 1));
-        return fail(format!("`{trimmed}`, with a comma in the number"), Some(hint));
+    if let Some((found, hint)) = separators(trimmed) {
+        return fail(found, Some(hint));
     }
     let (number, unit) = split(trimmed);
     let Ok(value) = number.parse::<f64>() else {
         return fail(format!("`{trimmed}`, which does not start with a number"), None);
     };
+    if let Some(run) = unit.strip_prefix(':').and_then(|run| run.trim().parse::<f64>().ok())
+        && wanted == Dimension::Angle
+    {
+        let angle = libm::atan2(value, run).to_degrees();
+        return fail(format!("`{trimmed}`, which is a ratio"), Some(format!("as a slope this is `{angle:.4} deg`")));
+    }
     if unit.is_empty() {
         return fail(format!("`{trimmed}`, a number without a unit"), Some(with_a_unit(number, value, wanted)));
     }
@@ -152,14 +232,51 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
     match factor_of(&symbol) {
         Some((dimension, factor)) if dimension == wanted && value.is_finite() => Ok(value * factor),
         Some((dimension, _)) if dimension == wanted => fail(format!("`{trimmed}`, which is not a finite number"), None),
+        Some((Dimension::Share, factor)) if wanted == Dimension::Angle => {
+            let angle = libm::atan(value * factor).to_degrees();
+            fail(format!("`{trimmed}`, which is a share"), Some(format!("as a slope this is `{angle:.4} deg`")))
+        }
         Some((dimension, _)) => fail(format!("`{trimmed}`, which is {}", dimension.name()), Some(units_of(wanted))),
         None => fail(format!("`{trimmed}`, whose unit `{unit}` is not known"), near_unit(&symbol, wanted, number)),
     }
 }
 
-/// Whether a comma stands right behind a digit and before another.
-fn comma_in_number(text: &str) -> bool {
-    text.as_bytes().windows(3).any(|three| three[0].is_ascii_digit() && three[1] == b',' && three[2].is_ascii_digit())
+/// What is found and what to write where the digits of a number are separated by something else than one point, if they are.
+pub fn separators(text: &str) -> Option<(String, String)> {
+    const MARKS: [char; 5] = [',', '.', '\'', '’', '_'];
+    const BLANKS: [char; 3] = [' ', '\u{a0}', '\u{202f}'];
+    let apart = |letter: char| MARKS.contains(&letter) || BLANKS.contains(&letter);
+    let inside = |letter: char| letter.is_ascii_digit() || apart(letter) || "+-".contains(letter);
+    let end = text.find(|letter: char| !inside(letter)).unwrap_or(text.len());
+    let number = text[..end].trim_end_matches(apart);
+    let rest = &text[number.len()..];
+    let between: Vec<char> = number.chars().filter(|letter| apart(*letter)).collect();
+    match between[..] {
+        [] | ['.'] => return None,
+        _ => {}
+    }
+    let digits_of = |text: &str| text.chars().filter(|letter| !apart(*letter)).collect::<String>();
+    let last = number.rfind(apart)?;
+    let after = &number[last..].trim_start_matches(apart);
+    let (whole, with_point) = (digits_of(number), format!("{}.{after}", digits_of(&number[..last])));
+    let mark = number[last..].chars().next()?;
+    let several = between.len() > 1;
+    let same = between.iter().all(|letter| *letter == mark);
+    let hint = match mark {
+        // 1,200 is read as 1200 by some and as 1.2 by others.
+        ',' | '.' if same && after.len() == 3 && (several || mark == ',') => match several {
+            true => format!("write `{whole}{rest}`"),
+            false => format!("write `{whole}{rest}` or `{with_point}{rest}`, whichever is meant"),
+        },
+        ',' | '.' if same && several => return Some((found_of(text), "a number has one point at the most".into())),
+        ',' | '.' => format!("use a point as decimal separator, and none for thousands: `{with_point}{rest}`"),
+        _ => format!("write `{whole}{rest}`"),
+    };
+    Some((found_of(text), hint))
+}
+
+fn found_of(text: &str) -> String {
+    format!("`{text}`, whose number holds a separator other than one point")
 }
 
 /// Splits `15.2 m` into number and unit.
@@ -199,19 +316,36 @@ fn units_of(wanted: Dimension) -> String {
     format!("write {} in {}", wanted.name(), wanted.symbols().join(", "))
 }
 
+/// What to write instead of an unknown unit: never what would be another size than was meant.
 fn near_unit(symbol: &str, wanted: Dimension, number: &str) -> Option<String> {
+    let Ok(value) = number.parse::<f64>() else { return Some(units_of(wanted)) };
     if wanted == Dimension::Density
-        && symbol.eq_ignore_ascii_case("kN/m3")
-        && let Ok(weight) = number.parse::<f64>()
+        && let Some(factor) = [("n/m3", 1.0), ("kn/m3", 1e3), ("mn/m3", 1e6)]
+            .into_iter()
+            .find_map(|(weight, factor)| symbol.eq_ignore_ascii_case(weight).then_some(factor))
     {
-        return Some(format!("a weight is not a density: write `{:.0} kg/m3`", 1e3 * weight / GRAVITY));
+        return Some(format!("a weight is not a density: write `{:.0} kg/m3`", factor * value / GRAVITY));
     }
+    let foreign = FOREIGN.iter().find(|(known, dimension, _)| *dimension == wanted && *known == symbol);
+    if let Some((_, _, factor)) = foreign {
+        return Some(format!("write `{}`", plainly(value * factor, wanted)));
+    }
+    // The case of a prefix may make a milli of a mega: then only the list is safe.
+    let prefix = |unit: &str| unit.chars().next().filter(|first| "mM".contains(*first) && unit.len() > 1);
     let same = wanted.symbols().into_iter().find(|known| known.eq_ignore_ascii_case(symbol));
-    let near = same.or_else(|| crate::problem::nearest(symbol, wanted.symbols()));
-    Some(match near {
-        Some(near) => format!("did you mean `{number} {near}`? Units are case-sensitive"),
-        None => example(number, wanted),
+    let same = same.filter(|known| prefix(known) == prefix(symbol));
+    Some(match same {
+        Some(known) => format!("did you mean `{number} {known}`? Units are case-sensitive"),
+        None => units_of(wanted),
     })
+}
+
+/// A value in SI to nine digits, in the unit in which the dimension is shown.
+fn plainly(si: f64, dimension: Dimension) -> String {
+    let symbol = dimension.display_symbol();
+    let value = si / factor_of(symbol).map_or(1.0, |(_, factor)| factor);
+    let digits = (8 - libm::log10(value.abs().max(1e-30)).floor() as i32).clamp(0, 30) as usize;
+    format!("{} {symbol}", trim_zeros(&format!("{value:.digits$}")))
 }
 
 #[cfg(test)]
@@ -233,6 +367,81 @@ mod tests {
         assert_relative_eq!(parse("1.35e3 kg/m^3", Dimension::Density).unwrap(), 1350.0);
         assert_relative_eq!(parse(" 40° ", Dimension::Angle).unwrap(), 40_f64.to_radians());
         assert_relative_eq!(parse("-20 deg", Dimension::Angle).unwrap(), -20_f64.to_radians());
+    }
+
+    /// The quantity that the hint in an error says to write, read as it says.
+    fn followed(text: &str, dimension: Dimension) -> f64 {
+        let hint = parse(text, dimension).unwrap_err().hint.unwrap();
+        let written = hint.split('`').nth(1).unwrap_or_else(|| panic!("{text}: {hint}"));
+        parse(written, dimension).unwrap_or_else(|error| panic!("{text}: {hint}: {error:?}"))
+    }
+
+    #[test]
+    fn a_hint_that_is_followed_gives_what_was_meant() {
+        for (symbol, dimension, factor) in FOREIGN {
+            assert_relative_eq!(followed(&format!("3 {symbol}"), *dimension), 3.0 * factor, max_relative = 1e-7);
+        }
+        for (text, dimension, meant) in [
+            ("250 kn", Dimension::Force, 250e3),
+            ("250 KN", Dimension::Force, 250e3),
+            ("2 KG", Dimension::Mass, 2.0),
+            ("20 kN/m3", Dimension::Density, 20e3 / GRAVITY),
+            ("4,5 m", Dimension::Length, 4.5),
+            ("1,200 kN", Dimension::Force, 1200e3),
+            ("1,200,000 N", Dimension::Force, 1200e3),
+            ("1'200 kN", Dimension::Force, 1200e3),
+            ("1 200 kN", Dimension::Force, 1200e3),
+            ("1_200 kN", Dimension::Force, 1200e3),
+            ("1.200,5 kN", Dimension::Force, 1200.5e3),
+            ("1,200.5 kN", Dimension::Force, 1200.5e3),
+            ("1.200.000 N", Dimension::Force, 1200e3),
+            ("46 %", Dimension::Angle, libm::atan(0.46)),
+            ("1:2", Dimension::Angle, libm::atan(0.5)),
+        ] {
+            assert_relative_eq!(followed(text, dimension), meant, max_relative = 1e-3);
+        }
+    }
+
+    /// Every known symbol in a dimension that is not its own, or spelt with another case, is refused, and no hint names a value of
+    /// another size.
+    #[test]
+    fn no_hint_changes_the_size_of_what_was_typed() {
+        use Dimension as D;
+        let all = [
+            D::Length,
+            D::Volume,
+            D::Mass,
+            D::Density,
+            D::Force,
+            D::Pressure,
+            D::Stiffness,
+            D::Angle,
+            D::Velocity,
+            D::Time,
+        ];
+        for (symbol, dimension, factor) in UNITS.iter().chain(FOREIGN) {
+            for spelt in [symbol.to_uppercase(), symbol.to_lowercase()] {
+                let text = format!("8 {spelt}");
+                if factor_of(&spelt).is_some() {
+                    continue;
+                }
+                let hint = parse(&text, *dimension).unwrap_err().hint.unwrap_or_default();
+                if let Some(written) = hint.split('`').nth(1) {
+                    assert_relative_eq!(parse(written, *dimension).unwrap(), 8.0 * factor, max_relative = 1e-6);
+                }
+            }
+            for other in all.into_iter().filter(|other| other != dimension) {
+                let Err(error) = parse(&format!("8 {symbol}"), other) else { panic!("{symbol} as {other:?}") };
+                let hint = error.hint.unwrap_or_default();
+                assert!(!hint.contains("did you mean") || factor_of(symbol).is_none(), "{symbol} as {other:?}: {hint}");
+            }
+        }
+        for (text, dimension) in
+            [("8 kN/mmm", D::Stiffness), ("5 mPa", D::Pressure), ("5 mn", D::Force), ("5 MM", D::Length)]
+        {
+            let hint = parse(text, dimension).unwrap_err().hint.unwrap();
+            assert!(hint.starts_with("write a") && !hint.contains('`'), "{text}: {hint}");
+        }
     }
 
     #[test]

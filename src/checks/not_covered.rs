@@ -77,9 +77,14 @@ fn leave_open_full_barrier(design: &Design, guideline: &Guideline, seen: FirstSu
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let Some([used, may_be]) = used_when_full(outcome, more, seen) else { continue };
-        let full = format!(
-            "the simulation is of the first surge, and by the equations {more:.1} times as much presses on the full barrier"
-        );
+        let full = if seen.push > 0.0 {
+            format!(
+                "the simulation is of the first surge, and by the equations {more:.1} times as much presses on the full barrier"
+            )
+        } else {
+            "the simulated first surge does not push the barrier, and by the equations the full barrier is pushed"
+                .into()
+        };
         // Written so that a NaN counts as not within.
         let within = |used: f64| used <= 1.0;
         if !within(used) {

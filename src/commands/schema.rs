@@ -1,21 +1,45 @@
 //! `barrier-check schema`: JSON Schemas of the design file and of `result.json`.
 
+use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
 use crate::design::key::{Key, Kind, Need};
-use crate::design::schema::DESIGN;
+use crate::design::schema::{DESIGN, EITHER, Either};
 use crate::report::json::ResultFile;
 use crate::units::Dimension;
 
+/// The draft that validators know without being told.
+const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
+
 /// Schema of `result.json`.
 pub fn result_schema() -> Value {
-    serde_json::to_value(schemars::schema_for!(ResultFile)).unwrap_or(Value::Null)
+    let generator = SchemaSettings::draft07().into_generator();
+    let mut schema = generator.into_root_schema_for::<ResultFile>().to_value();
+    plain(&mut schema);
+    schema
+}
+
+/// Leaves out formats that only some validators know, and lets every number be null: JSON has no infinity and no NaN.
+fn plain(schema: &mut Value) {
+    match schema {
+        Value::Object(map) => {
+            if map.get("format").is_some_and(Value::is_string) {
+                map.remove("format");
+            }
+            if map.get("type").is_some_and(|kind| kind == "number") {
+                map.insert("type".into(), json!(["number", "null"]));
+            }
+            map.values_mut().for_each(plain);
+        }
+        Value::Array(items) => items.iter_mut().for_each(plain),
+        _ => {}
+    }
 }
 
 /// Schema of the design file, from the same tables that reading uses.
 pub fn design_schema() -> Value {
     let mut schema = section(DESIGN);
-    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["$schema"] = json!(DRAFT);
     schema["title"] = json!("barrier-check design");
     schema
 }
@@ -23,7 +47,16 @@ pub fn design_schema() -> Value {
 fn section(keys: &[Key]) -> Value {
     let required: Vec<&str> =
         keys.iter().filter(|key| matches!(key.need, Need::Required | Need::ForGrains)).map(|key| key.name).collect();
-    json!({ "type": "object", "additionalProperties": false, "properties": properties(keys), "required": required })
+    let mut schema = json!({ "type": "object", "additionalProperties": false, "properties": properties(keys), "required": required });
+    let here = |pair: &&Either| pair.keys.iter().all(|name| keys.iter().any(|key| key.name == *name));
+    for pair in EITHER.iter().filter(here) {
+        if pair.needed {
+            schema["oneOf"] = pair.keys.map(|key| json!({ "required": [key] })).into();
+        } else {
+            schema["not"] = json!({ "required": pair.keys });
+        }
+    }
+    schema
 }
 
 fn properties(keys: &[Key]) -> Map<String, Value> {
@@ -31,29 +64,40 @@ fn properties(keys: &[Key]) -> Map<String, Value> {
         let mut schema = kind(&key.kind);
         schema["description"] = json!(key.meaning);
         if let (Need::Default(typed), false) = (key.need, matches!(key.kind, Kind::Section(_))) {
-            schema["default"] = json!(typed);
+            schema["default"] = match key.kind {
+                Kind::Number { .. } | Kind::Count { .. } => serde_json::from_str(typed).unwrap_or(json!(typed)),
+                _ => json!(typed),
+            };
         }
         (key.name.to_string(), schema)
     };
     keys.iter().map(entry).collect()
 }
 
+/// A number as a pattern.
+const NUMBER: &str = "[-+]?[0-9.]+([eE][-+]?[0-9]+)?";
+
+/// The symbols of a dimension as a pattern, with what else stands for a power or for degrees.
+fn units(dimension: Dimension) -> String {
+    let spellings = |symbol: &str| symbol.replace('2', "(\\^?2|²)").replace('3', "(\\^?3|³)").replace("deg", "(deg|°)");
+    dimension.symbols().into_iter().map(spellings).collect::<Vec<_>>().join("|")
+}
+
 fn kind(kind: &Kind) -> Value {
     match *kind {
         Kind::Quantity { dimension, .. } => {
-            let units = dimension.symbols().join("|");
-            json!({ "type": "string", "pattern": format!("^[-+0-9.eE]+ ?({units})$") })
+            json!({ "type": "string", "pattern": format!("^ *{NUMBER} *({}) *$", units(dimension)) })
         }
         Kind::LengthOrGrains { .. } => {
-            let units = Dimension::Length.symbols().join("|");
-            json!({ "type": "string", "pattern": format!("^[-+0-9.eE]+ ?({units}|[Dd][1-9][0-9]?)$") })
+            let length = units(Dimension::Length);
+            json!({ "type": "string", "pattern": format!("^ *({NUMBER} *({length})|({NUMBER} *)?[Dd][1-9][0-9]?) *$") })
         }
         Kind::Quantities { dimension, low, high } => {
             json!({ "type": "array", "minItems": 1, "items": self::kind(&Kind::Quantity { dimension, low, high }) })
         }
         Kind::Number { low, high } => json!({ "type": "number", "minimum": low, "maximum": high }),
         Kind::Count { low, high } => json!({ "type": "integer", "minimum": low, "maximum": high }),
-        Kind::Text => json!({ "type": ["string", "number"] }),
+        Kind::Text => json!({ "type": ["string", "number", "boolean"] }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Section(keys) => section(keys),
         Kind::OneOf(keys) => {

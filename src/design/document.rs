@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+use crate::design::yaml_faults::explain;
 use crate::problem::{Position, Problem};
 
 /// Larger files are refused unread: a design is a few kilobytes.
@@ -96,8 +97,21 @@ impl Document {
             }
             Ok(root @ Node::Map(_)) => Ok(Self { text, root }),
             Ok(other) => Err(whole(&other.describe(), "a group of keys: project, channel, flow, barrier, …")),
-            Err(error) => Err(unreadable(&error)),
+            Err(error) => Err(unreadable(&error, &text)),
         }
+    }
+
+    /// The value at `path` as it stands in the file, where it is a plain scalar on one line: what is to be a text is not to be rewritten
+    /// because it looks like a number.
+    pub fn plain(&self, path: &str) -> Option<&str> {
+        let Position { line, column } = self.position(path)?;
+        let line = self.text.lines().nth(line.checked_sub(1)?)?;
+        let (start, first) = line.char_indices().nth(column.checked_sub(1)?)?;
+        let in_brackets = line[..start].contains(['{', '[']);
+        let value = &line[start..];
+        let end = value.find(" #").unwrap_or(value.len());
+        let end = value.find(|letter| in_brackets && ",]}".contains(letter)).map_or(end, |bracket| bracket.min(end));
+        (!"\"'&*!|>".contains(first)).then(|| value[..end].trim())
     }
 
     /// Position of the value at `path`, a dotted path with list indices as numbers.
@@ -110,16 +124,14 @@ impl Document {
     }
 }
 
-fn unreadable(error: &serde_yaml::Error) -> Problem {
+fn unreadable(error: &serde_yaml::Error, text: &str) -> Problem {
     let message = error.to_string();
     let position = error.location().map(|place| Position { line: place.line(), column: place.column() });
-    let problem = if message.contains(TOO_MANY) {
-        Problem::new("", TOO_MANY, "a design of some hundred values").hint("does an alias (`*name`) repeat itself?")
-    } else {
-        let said = message.split(" at line ").next().unwrap_or(&message).to_string();
-        Problem::new("", format!("text that is not YAML: {said}"), "YAML: `key: value` lines, indented with spaces")
-    };
-    problem.at(position)
+    if message.contains(TOO_MANY) {
+        let problem = Problem::new("", TOO_MANY, "a design of some hundred values");
+        return problem.hint("does an alias (`*name`) repeat itself?").at(position);
+    }
+    explain(&message, position, text)
 }
 
 thread_local! {
@@ -200,7 +212,32 @@ impl<'de> Visitor<'de> for NodeSeed {
             };
             map.push((name, entries.next_value_seed(NodeSeed)?));
         }
+        merge(&mut map);
         Ok(Node::Map(map))
+    }
+}
+
+/// The key under which a group takes over the keys of another, or of several.
+const MERGE: &str = "<<";
+
+/// Takes over the keys of the groups under `<<` that the group does not have itself; of several groups the first counts.
+fn merge(map: &mut Vec<(String, Node)>) {
+    let groups = |node: &Node| match node {
+        Node::Map(_) => true,
+        Node::List(items) => items.iter().all(|item| matches!(item, Node::Map(_))),
+        _ => false,
+    };
+    while let Some(place) = map.iter().position(|(name, node)| name == MERGE && groups(node)) {
+        let (_, node) = map.remove(place);
+        let groups = if let Node::List(items) = node { items } else { vec![node] };
+        for group in groups {
+            let Node::Map(entries) = group else { continue };
+            for (name, value) in entries {
+                if !map.iter().any(|(known, _)| *known == name) {
+                    map.push((name, value));
+                }
+            }
+        }
     }
 }
 

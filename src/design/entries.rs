@@ -7,7 +7,7 @@ use crate::design::grain_lengths;
 use crate::design::key::{Key, Kind, Need, names};
 use crate::design::read::Purpose;
 use crate::problem::{Problem, nearest};
-use crate::units::{self, Dimension};
+use crate::units::{self, Dimension, separators};
 
 /// A checked value. Quantities are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -256,14 +256,20 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
         Kind::Number { low, high } => match *node {
             Node::Number(number) if (low..=high).contains(&number) => Ok(Value::Number(number)),
             Node::Number(number) => Err((format!("`{number}`"), None)),
-            _ => Err((node.describe(), Some("this is a plain number without a unit".into()))),
+            _ => Err(match separators(typed(node).trim()) {
+                Some((found, hint)) => (found, Some(hint)),
+                None => (node.describe(), Some("this is a plain number without a unit".into())),
+            }),
         },
         Kind::Count { low, high } => match *node {
             Node::Number(number) if number.fract() == 0.0 && number >= low as f64 && number <= high as f64 => {
                 Ok(Value::Number(number))
             }
             Node::Number(number) => Err((format!("`{number}`"), None)),
-            _ => Err((node.describe(), None)),
+            _ => Err(match separators(typed(node).trim()) {
+                Some((found, hint)) => (found, Some(hint)),
+                None => (node.describe(), None),
+            }),
         },
         Kind::Text => match node {
             Node::Map(_) | Node::List(_) | Node::Nothing => Err((node.describe(), None)),

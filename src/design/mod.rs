@@ -11,6 +11,7 @@ pub mod rope_rules;
 pub mod rules;
 pub mod schema;
 pub mod sizes;
+pub mod yaml_faults;
 
 use self::sizes::SizeCurve;
 

@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::design::document::Document;
-use crate::design::entries::{Entries, Origin, read};
+use crate::design::entries::{Entries, Origin, Value, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
@@ -44,6 +44,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
     let mut problems = Vec::new();
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
     take_remarks(&mut entries, &document, bytes);
+    keep_texts_as_typed(&mut entries, &document);
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
@@ -70,6 +71,18 @@ fn take_remarks(entries: &mut Entries, document: &Document, bytes: &[u8]) {
     for (path, entry) in entries.values.iter_mut().filter(|(_, entry)| entry.origin == Origin::File) {
         let line = document.position(path).and_then(|position| lines.get(position.line.checked_sub(1)?).copied());
         entry.remark = line.and_then(comment).unwrap_or_default().to_string();
+    }
+}
+
+/// A text that the parser takes for a number, a truth value or nothing is what stands in the file: revision 1.10 is not 1.1.
+fn keep_texts_as_typed(entries: &mut Entries, document: &Document) {
+    for (path, entry) in entries.values.iter_mut().filter(|(_, entry)| entry.origin == Origin::File) {
+        let Value::Text(text) = &mut entry.value else { continue };
+        let rewritten = text.parse::<f64>().is_ok() || text.parse::<bool>().is_ok();
+        if let Some(plain) = document.plain(path).filter(|plain| rewritten && !plain.is_empty()) {
+            *text = plain.to_string();
+            entry.typed = plain.to_string();
+        }
     }
 }
 
@@ -113,6 +126,34 @@ fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn texts_that_look_like_numbers_stay_as_typed() {
+        let text = include_str!("../../designs/small_net.yaml");
+        for typed in ["1.10", "007", "1e3", "0x1A", "2026-11-01", "true", "1_000", "+5"] {
+            let changed = text.replace("revision: A  ", &format!("revision: {typed}  "));
+            assert!(changed.contains(typed), "{typed}");
+            let file = read_design("x", changed.as_bytes()).unwrap();
+            assert_eq!(file.design.project.revision, typed);
+            assert_eq!(file.entries.typed("project.revision"), typed);
+            let (_, rest) = text.split_once("\nchannel:").unwrap();
+            let in_brackets = format!("project: {{name: x, revision: {typed}, barrier: y}} # z\nchannel:{rest}");
+            assert_eq!(read_design("x", in_brackets.as_bytes()).unwrap().design.project.revision, typed);
+        }
+    }
+
+    #[test]
+    fn a_group_takes_over_the_keys_of_another() {
+        let text = include_str!("../../designs/small_net.yaml");
+        let rope = "    lateral_ropes:\n      diameter: 18 mm\n      modulus: 40 GPa\n";
+        let merged = text
+            .replace("    main_ropes:\n", "    main_ropes:\n      <<: &steel {modulus: 40 GPa}\n")
+            .replace(rope, "    lateral_ropes:\n      <<: *steel\n      diameter: 18 mm\n")
+            .replace("      diameter: 20 mm\n      modulus: 40 GPa\n", "      diameter: 20 mm\n");
+        assert_ne!(merged, text);
+        let [one, other] = [text, merged.as_str()].map(|text| read_design("x", text.as_bytes()).unwrap().design);
+        assert_eq!(one, other);
+    }
 
     #[test]
     fn a_comment_is_what_stands_behind_the_value() {

@@ -471,3 +471,18 @@ const SIMULATION: &[Key] = &[
         "longest time to simulate if the flow does not come to rest",
     ),
 ];
+
+/// Two keys of a section of which one at the most may stand there.
+#[derive(Clone, Copy, Debug)]
+pub struct Either {
+    pub keys: [&'static str; 2],
+    /// Whether one of them must.
+    pub needed: bool,
+}
+
+/// The JSON Schema tells these; [`super::rules`] words what it says of them.
+pub const EITHER: &[Either] = &[
+    Either { keys: ["mass", "volume"], needed: true },
+    Either { keys: ["count", "heights"], needed: true },
+    Either { keys: ["bed_resistance", "bed_bolt_resistance"], needed: false },
+];

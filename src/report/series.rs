@@ -72,7 +72,8 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("potential_j".into(), histories.ledger.iter().map(|ledger| ledger.potential).collect());
     add("dissipated_j".into(), histories.ledger.iter().map(|ledger| ledger.dissipated()).collect());
     add("total_j".into(), histories.ledger.iter().map(|ledger| ledger.total()).collect());
-    columns.retain(|(_, values)| !values.is_empty());
+    // What the barrier does not have is left out; a run without a sample has all names and no row.
+    columns.retain(|(_, values)| !values.is_empty() || histories.time.is_empty());
     for (_, values) in &mut columns {
         values.resize(histories.time.len(), 0.0);
     }
@@ -87,7 +88,8 @@ pub fn csv(histories: &Histories) -> String {
     for row in 0..histories.time.len() {
         for (index, (_, values)) in columns.iter().enumerate() {
             let comma = if index > 0 { "," } else { "" };
-            let _ = write!(out, "{comma}{}", values[row]);
+            // With a point even where the value is whole: readers take the type of a column from what they see.
+            let _ = write!(out, "{comma}{:?}", values[row]);
         }
         out.push('\n');
     }

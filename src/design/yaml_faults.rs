@@ -1,0 +1,127 @@
+//! What a YAML parser says of a text it cannot read, turned into the line where the fault is and its usual cause.
+
+use crate::problem::{Position, Problem};
+
+/// The problem behind a parser's `message` about `text`, which it gave up reading at `gave_up`.
+pub fn explain(message: &str, gave_up: Option<Position>, text: &str) -> Problem {
+    let said = message.split(" at line ").next().unwrap_or(message);
+    // Where the parser began with what it could not finish is nearer to the fault than where it gave up.
+    let began = message.rsplit_once(", while ").and_then(|(_, context)| mark_in(context));
+    let started_before = ["expected ':'", "expected ',' or", "unexpected end of stream"];
+    let position = match began {
+        Some(began) if started_before.iter().any(|known| said.contains(known)) => Some(began),
+        _ if said.contains("more than one document") => second_document(text),
+        _ => gave_up,
+    };
+    let line = position.and_then(|place| text.lines().nth(place.line - 1)).unwrap_or("");
+    let problem =
+        Problem::new("", format!("text that is not YAML: {said}"), "YAML: `key: value` lines, indented with spaces");
+    match cause(said, line, position) {
+        Some(hint) => problem.hint(hint),
+        None => problem,
+    }
+    .at(position)
+}
+
+/// The usual cause of what a parser said of a line.
+fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
+    let content = without_comment(line).trim();
+    let (key, value) = content.split_once(':').unwrap_or((content, ""));
+    let value = value.trim();
+    Some(match said {
+        _ if said.contains("tab character") => "indent with spaces: the line is indented with a tab".to_string(),
+        _ if said.contains("expected ':'") => match content.split_once(':') {
+            Some((key, value)) => format!("write a blank behind the colon: `{key}: {}`", value.trim()),
+            None => match content.split_once(' ') {
+                Some((key, value)) => format!("a key is followed by a colon: `{key}: {}`", value.trim()),
+                None => format!("a key is followed by a colon: `{content}:`"),
+            },
+        },
+        _ if said.contains("mapping values are not allowed") && value.contains(": ") => {
+            format!("a value that holds a colon needs quotes: `{key}: \"{}\"`", value.replace('"', "'"))
+        }
+        _ if said.contains("mapping values are not allowed") => {
+            format!(
+                "the keys of a group begin in one column: `{key}` is indented more than the line above it, or that line lacks its colon"
+            )
+        }
+        _ if said.contains("expected key") && content.starts_with("- ") => {
+            format!("a dash begins an item of a list; a key has none: `{}`", content.trim_start_matches("- "))
+        }
+        _ if said.contains("expected key") => {
+            format!("the keys of a group begin in one column: `{key}` is indented otherwise than those above it")
+        }
+        _ if said.contains("cannot start any token") || said.contains("alphabetic or numeric character") => {
+            let first = value.chars().next().unwrap_or(' ');
+            format!("a text that begins with `{first}` needs quotes: `{key}: \"{}\"`", value.replace('"', "'"))
+        }
+        _ if said.contains("expected ',' or") => {
+            let open =
+                position.and_then(|place| line.chars().nth(place.column - 1)).filter(|open| "[{".contains(*open));
+            let open = open.unwrap_or(if said.contains('}') { '{' } else { '[' });
+            format!(
+                "the bracket `{open}` that is opened here is not closed as it should be; a text that begins with one needs quotes"
+            )
+        }
+        _ if said.contains("unexpected end of stream") => {
+            "the quotation mark that is opened here is not closed".to_string()
+        }
+        _ if said.contains("more than one document") => {
+            "a design file holds one design: leave out the line `---` and what follows it".to_string()
+        }
+        _ => return None,
+    })
+}
+
+/// `... at line 14 column 3`
+fn mark_in(text: &str) -> Option<Position> {
+    let (_, mark) = text.rsplit_once("at line ")?;
+    let (line, column) = mark.split_once(" column ")?;
+    let column: String = column.chars().take_while(char::is_ascii_digit).collect();
+    Some(Position { line: line.parse().ok()?, column: column.parse().ok()? })
+}
+
+fn second_document(text: &str) -> Option<Position> {
+    let written = |line: &str| !without_comment(line).trim().is_empty();
+    let mut lines = text.lines().enumerate();
+    lines.find(|(_, line)| written(line) && !line.starts_with("---"))?;
+    let (index, _) = lines.find(|(_, line)| line.starts_with("---"))?;
+    Some(Position { line: index + 1, column: 1 })
+}
+
+fn without_comment(line: &str) -> &str {
+    line.split_once(" #").map_or(line, |(content, _)| content)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::design::document::Document;
+
+    #[test]
+    fn the_fault_is_told_where_it_is_with_its_usual_cause() {
+        let text = "channel:\n  width: 3 m\n  slope: 25 deg\n  notes: none\n";
+        let told = |from: &str, to: &str| {
+            assert!(text.contains(from));
+            let problem = Document::parse(text.replacen(from, to, 1).as_bytes()).expect_err("a fault");
+            (problem.position.map(|place| place.line), problem.hint.unwrap_or_default())
+        };
+        for (from, to, line, hint) in [
+            ("slope: 25", "slope:25", 3, "write a blank behind the colon: `slope: 25 deg`"),
+            ("slope: 25", "slope 25", 3, "a key is followed by a colon: `slope: 25 deg`"),
+            ("  slope", "   slope", 3, "`slope` is indented more than the line above it"),
+            ("  slope", " slope", 3, "`slope` is indented otherwise than those above it"),
+            ("  slope", "  \tslope", 3, "indent with spaces"),
+            ("  slope", "- slope", 3, "a key has none: `slope: 25 deg`"),
+            ("none", "see: this", 4, "needs quotes: `notes: \"see: this\"`"),
+            ("none", "@home", 4, "begins with `@` needs quotes: `notes: \"@home\"`"),
+            ("none", "*bold*", 4, "begins with `*` needs quotes"),
+            ("3 m", "\"3 m", 2, "the quotation mark that is opened here is not closed"),
+            ("3 m", "[3 m", 2, "the bracket `[`"),
+            ("none\n", "none\n---\na: 1\n", 5, "leave out the line `---`"),
+        ] {
+            let (at, said) = told(from, to);
+            assert_eq!(at, Some(line), "{to}: {said}");
+            assert!(said.contains(hint), "{to}: {said}");
+        }
+    }
+}
