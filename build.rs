@@ -15,7 +15,7 @@ fn main() {
     let commit = git(&["rev-parse", "--short=10", "HEAD"]);
     // Without locks: a status that refreshes the index would make the next build think that something has changed.
     let changes = git(&["--no-optional-locks", "status", "--porcelain", "--untracked-files=no"]);
-    let edited = if changes.is_some_and(|changes| !changes.is_empty()) { "-dirty" } else { "" };
+    let edited = if changes.is_some_and(|changes| !changes.is_empty()) { differences() } else { String::new() };
     let told = commit.map_or("unknown".to_string(), |commit| format!("{commit}{edited}"));
     println!("cargo:rustc-env=BARRIER_CHECK_COMMIT={told}");
 }
@@ -24,4 +24,12 @@ fn main() {
 fn git(arguments: &[&str]) -> Option<String> {
     let told = Command::new("git").args(arguments).output().ok().filter(|told| told.status.success())?;
     String::from_utf8(told.stdout).ok().map(|text| text.trim().to_string())
+}
+
+/// What tells sources that differ from their commit from others that differ otherwise: a digest of the differences.
+fn differences() -> String {
+    use std::hash::{DefaultHasher, Hash, Hasher};
+    let mut digest = DefaultHasher::new();
+    git(&["--no-optional-locks", "diff", "HEAD"]).hash(&mut digest);
+    format!("-dirty-{:08x}", digest.finish() as u32)
 }

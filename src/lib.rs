@@ -73,6 +73,7 @@ pub mod load_cases;
 pub mod loads;
 pub mod pipeline;
 pub mod problem;
+pub mod program;
 pub mod report;
 pub mod scene;
 pub mod sealed;

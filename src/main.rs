@@ -157,9 +157,26 @@ enum SchemaOf {
     Result,
 }
 
+/// Bytes of stack that the program needs, whatever the shell allows the first thread.
+const STACK: usize = 16 << 20;
+
 fn main() {
+    let ran = std::thread::Builder::new().stack_size(STACK).spawn(run).map(std::thread::JoinHandle::join);
+    process::exit(match ran {
+        Ok(Ok(code)) => code,
+        // A panic has told of itself.
+        Ok(Err(_)) => 101,
+        Err(error) => {
+            terminal::warn(format_args!("error: no thread could be started: {error}"));
+            2
+        }
+    });
+}
+
+/// The command that was given; its exit code.
+fn run() -> i32 {
     let arguments = Arguments::parse();
-    let code = match arguments.command {
+    match arguments.command {
         Some(Command::Schema { of }) => {
             let schema = match of {
                 SchemaOf::Design => design_schema(),
@@ -190,6 +207,5 @@ fn main() {
                 false => check(&design, out.as_deref(), how.wishes(), keep.every()) as i32,
             }
         }
-    };
-    process::exit(code);
+    }
 }

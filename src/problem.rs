@@ -46,9 +46,9 @@ pub struct Problems {
 }
 
 /// Text of a file as a terminal may show it: what would steer the terminal, or turn the text round, is made visible.
-fn harmless(text: &str) -> String {
+pub fn harmless(text: &str) -> String {
     let steers = |letter: char| {
-        letter.is_control() && letter != '\n'
+        letter.is_control() && !"\n\t".contains(letter)
             || ('\u{202a}'..='\u{202e}').contains(&letter)
             || ('\u{2066}'..='\u{2069}').contains(&letter)
     };

@@ -1,20 +1,25 @@
 //! One simulation of one design: from a scene, or from where an earlier run was interrupted, to what it showed.
 
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use crate::checkpoint::Shelf;
 use crate::checks::credibility::{Numerics, doubts};
 use crate::dem::crew;
 use crate::dem::ledger::Ledger;
 use crate::dem::recorders::histories::Histories;
+use crate::dem::simulation::Simulation;
+use crate::dem::tables::grains::Grain;
 use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Seen;
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::Guideline;
 use crate::design::{Arrival, Design};
 use crate::fidelity::Fidelity;
-use crate::scene::build::{SAMPLES_PER_WINDOW, build_unless};
+use crate::program::PROGRAM;
+use crate::scene::build::{Prepared, Preparing, SAMPLES_PER_WINDOW, build_watched};
 use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
 use crate::scene::flow::packing::PackingError;
@@ -58,6 +63,12 @@ impl Simulated {
         Seen { characteristic: observed(&self.starts), factored: observed(&self.factored) }
     }
 
+    /// Whether it is a simulation of the design, with all that reports rely on.
+    pub fn fits(&self, design: &Design) -> bool {
+        let mut all = self.starts.iter().chain(&self.factored);
+        !self.starts.is_empty() && all.all(|start| start.observed.fits(design)) && self.histories.is_whole()
+    }
+
     /// A quantity over the starts.
     pub fn spread(&self, quantity: impl Fn(&Observed) -> f64) -> Spread {
         Spread::of(&self.starts.iter().map(|start| quantity(&start.observed)).collect::<Vec<_>>())
@@ -67,6 +78,8 @@ impl Simulated {
 /// Counts and times of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
+    /// The program that simulated.
+    pub program: String,
     pub grains: usize,
     pub spheres: usize,
     pub barrier_nodes: usize,
@@ -131,18 +144,36 @@ struct Halfway<T> {
 
 /// What is kept of a simulation.
 #[derive(Serialize, Deserialize)]
-enum Kept<Unfinished, Done> {
+enum Kept<Unready, Unfinished, Done> {
+    Preparing(Unready),
     Halfway(Unfinished),
     Done(Done),
 }
 
+/// What was prepared before the run was interrupted.
+type Ready = Prepared<Vec<Grain>, Simulation>;
+
 impl Halfway<Ongoing> {
-    fn begin(design: &Design, fidelity: &Fidelity, seed: u64, watch: &Watch) -> Result<Self, RunError> {
-        let scene = build_unless(watch.stop, design, fidelity, seed).map_err(|error| match error {
+    fn begin(
+        design: &Design,
+        fidelity: &Fidelity,
+        seed: u64,
+        stop: &AtomicBool,
+        from: Option<Ready>,
+        shelf: Option<&Shelf>,
+    ) -> Result<Self, RunError> {
+        let mut keep = |prepared: Prepared<&[Grain], &Simulation>, last: bool| {
+            if let Some(shelf) = shelf {
+                shelf.keep(&Kept::<_, Halfway<Ongoing>, Simulated>::Preparing(prepared), last);
+            }
+        };
+        let watched = Preparing { stop, from, keep: &mut keep };
+        let scene = build_watched(design, fidelity, seed, watched).map_err(|error| match error {
             PackingError::Interrupted => RunError::Interrupted,
             other => other.into(),
         })?;
         let facts = Facts {
+            program: PROGRAM.to_string(),
             grains: scene.simulation.grains.len(),
             spheres: scene.simulation.grains.members(),
             smoothing: scene.smoothing,
@@ -169,10 +200,11 @@ pub fn simulate(
         return Err(RunError::TooMuch(reason));
     }
     let shelf = watch.vault.map(|vault| vault.shelf(&format!("{design:?} {fidelity:?} {seed} {detail:?}")));
-    let halfway = match shelf.as_ref().and_then(|shelf| shelf.take()) {
-        Some(Kept::Done(done)) => return Ok(Simulated { fidelity: fidelity.clone(), ..done }),
-        Some(Kept::Halfway(halfway)) => Some(halfway),
-        None => None,
+    let (ready, halfway) = match shelf.as_ref().and_then(|shelf| shelf.take()) {
+        Some(Kept::<Ready, _, Simulated>::Done(done)) => return Ok(Simulated { fidelity: fidelity.clone(), ..done }),
+        Some(Kept::Halfway(halfway)) => (None, Some(halfway)),
+        Some(Kept::Preparing(ready)) => (Some(ready), None),
+        None => (None, None),
     };
     if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
         return Err(RunError::Interrupted);
@@ -181,14 +213,14 @@ pub fn simulate(
         let started = Instant::now();
         let Halfway { mut facts, samples, ongoing } = match halfway {
             Some(halfway) => halfway,
-            None => Halfway::begin(design, fidelity, seed, watch)?,
+            None => Halfway::begin(design, fidelity, seed, watch.stop, ready, shelf.as_ref())?,
         };
         let before = facts.wall_clock;
         let spent = || before + started.elapsed().as_secs_f64();
         let event = ongoing.go_on(design.simulation.longest, watch, |ongoing, last| {
             if let Some(shelf) = &shelf {
                 let facts = Facts { wall_clock: spent(), ..facts.clone() };
-                shelf.keep(&Kept::<_, Simulated>::Halfway(Halfway { facts, samples, ongoing }), last);
+                shelf.keep(&Kept::<Ready, _, Simulated>::Halfway(Halfway { facts, samples, ongoing }), last);
             }
         });
         if event.ending == Ending::Interrupted {
@@ -215,7 +247,7 @@ pub fn simulate(
         let factored = Vec::new();
         let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, factored, doubts };
         if let Some(shelf) = &shelf {
-            shelf.finish(&Kept::<Halfway<Ongoing>, _>::Done(&simulated));
+            shelf.finish(&Kept::<Ready, Halfway<Ongoing>, _>::Done(&simulated));
         }
         Ok(simulated)
     })

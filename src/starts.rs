@@ -22,7 +22,12 @@ pub fn side_by_side<T: Send>(workers: usize, count: usize, job: impl Fn(usize) -
         thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     };
     let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..workers.min(count).max(1)).map(|_| scope.spawn(work)).collect();
+        // Where the system gives no more threads, those that are there do the work, or this one.
+        let start = |_| std::thread::Builder::new().spawn_scoped(scope, work).ok();
+        let threads: Vec<_> = (0..workers.min(count).max(1)).filter_map(start).collect();
+        if threads.is_empty() {
+            return work();
+        }
         threads.into_iter().flat_map(joined).collect()
     });
     results.sort_by_key(|(index, _)| *index);

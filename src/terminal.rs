@@ -1,7 +1,10 @@
-//! The one place that writes to the terminal. What cannot be written, because nobody listens or the disk behind is full, ends no run.
+//! The one place that writes to the terminal. What cannot be written, because nobody listens or the disk behind is full, ends no run; and
+//! what would steer the terminal, from the name of a file or a text of the design, is made visible.
 
 use std::fmt::Display;
 use std::io::Write;
+
+use crate::problem::harmless;
 
 /// Writes a line to standard output; whether it could be written.
 pub fn say(line: impl Display) -> bool {
@@ -14,7 +17,7 @@ pub fn warn(line: impl Display) -> bool {
 }
 
 fn line_to(mut out: impl Write, line: impl Display) -> bool {
-    writeln!(out, "{line}").and_then(|()| out.flush()).is_ok()
+    writeln!(out, "{}", harmless(&line.to_string())).and_then(|()| out.flush()).is_ok()
 }
 
 #[cfg(test)]

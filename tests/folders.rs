@@ -151,7 +151,7 @@ fn a_folder_that_cannot_be_written_is_told_before_the_run() {
     assert!(error(&refused).contains("file is a file; a folder is wanted"), "{}", error(&refused));
     let refused = run(&place, &["net.yaml", "--out", "/proc/1/x"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(error(&refused).contains("nothing can be written into /proc/1/x"), "{}", error(&refused));
+    assert!(error(&refused).contains("the report could not be written to /proc/1/x"), "{}", error(&refused));
 }
 
 #[test]

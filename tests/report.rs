@@ -230,3 +230,40 @@ fn frames_of_a_long_event_are_thinned_evenly() {
     assert!(gaps[..gaps.len() - 1].iter().all(|gap| *gap == gaps[0]));
     assert_eq!(times.last(), Some(&999.0));
 }
+
+/// Recordings that somebody has changed and sealed anew: refused or shown, never a panic.
+#[test]
+fn a_forged_recording_is_refused_or_shown() {
+    use barrier_check::report::recording::{FORMAT, NAME, decode};
+    use barrier_check::report::render::render;
+    use barrier_check::report::view::View;
+    use barrier_check::sealed::{seal, unseal};
+    let cases = std::env::var("HOSTILE_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(400_usize);
+    let whole = std::fs::read("tests/fixtures/recorded.bin").expect("the fixture");
+    let body = unseal(NAME, FORMAT, &whole).expect("sealed");
+    let mut random = fastrand::Rng::with_seed(5);
+    let mut shown = 0;
+    for case in 0..cases {
+        let mut forged = body.to_vec();
+        // Most of the bytes are numbers of histories; what steers the reader stands between them, and at the end.
+        for _ in 0..random.usize(1..4) {
+            let place = match random.u8(0..3) {
+                0 => random.usize(0..forged.len()),
+                1 => random.usize(0..forged.len().min(6000)),
+                _ => forged.len() - 1 - random.usize(0..forged.len().min(6000)),
+            };
+            match random.u8(0..4) {
+                0 => forged[place] = random.u8(..),
+                1 => forged[place] = forged[place].wrapping_add(1),
+                2 => forged[place] = 0,
+                _ => drop(forged.remove(place)),
+            }
+        }
+        let told = std::panic::catch_unwind(|| {
+            let Ok(run) = decode(&seal(NAME, FORMAT, &forged)) else { return false };
+            render(&View::of(&run)).is_ok()
+        });
+        shown += usize::from(told.unwrap_or_else(|_| panic!("case {case} panics")));
+    }
+    assert!(shown > cases / 20, "hardly any forgery is read: {shown}");
+}

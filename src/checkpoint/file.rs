@@ -11,17 +11,15 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use crate::program::PROGRAM;
 use crate::sealed::{Broken, seal, unseal};
 
 const NAME: &[u8; 8] = b"BARRKPT\n";
 /// Changes whenever anything that is kept changes.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 
 /// Bytes of a file at the most: ten times those of the largest run that is allowed.
 const LONGEST: u64 = 8 << 30;
-
-/// The program that writes, down to the commit: another one would go on differently.
-const PROGRAM: &str = concat!(env!("CARGO_PKG_VERSION"), " ", env!("BARRIER_CHECK_COMMIT"));
 
 /// Why a file cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -36,7 +34,7 @@ pub enum CheckpointError {
     Format(u32),
     #[error("it is damaged: its checksum is wrong")]
     Damaged,
-    #[error("it was kept by version {0}, but this is {PROGRAM}, which would go on differently")]
+    #[error("it was kept by {0}, but this is {PROGRAM}, which would go on differently")]
     Program(String),
     #[error("it belongs to another design or simulation")]
     Design,
@@ -215,7 +213,7 @@ mod tests {
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
         std::fs::write(&path, bytes).expect("a file");
         let error = read::<u32>(&path, Kind::Order, None).expect_err("another version");
-        assert!(error.to_string().contains("kept by version 0.0.1 abc"), "{error}");
+        assert!(error.to_string().contains("kept by 0.0.1 abc, but this is barrier-check "), "{error}");
         clear(path.parent().expect("a folder"));
     }
 }

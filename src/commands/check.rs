@@ -1,18 +1,15 @@
 //! `barrier-check DESIGN`: from a design file to a report and an exit code.
 
-use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, Order, Vault};
 use crate::commands::ExitCode;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::{exit_code, hand_over, summarise, write_report};
+use crate::commands::progress::Progress;
 use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, Purpose, read_design, read_design_for};
 use crate::fidelity::choose;
@@ -20,8 +17,9 @@ use crate::load_cases::{cases, factored};
 use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::report::folder::{Folder, Named, folder_name};
-use crate::scene::estimate::{Estimate, estimate};
+use crate::scene::estimate::{Estimate, estimate, slowness};
 use crate::scene::event::{ProgressReport, Watch};
+use crate::sensitivity::simulated::variants;
 use crate::simulated::RunError;
 use crate::terminal;
 
@@ -140,21 +138,31 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let fidelity = choose(&file.design);
     let estimate = estimate(&file.design, &fidelity);
     let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate;
+    let seconds = seconds * slowness();
     let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
-    let starts = f64::from(wishes.starts) * cases(&file.design).len() as f64;
-    // A pipe that nobody reads to its end is no error.
-    let say = |line: String| drop(writeln!(std::io::stdout(), "{line}"));
+    let cases = cases(&file.design).len();
+    let starts = wishes.starts as usize * cases;
+    let varied = if wishes.vary { 2 * variants(&file.design).len() } else { 0 };
+    let runs = starts + varied;
+    let say = |line: String| {
+        let _ = terminal::say(line);
+    };
     say(format!("grains            {grains:.0} of {spheres:.0} spheres"));
     say(format!("barrier           {elements:.0} elements"));
     say(format!("event             about {simulated:.1} s in {steps:.0} steps of {:.2e} s", fidelity.time_step));
-    say(format!("time              about {} on one core, to a factor of two", duration(seconds * starts)));
+    if runs > 1 {
+        let flows = if cases > 1 { ", the flow as it is and with the partial factor on loads" } else { "" };
+        let inputs = if varied > 0 { format!(", {varied} with one input changed") } else { String::new() };
+        say(format!("simulations       {runs}: {} packings{flows}{inputs}", wishes.starts));
+    }
+    let time = duration(seconds * runs as f64);
+    say(format!("time              about {time} on one core, to a factor of two"));
     if cores > 1 {
-        say(format!("                  about {} on {cores} cores", duration(seconds * starts / (0.8 * cores as f64))));
+        // One simulation shares its work out worse than several that run side by side.
+        let gain = if runs > 1 { cores.min(runs) as f64 } else { 0.8 * cores as f64 };
+        say(format!("                  about {} on {cores} cores", duration(seconds * runs as f64 / gain)));
     }
-    if cases(&file.design).len() > 1 {
-        say("load cases        the flow as it is, and with the partial factor on loads".into());
-    }
-    say(format!("memory            about {:.0} MB for each start", bytes / 1e6));
+    say(format!("memory            about {:.0} MB for each simulation", bytes / 1e6));
     if file.design.simulation.fidelity == FidelityWish::Auto {
         let most = "this is one start; a marginal design takes up to eleven, five of them of the finest model";
         say(format!("fidelity: auto    {most}"));
@@ -255,14 +263,12 @@ fn listen() {
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress.
 pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Result<Run, Failure> {
     listen();
-    let bar = Mutex::new(progress_bar());
-    let show = |report: ProgressReport| {
-        if let Ok(bar) = bar.lock() {
-            bar.set_position((1000.0 * report.share) as u64);
-            bar.set_message(format!("t = {:.2} s, force {:.4} kN", report.time, report.force / 1e3));
-        }
-    };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(wishes.threads.unwrap_or(0)).build()?;
+    let progress = Progress::begin();
+    let show = |report: ProgressReport| progress.show(&report);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(wishes.threads.unwrap_or(0))
+        .build()
+        .map_err(|error| format!("the threads could not be started ({error}): ask for fewer with --threads"))?;
     let watch = Watch { progress: &show, stop: &STOP, vault };
     let result = pool.install(|| {
         let mut result = match file.design.simulation.fidelity {
@@ -274,19 +280,6 @@ pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Resu
         }
         Ok(result)
     });
-    if let Ok(bar) = bar.lock() {
-        bar.finish_and_clear();
-    }
+    progress.end();
     result.map_err(|error: RunError| error.into())
-}
-
-fn progress_bar() -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(1000);
-    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}  {eta} left");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.set_message("packing the flow");
-    bar
 }

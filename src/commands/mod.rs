@@ -4,6 +4,7 @@ pub mod check;
 pub mod compare;
 pub mod input;
 pub mod output;
+pub mod progress;
 pub mod report;
 pub mod schema;
 pub mod study;

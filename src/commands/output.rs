@@ -1,6 +1,5 @@
 //! What every command that ends in a report does with it: write it, tell of it, end by its verdict.
 
-use std::io::Write;
 use std::path::Path;
 
 use crate::commands::ExitCode;
@@ -80,9 +79,8 @@ fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Fail
 
 /// Verdict and checks for the terminal.
 pub fn summarise(view: &View, folder: &Path, with_vtk: bool) {
-    let mut out = std::io::stdout().lock();
-    let mut say = |line: String| {
-        let _ = writeln!(out, "{line}");
+    let say = |line: String| {
+        let _ = terminal::say(line);
     };
     for check in &view.checks {
         let limit =

@@ -1,6 +1,5 @@
 //! `barrier-check validate`: runs validation cases, prints them as a table and writes a report.
 
-use std::io::Write;
 use std::path::Path;
 
 use crate::commands::ExitCode;
@@ -66,7 +65,7 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         ran.push(done);
     }
     let rows: Vec<Row> = ran.iter().map(Row::of).collect();
-    let _ = writeln!(std::io::stdout(), "{}", verdict_line(&rows));
+    terminal::say(verdict_line(&rows));
     let written = render(&rows)
         .map_err(|error| error.to_string())
         .and_then(|files| put(&mut folder, &files).map_err(|error| error.to_string()));
@@ -86,16 +85,12 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
 /// One line for the case, and one for each finding.
 fn tell(ran: &Ran) {
     let row = Row::of(ran);
-    let mut out = std::io::stdout().lock();
-    let _ = writeln!(out, "{:<4} {:<4} {} ({}, {})", row.verdict.to_uppercase(), row.id, row.title, row.tier, row.time);
-    for finding in &row.findings {
-        let _ = writeln!(
-            out,
-            "     {:<4} {:<52} {:>12}   {}",
-            finding.verdict, finding.what, finding.measured, finding.wanted
-        );
-    }
-    if let Some(broken) = &row.broken {
-        let _ = writeln!(out, "     {broken}");
+    let head = format!("{:<4} {:<4} {} ({}, {})", row.verdict.to_uppercase(), row.id, row.title, row.tier, row.time);
+    let findings = row.findings.iter().map(|finding| {
+        format!("     {:<4} {:<52} {:>12}   {}", finding.verdict, finding.what, finding.measured, finding.wanted)
+    });
+    let broken = row.broken.iter().map(|broken| format!("     {broken}"));
+    for line in std::iter::once(head).chain(findings).chain(broken) {
+        terminal::say(line);
     }
 }

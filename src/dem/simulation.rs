@@ -27,8 +27,16 @@ const STEPS_PER_AUDIT: u64 = 500;
 const STEP_AFTER_CUT: f64 = 0.95;
 
 /// Steps between two stops at which all lists are made anew, whatever they are still good for: what is kept there goes on bit for
-/// bit like a run that was never interrupted.
-pub const STEPS_PER_STOP: u64 = 2000;
+/// bit like a run that was never interrupted. Where spheres are many they are fewer, so that stops stay some seconds apart.
+const STEPS_PER_STOP: [u64; 2] = [200, 2000];
+/// Steps of a sphere between two stops, where neither bound holds: about a second of one core.
+const WORK_PER_STOP: u64 = 40_000_000;
+
+/// Steps between two stops of so many spheres.
+fn steps_per_stop(spheres: usize) -> u64 {
+    let [fewest, most] = STEPS_PER_STOP;
+    (WORK_PER_STOP / spheres.max(1) as u64).clamp(fewest, most)
+}
 
 /// Step of the barrier over its critical step that is aimed at where it takes several in one of the grains', and their largest
 /// number.
@@ -114,12 +122,15 @@ pub struct Simulation {
     law: LawConstants,
     /// Speed no grain or node can have by honest means (m/s).
     speed_limit: f64,
+    /// Steps between two stops.
+    stop_every: u64,
 }
 
 impl Simulation {
     pub fn new(mut model: Model, time_step: f64, skin: f64, speed_limit: f64) -> Self {
         let grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
         Self {
+            stop_every: steps_per_stop(grains.members()),
             grains,
             sheets: LoadSheets::default(),
             neighbours: Neighbours::new(skin),
@@ -216,7 +227,7 @@ impl Simulation {
 
     /// Whether the simulation may be kept here and taken up again later.
     pub fn at_stop(&self) -> bool {
-        self.steps.is_multiple_of(STEPS_PER_STOP)
+        self.steps.is_multiple_of(self.stop_every)
     }
 
     fn law(&self) -> LawConstants {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
 use crate::demand::coefficients::{Coefficients, coefficients};
 use crate::demand::from_loads::{Guideline, wall_of};
-use crate::design::Design;
+use crate::design::{BarrierDesign, Design};
 
 /// Numbers read off the histories of one run, SI.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -110,6 +110,27 @@ impl Observed {
             residual_height: 1.0,
             ..Self::default()
         }
+    }
+
+    /// Whether there is a number for each main rope of the design, and for each segment of its wall: what was read from a file may have
+    /// been forged.
+    pub fn fits(&self, design: &Design) -> bool {
+        let (ropes, segments) = match &design.barrier {
+            BarrierDesign::FlexibleNet(net) => (net.main_ropes.heights.len(), 0),
+            BarrierDesign::RigidWall(wall) => (0, wall.segment_tops.len()),
+        };
+        let by_rope = [
+            &self.rope_tension_peak,
+            &self.rope_mean_peak,
+            &self.rope_mean_residual,
+            &self.extension,
+            &self.anchor_force_peak,
+            &self.brake_stroke,
+            &self.brake_stroke_mean,
+            &self.brake_force_peak,
+        ];
+        by_rope.iter().all(|row| row.len() == ropes)
+            && [&self.segment_peak, &self.segment_residual].iter().all(|row| row.len() == segments)
     }
 
     pub fn read(histories: &Histories, design: &Design, guideline: &Guideline, reading: Reading) -> Self {

@@ -52,7 +52,7 @@ pub struct Document {
 const DEEPEST: usize = 1000;
 
 /// Whether more brackets are ever open at once than any design needs, wherever they stand.
-fn brackets_are_too_deep(text: &str) -> bool {
+pub fn brackets_are_too_deep(text: &str) -> bool {
     let mut open = 0_usize;
     for letter in text.bytes() {
         match letter {

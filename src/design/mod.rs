@@ -222,7 +222,17 @@ pub struct SideExtension {
     pub holding_force_given: bool,
 }
 
+/// Widest gap between the net and a side wall (m), that of the published barriers (Albaba 2015), and what it is of the mesh at the most.
+const WIDEST_GAP: f64 = 0.07;
+const GAP_OF_MESH: f64 = 0.5;
+
 impl FlexibleNet {
+    /// Gap between the net and each side wall, in which the main ropes go on to their anchors (m): no wider than half a mesh, so that
+    /// what the net holds does not pass beside it.
+    pub fn side_gap(&self) -> f64 {
+        WIDEST_GAP.min(GAP_OF_MESH * self.mesh_opening)
+    }
+
     /// Number of main ropes, from the bottom, that the bed holds along their length.
     pub fn ropes_held_by_bed(&self) -> usize {
         usize::from(self.bottom == Bottom::Fixed)

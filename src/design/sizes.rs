@@ -114,19 +114,27 @@ impl SizeCurve {
     /// Diameters of grains that together weigh `mass`, from fine to coarse. Each grain is the quantile at the
     /// middle of the mass it adds, so the curve is met to within the mass of one grain.
     pub fn grains(&self, mass: f64, solid_density: f64) -> Vec<f64> {
+        let (mut diameters, scale) = self.whole_grains(mass, solid_density);
+        diameters.iter_mut().for_each(|diameter| *diameter *= scale);
+        diameters
+    }
+
+    /// The number of grains nearest to `mass`, one at the least, with the factor on their diameters that makes the mass exact.
+    pub fn whole_grains(&self, mass: f64, solid_density: f64) -> (Vec<f64>, f64) {
         let mass_of = |diameter: f64| solid_density * std::f64::consts::PI / 6.0 * diameter.powi(3);
         let mut diameters = Vec::new();
         let mut sum = 0.0;
         while sum < mass {
             let first = self.quantile(sum / mass);
             let middle = self.quantile(((sum + 0.5 * mass_of(first)) / mass).min(1.0));
+            // One more only where that is nearer than none.
+            if !diameters.is_empty() && sum + 0.5 * mass_of(middle) > mass {
+                break;
+            }
             diameters.push(middle);
             sum += mass_of(middle);
         }
-        // The last grain overshoots: scale all by the same tiny amount so that the mass is exact.
-        let scale = libm::cbrt(mass / sum);
-        diameters.iter_mut().for_each(|diameter| *diameter *= scale);
-        diameters
+        (diameters, libm::cbrt(mass / sum))
     }
 }
 
@@ -145,6 +153,19 @@ mod tests {
         for (share, diameter) in [(0.3, 0.30), (0.5, 0.45), (0.7, 0.60), (0.9, 0.80)] {
             let finer: f64 = grains.iter().filter(|d| **d <= diameter).map(mass).sum();
             assert!((finer / total - share).abs() < 0.01, "{share}: {}", finer / total);
+        }
+    }
+
+    /// One grain of 0.3 m weighs 38.2 kg: as much, a little more and a little less are one grain, 1.6 times as much are two.
+    #[test]
+    fn the_number_of_grains_is_rounded_to_the_nearest() {
+        let curve = SizeCurve::ByNumber { smallest: 0.2999, largest: 0.3001 };
+        let one = 2701.0 * std::f64::consts::PI / 6.0 * 0.3_f64.powi(3);
+        for (mass, count) in [(0.3, 1), (1.0, 1), (1.04, 1), (1.4, 1), (1.6, 2), (2.4, 2), (2.6, 3)] {
+            let grains = curve.grains(mass * one, 2701.0);
+            assert_eq!(grains.len(), count, "{mass}");
+            let total: f64 = grains.iter().map(|diameter| (diameter / 0.3).powi(3)).sum();
+            assert_relative_eq!(total, mass, max_relative = 1e-3);
         }
     }
 

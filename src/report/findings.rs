@@ -8,6 +8,7 @@ use crate::demand::from_histories::Observed;
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, Verdict};
+use crate::program::COMMIT;
 use crate::report::numbers::with_unit;
 use crate::report::validation::Kept;
 use crate::report::view::Row;
@@ -373,7 +374,7 @@ fn validation_row() -> Row {
     };
     let failed: Vec<String> =
         kept.cases.iter().filter(|case| !case.held).map(|case| format!("{} ({})", case.id, case.title)).collect();
-    let this = env!("BARRIER_CHECK_COMMIT");
+    let this = COMMIT;
     let commit = if kept.commit == this {
         format!("at this commit, {this}")
     } else {

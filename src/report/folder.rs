@@ -3,7 +3,6 @@
 //! Nothing of the user's is lost: a folder that holds files and is not that of an earlier run is refused, and so is one in which files of
 //! an earlier run were changed; what turns up during a run is moved aside. `manifest.json` tells which files are the program's.
 
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -11,6 +10,7 @@ use std::path::{Path, PathBuf};
 use sha2::Digest;
 
 use crate::checkpoint;
+use crate::program::PROGRAM;
 use crate::report::lock::{self, Lock};
 use crate::report::manifest::{self, Manifest, digest_of, hexadecimal, is_plain};
 use crate::report::recording;
@@ -49,7 +49,7 @@ pub enum Refusal {
     OtherDesign(String),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
     Taken(String),
-    #[error("nothing can be written into {0}: {1}")]
+    #[error("the report could not be written to {0}: {1}")]
     Unwritable(String, io::Error),
 }
 
@@ -126,8 +126,7 @@ impl Folder {
         let recorded = digest_in(&self.path.join(recording::FILE)).filter(|_| self.has_recording());
         let kept = self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER).is_file();
         let mut foreign = self.others();
-        foreign
-            .retain(|name| !(name == recording::FILE && recorded.is_some()) && !(name == checkpoint::FOLDER && kept));
+        foreign.retain(|name| (name != recording::FILE || recorded.is_none()) && (name != checkpoint::FOLDER || !kept));
         if !foreign.is_empty() {
             return Err(Refusal::Foreign(self.path.display().to_string(), listed(&foreign)));
         }
@@ -169,31 +168,37 @@ impl Folder {
     /// places and then renamed one by one, `result.json` last, so that a reader who finds that file finds the others complete. What is
     /// not the program's is moved aside; returned is what was moved, and to where.
     pub fn write(&mut self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
-        let digests: BTreeMap<String, String> =
-            files.iter().map(|file| (file.name.clone(), digest_of(&file.bytes))).collect();
-        self.manifest = std::mem::take(&mut self.manifest).replaced_by(program(), digests);
+        if let Err(error) = self.lay_out(files) {
+            files.iter().for_each(|file| drop(fs::remove_file(self.temporary(&file.name))));
+            return Err(error);
+        }
+        let digests = files.iter().map(|file| (file.name.clone(), digest_of(&file.bytes))).collect();
+        // Should the rest be cut short, both the old files and the new ones are the program's.
+        self.manifest = std::mem::take(&mut self.manifest).replaced_by(PROGRAM.to_string(), digests);
         let placed = self.place(files);
-        if placed.is_err() {
-            for file in files {
-                let _ = fs::remove_file(self.temporary(&file.name));
-            }
-        } else {
+        if placed.is_ok() {
             self.manifest.replaced.clear();
         }
         self.put_manifest()?;
         placed
     }
 
-    fn place(&self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
+    /// Writes the files beside their places.
+    fn lay_out(&self, files: &[ReportFile]) -> io::Result<()> {
         for file in files {
             if !is_plain(&file.name) {
                 return Err(io::Error::other(format!("{:?} is no name for a file of the report", file.name)));
             }
-            if let Some(below) = Path::new(&file.name).parent().filter(|below| !below.as_os_str().is_empty()) {
+            if let Some(below) = folder_of(&file.name) {
                 fs::create_dir_all(inner(&self.path, &below.to_string_lossy())?)?;
             }
             create(&self.temporary(&file.name), &file.bytes)?;
         }
+        Ok(())
+    }
+
+    /// Puts the files that are laid out in their places.
+    fn place(&self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
         let moved = files.iter().filter_map(|file| self.move_aside(&file.name).transpose());
         let moved = moved.collect::<io::Result<Vec<_>>>()?;
         self.put_manifest()?;
@@ -209,8 +214,7 @@ impl Folder {
             if self.is_ours(name) {
                 let _ = fs::remove_file(self.path.join(name));
                 // Only where it is empty now.
-                let below = Path::new(name).parent().filter(|below| !below.as_os_str().is_empty());
-                below.map(|below| fs::remove_dir(self.path.join(below)));
+                folder_of(name).map(|below| fs::remove_dir(self.path.join(below)));
             }
         }
         files.iter().filter(last).try_for_each(put)?;
@@ -302,13 +306,14 @@ fn create(place: &Path, bytes: &[u8]) -> io::Result<()> {
     file.sync_all()
 }
 
+/// The folder below that a name lies in, if it does.
+fn folder_of(name: &str) -> Option<&Path> {
+    Path::new(name).parent().filter(|below| !below.as_os_str().is_empty())
+}
+
 /// Not every system lets a folder be synced.
 fn sync(folder: &Path) {
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
-}
-
-fn program() -> String {
-    format!("barrier-check {}, commit {}", env!("CARGO_PKG_VERSION"), env!("BARRIER_CHECK_COMMIT"))
 }
 
 /// `.name.process.tmp`
@@ -420,7 +425,7 @@ mod tests {
         // Killed after the first of the new files has taken its place.
         let mut folder = claim(&path).unwrap();
         let new = ["report.md", "one.svg"].map(|name| (name.to_string(), digest_of(b"new")));
-        folder.manifest = folder.manifest.clone().replaced_by(program(), new.into_iter().collect());
+        folder.manifest = folder.manifest.clone().replaced_by(PROGRAM.to_string(), new.into_iter().collect());
         folder.put_manifest().unwrap();
         fs::write(path.join("report.md"), "new").unwrap();
         drop(folder);

@@ -7,6 +7,7 @@ use crate::checks::outcome::Outcome;
 use crate::demand::from_loads::Guideline;
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::Run;
+use crate::program::PROGRAM;
 use crate::report::findings::over_starts;
 use crate::simulated::Simulated;
 
@@ -32,6 +33,8 @@ pub struct ResultFile {
     pub starts: Vec<SpreadPart>,
     /// Version of the program.
     pub program_version: String,
+    /// The program that made this file, with version and commit.
+    pub program: String,
 }
 
 /// A rung of the ladder that ran.
@@ -93,6 +96,8 @@ pub struct CasePart {
 /// smoothed over `smoothing_s`; peaks of ropes and anchors are of means over `sampling_s`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct SimulationPart {
+    /// The program that simulated, with version and commit: another than `program` where the report was made again.
+    pub program: String,
     pub fidelity: String,
     pub seed: u64,
     pub grains: usize,
@@ -217,6 +222,7 @@ impl ResultFile {
             rungs: run.climb.iter().map(rung_part).collect(),
             starts: run.simulated.as_ref().map_or_else(Vec::new, spread_parts),
             program_version: env!("CARGO_PKG_VERSION").to_string(),
+            program: PROGRAM.to_string(),
         }
     }
 }
@@ -263,6 +269,7 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
         moment_peak_n_m_per_m: seen.moment_peak,
     });
     SimulationPart {
+        program: run.facts.program.clone(),
         fidelity: run.fidelity.name.to_string(),
         seed: run.starts[0].seed,
         grains: facts.grains,

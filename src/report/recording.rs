@@ -18,7 +18,7 @@ pub const FILE: &str = "recording.bin";
 
 pub const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
-const FORMAT: u32 = 6;
+pub const FORMAT: u32 = 7;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -74,6 +74,9 @@ pub fn decode(bytes: &[u8]) -> Result<Run, RecordingError> {
         Some(step) => choose(&RUNGS[step.rung].of(&file.design)),
         None => choose(&file.design),
     };
+    if recording.simulated.as_ref().is_some_and(|seen| !seen.fits(&file.design)) {
+        return Err(RecordingError::Damaged);
+    }
     let simulated = recording.simulated.map(|seen| Simulated { fidelity, ..seen });
     Ok(restore(file, simulated, recording.varied, recording.climb))
 }

@@ -7,12 +7,13 @@ use serde::Serialize;
 use crate::design::{Arrival, BarrierDesign, BarrierModel, Bottom, Design};
 use crate::fidelity::{needed_pieces, net_pieces};
 use crate::pipeline::Run;
+use crate::report::numbers::with_unit;
 use crate::sources::{ALBABA_2015, CUNDALL_STRACK_1979, EN_1990, EN_1993_1_11, EN_1997_1, OTHER_MODELS, VOLKWEIN_2014};
 
 /// An assumption, and whether a design that rests on it is the safer for it.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Assumption {
-    pub text: &'static str,
+    pub text: String,
     pub safe: &'static str,
 }
 
@@ -93,9 +94,19 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             EITHER,
         ),
     ];
-    let kept = list.into_iter().filter(|(applies, ..)| *applies).map(|(_, text, safe)| Assumption { text, safe });
-    let of_ropes = of_ropes(design).filter(|_| simulated);
-    kept.chain(of_ropes.map(|text| Assumption { text, safe: EITHER })).collect()
+    let kept = list.into_iter().filter(|(applies, ..)| *applies);
+    let kept = kept.map(|(_, text, safe)| Assumption { text: text.to_string(), safe });
+    let of_net = [of_ropes(design).map(str::to_string), of_gap(design)].into_iter().flatten().filter(|_| simulated);
+    kept.chain(of_net.map(|text| Assumption { text, safe: EITHER })).collect()
+}
+
+/// Where the modelled net ends.
+fn of_gap(design: &Design) -> Option<String> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    Some(format!(
+        "The net ends {} from each side wall, 70 mm or half a mesh, whichever is less; its main ropes go on through that gap to their anchors.",
+        with_unit(net.side_gap(), "m")
+    ))
 }
 
 /// Whether sides of the mesh have fewer pieces in the simulation than the grains need.

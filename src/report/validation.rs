@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use tera::{Context, Tera};
 
+use crate::program::COMMIT;
 use crate::report::folder::ReportFile;
 use crate::validation::case::{Finding, Ran, Wanted};
 
@@ -133,7 +134,7 @@ impl Kept {
     fn of(rows: &[Row]) -> Self {
         let case =
             |row: &Row| KeptCase { id: row.id.to_string(), title: row.title.to_string(), held: row.verdict == "pass" };
-        Self { commit: env!("BARRIER_CHECK_COMMIT").to_string(), cases: rows.iter().map(case).collect() }
+        Self { commit: COMMIT.to_string(), cases: rows.iter().map(case).collect() }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::design::entries::Origin;
 use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
+use crate::program::PROGRAM;
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, percent, with_scatter, with_unit};
@@ -193,6 +194,9 @@ fn title_block(run: &Run) -> Vec<Row> {
         seen.starts.iter().map(|start| start.seed.to_string()).collect::<Vec<_>>().join(", ")
     });
     let simulated = seen.and_then(|seen| moment(seen.facts.began)).unwrap_or_default();
+    // A report made again tells of both programs.
+    let other = seen.map_or("", |seen| seen.facts.program.as_str());
+    let other = if other == PROGRAM { "" } else { other };
     let rows = [
         row("Project", &project.name),
         row("Barrier", &project.barrier),
@@ -205,10 +209,8 @@ fn title_block(run: &Run) -> Vec<Row> {
         row("SHA-256 of the design file", &run.file.sha256),
         row("Simulated", &simulated),
         row("Seeds", &seeds),
-        row(
-            "Program",
-            &format!("barrier-check {}, commit {}", env!("CARGO_PKG_VERSION"), env!("BARRIER_CHECK_COMMIT")),
-        ),
+        row(if other.is_empty() { "Program" } else { "Program of this report" }, PROGRAM),
+        row("Program that simulated", other),
     ];
     rows.into_iter().filter(|row| !matches!(row.value.as_str(), "" | "-")).collect()
 }

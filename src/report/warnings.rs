@@ -23,6 +23,7 @@ const WARNINGS: &[Warning] = &[
     event_larger_than_the_flow,
     discharge_and_volume,
     grains_that_hide_losses,
+    grains_scaled_to_the_mass,
     strays,
     force_beyond_the_guideline,
     faster_flow_than_the_guideline_was_given,
@@ -215,6 +216,24 @@ fn grains_that_hide_losses(run: &Run) -> Option<String> {
             "Nine tenths of the simulated grains ({} and more) are larger than the mesh of {} and cannot pass it: if the real flow has finer ones, \"mass held\" is unsafe. Give the whole curve, with simulation.coarsen: auto where it has too many grains.",
             with_unit(finest, "m"),
             with_unit(mesh, "m")
+        )
+    })
+}
+
+/// Share by which the grains may be other than the curve says without a word.
+const SCALED: f64 = 0.01;
+
+/// A mass that is no whole number of grains of the given sizes.
+fn grains_scaled_to_the_mass(run: &Run) -> Option<String> {
+    run.simulated.as_ref()?;
+    let flow = &run.file.design.flow;
+    let (grains, scale) = flow.sizes.whole_grains(flow.mass, flow.solid_density);
+    let many = if grains.len() == 1 { "grain".to_string() } else { format!("{} grains", grains.len()) };
+    ((scale - 1.0).abs() > SCALED).then(|| {
+        format!(
+            "The mass makes no whole number of grains of the given sizes: the {many} nearest to it are simulated, {:.1} % {} in diameter.",
+            100.0 * (scale - 1.0).abs(),
+            if scale > 1.0 { "larger" } else { "smaller" }
         )
     })
 }

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::elements::ground::{Ground, Plane};
 use crate::dem::model::{Material, Model};
@@ -9,12 +11,14 @@ use crate::dem::recorders::gauge::GaugeWindow;
 use crate::dem::recorders::recorder::{RecorderSetup, WallFace};
 use crate::dem::simulation::Simulation;
 use crate::dem::tables::barrier::Barrier;
+use crate::dem::tables::grains::Grain;
 use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::{Fidelity, net_pieces};
-use crate::scene::flow::packing::PackingError;
+use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, packed_block, shape};
 use crate::scene::net::build::{BuiltNet, build as build_net};
+use crate::scene::patience::Patience;
 use crate::units::GRAVITY;
 
 /// A simulation at the moment of release.
@@ -67,27 +71,85 @@ fn gravity(slope: f64) -> Vec3 {
     Vec3::new(GRAVITY * libm::sin(slope), 0.0, -GRAVITY * libm::cos(slope))
 }
 
-/// Builds the scene: packs the flow, lets it settle behind the gate, puts the barrier up.
-pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
-    build_unless(&AtomicBool::new(false), design, fidelity, seed)
+/// What is prepared of a scene so far, to be kept.
+#[derive(Serialize, Deserialize)]
+pub enum Prepared<Grains, Settling> {
+    /// So many attempts at packing the flow have failed.
+    Attempts(usize),
+    Packed(Grains, Block),
+    /// A flow that settles behind its gate, at a stop.
+    Settling(Settling, Block),
 }
 
-/// The same, given up when `stop` is set while the flow settles, which takes long where grains are many.
-pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
+/// How the preparation of a scene is watched from outside, and where it goes on.
+pub struct Preparing<'a> {
+    pub stop: &'a AtomicBool,
+    pub from: Option<Prepared<Vec<Grain>, Simulation>>,
+    /// Handed what is prepared, and told whether the preparation ends there because it was asked to.
+    pub keep: Keep<'a>,
+}
+
+type Keep<'a> = &'a mut dyn FnMut(Prepared<&[Grain], &Simulation>, bool);
+
+/// Builds the scene: packs the flow, lets it settle behind the gate, puts the barrier up.
+pub fn build(design: &Design, fidelity: &Fidelity, seed: u64) -> Result<Scene, PackingError> {
+    let watched = Preparing { stop: &AtomicBool::new(false), from: None, keep: &mut |_, _| () };
+    build_watched(design, fidelity, seed, watched)
+}
+
+/// The same, given up when it is asked to stop while the flow is packed or settles, which takes long where grains are many.
+pub fn build_watched(
+    design: &Design,
+    fidelity: &Fidelity,
+    seed: u64,
+    watched: Preparing,
+) -> Result<Scene, PackingError> {
+    let Preparing { stop, from, keep } = watched;
     let net = match &design.barrier {
         BarrierDesign::FlexibleNet(net) => {
             Some(build_net(net, &design.channel, design.simulation.barrier_model, net_pieces(design, net)))
         }
         BarrierDesign::RigidWall(_) => None,
     };
-    let block = Block::of(&design.flow, &design.channel, upstream_reach(design, net.as_ref()));
-    let wanted = block.area();
-    let (grains, block) = packed_block(&design.flow, &design.channel, &block, seed)?;
+    let reach = upstream_reach(design, net.as_ref());
+    let wanted = Block::of(&design.flow, &design.channel, reach);
+    let (mut simulation, block) = match from {
+        Some(Prepared::Settling(simulation, block)) => (simulation, block),
+        Some(Prepared::Packed(grains, block)) => (stand(design, fidelity, grains, &block), block),
+        failed => {
+            let failed = if let Some(Prepared::Attempts(failed)) = failed { failed } else { 0 };
+            let attempts = Attempts { stop, failed, next: &mut |failed| keep(Prepared::Attempts(failed), false) };
+            let (grains, block) = packed_block(&design.flow, &design.channel, &wanted, seed, attempts)?;
+            keep(Prepared::Packed(&grains, block), false);
+            (stand(design, fidelity, grains, &block), block)
+        }
+    };
+    if matches!(design.flow.arrival, Arrival::DamBreak(_)) {
+        settle(&mut simulation, &block, stop, keep)?;
+    }
+    simulation.remove_surfaces(SurfaceRole::Gate);
+    if let Some(net) = &net {
+        simulation.put_up(Barrier { ground: Some(ground(design, &net.barrier)), ..net.barrier.clone() });
+    }
+    simulation.start_account();
+    let recorder = recorder_setup(design, net);
+    Ok(Scene {
+        simulation,
+        recorder,
+        smoothing: smoothing(design),
+        rest: REST * time_scale(design),
+        packed_share: wanted.area() / block.area(),
+        expected_time: expected_time(design),
+    })
+}
+
+/// The packed flow in its channel, without the barrier.
+fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block) -> Simulation {
     let flow = &design.flow;
     let model = Model {
         shape: shape(flow),
         grains,
-        surfaces: surfaces(design, &block),
+        surfaces: surfaces(design, block),
         barrier: None,
         material: Material {
             modulus: flow.modulus,
@@ -103,38 +165,34 @@ pub fn build_unless(stop: &AtomicBool, design: &Design, fidelity: &Fidelity, see
         outlet: outlet(design),
     };
     let mean_radius = 0.42 * flow.sizes.quantile(0.5);
-    let mut simulation =
-        Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, &block));
-    if matches!(flow.arrival, Arrival::DamBreak(_)) {
-        settle(&mut simulation, &block, stop)?;
-    }
-    simulation.remove_surfaces(SurfaceRole::Gate);
-    if let Some(net) = &net {
-        simulation.put_up(Barrier { ground: Some(ground(design, &net.barrier)), ..net.barrier.clone() });
-    }
-    simulation.start_account();
-    let recorder = recorder_setup(design, net);
-    Ok(Scene {
-        simulation,
-        recorder,
-        smoothing: smoothing(design),
-        rest: REST * time_scale(design),
-        packed_share: wanted / block.area(),
-        expected_time: expected_time(design),
-    })
+    Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, block))
 }
 
 /// Time of the last grain's arrival, and some falls from the barrier's height to come to rest.
 pub fn expected_time(design: &Design) -> f64 {
     let rest = 4.0 * (barrier_height(design) / GRAVITY).sqrt();
     rest + match design.flow.arrival {
-        Arrival::Surge(surge) => (surge.length + surge.run_in) / surge.velocity,
+        Arrival::Surge(surge) => {
+            let channel = &design.channel;
+            let slowed = GRAVITY * (channel.base_friction * libm::cos(channel.slope) - libm::sin(channel.slope));
+            tail_time(surge.length + surge.run_in, surge.velocity, slowed)
+        }
         Arrival::DamBreak(DamBreak { length, distance, .. }) => {
             let slope = design.channel.slope;
             let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
             (2.0 * (distance + length) / acceleration.max(0.1)).sqrt()
         }
     }
+}
+
+/// Time in which a tail comes over its way `s` (m) from a velocity v (m/s) that falls by `slowed` (m/s²), or comes to rest on it:
+/// (v − √(v² − 2 a s))/a, or v/a. A tail that speeds up is taken as even, so that the time is rather too long.
+fn tail_time(s: f64, v: f64, slowed: f64) -> f64 {
+    if slowed <= 0.0 {
+        return s / v;
+    }
+    let left = v * v - 2.0 * slowed * s;
+    if left > 0.0 { 2.0 * s / (v + left.sqrt()) } else { v / slowed }
 }
 
 /// How far upstream of its foot the barrier reaches (m).
@@ -150,12 +208,17 @@ fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
     reach(design, net) + 0.5 * design.flow.sizes.quantile(1.0)
 }
 
-/// Lets the block settle behind the gate under gravity, slowed by drag.
-fn settle(simulation: &mut Simulation, block: &Block, stop: &AtomicBool) -> Result<(), PackingError> {
+/// Lets the block settle behind the gate under gravity, slowed by drag; handed to `keep` at its stops.
+fn settle(simulation: &mut Simulation, block: &Block, stop: &AtomicBool, keep: Keep) -> Result<(), PackingError> {
     let fall = (block.height / GRAVITY).sqrt();
     simulation.drag = SETTLING_DRAG / fall;
+    let mut patience = Patience::default();
     while simulation.time < SETTLING * fall {
-        if stop.load(Ordering::Relaxed) {
+        let asked = stop.load(Ordering::Relaxed);
+        if simulation.at_stop() {
+            keep(Prepared::Settling(simulation, *block), asked);
+        }
+        if asked && (simulation.at_stop() || patience.is_over()) {
             return Err(PackingError::Interrupted);
         }
         simulation.step()?;

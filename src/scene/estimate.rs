@@ -1,9 +1,12 @@
 //! What a run will take, before it is made: grains, steps, time, memory.
 
+use crate::dem::Vec3;
 use crate::dem::recorders::film::bytes_of;
+use crate::dem::tables::grains::{GrainBody, GrainShape};
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::build::expected_time;
+use crate::scene::flow::packing::{PackingRoom, pack};
 use crate::scene::net::build::build as build_net;
 
 /// Estimate of one start.
@@ -22,12 +25,17 @@ pub struct Estimate {
     pub bytes: f64,
 }
 
-/// Time of a sphere in a step on one core (s): bench, between flow (12 to 14 ns) and dense bed (21 to 24 ns), with lists, recorders
-/// and the share of time that a flow is dense.
-const SPHERE: f64 = 22e-9;
-/// Time of an element in a step of the barrier (s): bench.
-const SEGMENT: f64 = 14e-9;
-const CYLINDER: f64 = 27e-9;
+/// Times on one core of a machine that packs the box of [`slowness`] in its time (s), of whole runs of the examples: of a sphere in a step,
+/// 29 (flume) to 54 ns (wall_section_5_2), with lists and recorders; of an element in a step of the barrier, 50 to 90 ns, with the grains
+/// that touch it.
+const SPHERE: f64 = 40e-9;
+const SEGMENT: f64 = 60e-9;
+const CYLINDER: f64 = 80e-9;
+/// Of a sphere while the flow is packed, in all (s); where the flow is nearly as dense as grains can be, attempt after attempt fails.
+const PACKED: f64 = 0.1e-3;
+const PACKED_DENSE: f64 = 2e-3;
+/// Solid share of the flow from which that happens.
+const NEARLY_JAMMED: f64 = 0.58;
 /// Steps of the barrier in one of the grains' with cylinders: 4 in `site_a`.
 const PARTS: f64 = 4.0;
 /// Memory of a sphere with its lists (bench: 441 to 660), and of an element with its places in the film (bytes).
@@ -39,6 +47,25 @@ const BASE: f64 = 40e6;
 /// Longest estimate that is run, on one core (s), and most memory (bytes).
 pub const MOST_SECONDS: f64 = 48.0 * 3600.0;
 pub const MOST_BYTES: f64 = 16e9;
+
+/// How much slower this machine is now than the one that the constants above are of: from the time in which a box of grains is packed,
+/// a tenth of a second.
+pub fn slowness() -> f64 {
+    const GRAINS: usize = 600;
+    let bodies = vec![GrainBody::clump(0.1, 1.5, 2650.0); GRAINS];
+    let solid = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>();
+    let room = PackingRoom { size: Vec3::repeat(libm::cbrt(solid / 0.6)), nose: 0.0, apart: true };
+    let once = || {
+        let started = std::time::Instant::now();
+        let packed = pack(&bodies, GrainShape::Clump, room, 1);
+        packed.map_or(f64::NAN, |_| started.elapsed().as_secs_f64())
+    };
+    let taken = once().min(once());
+    if taken.is_finite() { taken / BOX } else { 1.0 }
+}
+
+/// Time in which that box is packed on the machine that the constants are of (s).
+const BOX: f64 = 0.0215;
 
 /// Estimates a start of `design`, modelled as finely as `fidelity` says. To a factor of two: how dense the flow gets is not known.
 pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
@@ -57,13 +84,14 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
     let simulated = expected_time(design).min(design.simulation.longest);
     let steps = simulated / fidelity.time_step;
     let of_elements = elements * if bends { PARTS * CYLINDER } else { SEGMENT };
+    let packed = if flow.bulk_density / flow.solid_density > NEARLY_JAMMED { PACKED_DENSE } else { PACKED };
     Estimate {
         grains,
         spheres,
         elements,
         simulated,
         steps,
-        seconds: steps * (spheres * SPHERE + of_elements),
+        seconds: steps * (spheres * SPHERE + of_elements) + spheres * packed,
         bytes: BASE + spheres * PER_SPHERE + bytes_of(grains as usize) as f64 + elements * PER_ELEMENT,
     }
 }

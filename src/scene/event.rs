@@ -9,6 +9,7 @@ use crate::dem::recorders::histories::{Histories, tail_mean};
 use crate::dem::recorders::recorder::Recorder;
 use crate::dem::simulation::{Simulation, Unstable};
 use crate::scene::build::Scene;
+use crate::scene::patience::Patience;
 
 /// Force may change by this share of itself from one stretch to the next and still count as steady.
 const STEADY_FORCE: f64 = 0.01;
@@ -78,8 +79,10 @@ impl Ongoing {
     }
 
     /// Goes on until the event is steady, at `longest` (s), on breakdown or when asked to. At every stop of the simulation `keep` is
-    /// handed the run, and told whether it ends there because it was asked to; a run that nobody keeps ends at once.
+    /// handed the run, and told whether it ends there because it was asked to; a run that nobody keeps, or whose next stop is far, ends
+    /// before.
     pub fn go_on(mut self, longest: f64, watch: &Watch, mut keep: impl FnMut(&Self, bool)) -> Event {
+        let mut patience = Patience::default();
         let ending = loop {
             let sampled = match self.recorder.step(&mut self.simulation) {
                 Err(unstable) => break Ending::BrokeDown(unstable),
@@ -89,12 +92,12 @@ impl Ongoing {
             if let Some(ending) = sampled.then(|| self.judge(longest, watch)).flatten() {
                 break ending;
             }
+            let asked = watch.stop.load(Ordering::Relaxed);
             if self.simulation.at_stop() {
-                let asked = watch.stop.load(Ordering::Relaxed);
                 keep(&self, asked);
-                if asked {
-                    break Ending::Interrupted;
-                }
+            }
+            if asked && (self.simulation.at_stop() || patience.is_over()) {
+                break Ending::Interrupted;
             }
         };
         self.recorder.finish(&self.simulation);

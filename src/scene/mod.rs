@@ -5,3 +5,4 @@ pub mod estimate;
 pub mod event;
 pub mod flow;
 pub mod net;
+pub mod patience;

@@ -38,6 +38,25 @@ impl Knob {
         }
     }
 
+    /// Values that make sense; the models of the barrier are whole numbers.
+    pub fn range(self) -> [f64; 2] {
+        match self {
+            Self::Step => [0.005, 2.0],
+            Self::Stiffness => [0.01, 100.0],
+            Self::CoarseGraining => [0.3, 5.0],
+            Self::Aspect => [1.0, 2.0],
+            Self::Skin => [0.05, 3.0],
+            Self::BarrierModel => [1.0, 3.0],
+            Self::ElementLength => [0.01, 10.0],
+        }
+    }
+
+    /// Whether a value makes sense. Asked so that what is not a number does not.
+    pub fn takes(self, value: f64) -> bool {
+        let [least, most] = self.range();
+        (least..=most).contains(&value) && (self != Self::BarrierModel || value.fract() == 0.0)
+    }
+
     /// What the design itself has.
     pub fn default_of(self, design: &Design) -> f64 {
         match (self, &design.barrier) {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
+use crate::design::document::brackets_are_too_deep;
 use crate::studies::knobs::Knob;
 
 /// What a study is of.
@@ -18,6 +19,9 @@ pub enum Study {
 impl Study {
     /// Reads the file's text; tells all that is wrong with it.
     pub fn read(text: &str) -> Result<Self, Vec<String>> {
+        if brackets_are_too_deep(text) {
+            return Err(vec!["brackets within brackets within brackets; at most a few levels are allowed".into()]);
+        }
         let study: Self = serde_yaml::from_str(text).map_err(|error| vec![error.to_string()])?;
         let wrong = match &study {
             Self::SpeedAccuracy(plan) => plan.wrong(),
@@ -104,8 +108,9 @@ impl Plan {
         }
         let values = plan.knobs.iter().flat_map(|(knob, values)| values.iter().map(move |value| (knob, value)));
         for (knob, value) in values.chain(&plan.reference) {
-            if !(*value > 0.0 && value.is_finite()) {
-                wrong.push(format!("{knob:?}: found {value}, allowed: above 0"));
+            if !knob.takes(*value) {
+                let [least, most] = knob.range();
+                wrong.push(format!("{}: found {value}, allowed {least} to {most}", knob.title()));
             }
         }
         wrong
@@ -123,6 +128,23 @@ mod tests {
         let wrong = Study::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
         assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
         assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
+        assert!(Study::read(&"[".repeat(100_000)).is_err());
+        for (knob, value) in [
+            (Knob::Aspect, 1e9),
+            (Knob::CoarseGraining, 0.001),
+            (Knob::BarrierModel, 7.0),
+            (Knob::BarrierModel, 1.5),
+            (Knob::Step, -1.0),
+            (Knob::Skin, f64::NAN),
+        ] {
+            let mut plan: Plan = match Study::read(text) {
+                Ok(Study::SpeedAccuracy(plan)) => plan,
+                other => panic!("{other:?}"),
+            };
+            assert_eq!(plan.wrong(), Vec::<String>::new());
+            plan.knobs.insert(knob, vec![value]);
+            assert_eq!(plan.wrong().len(), 1, "{knob:?} {value}");
+        }
         let map = include_str!("../../designs/studies/stability.yaml");
         assert!(Study::read(map).is_ok());
         assert!(Study::read(&map.replace("[0.1, ", "[5, ")).is_err());

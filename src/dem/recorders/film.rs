@@ -63,6 +63,18 @@ pub struct Pose {
 }
 
 impl Film {
+    /// Whether every frame has all grains, nodes and ropes.
+    pub fn is_whole(&self) -> bool {
+        let nodes = self.frames.first().map_or(0, |frame| frame.nodes.len());
+        let ends = self.ropes.iter().flat_map(|(ends, _)| ends).all(|end| (*end as usize) < nodes);
+        let whole = |frame: &Frame| {
+            frame.grains.len() == self.looks.len()
+                && frame.nodes.len() == nodes
+                && frame.tensions.len() == self.ropes.len()
+        };
+        (ends || self.frames.is_empty()) && self.frames.iter().all(whole)
+    }
+
     /// Takes a frame of the present sample, if it is one for it.
     pub fn take(&mut self, simulation: &Simulation, grains: &[Grain]) {
         self.stride = self.stride.max(1);

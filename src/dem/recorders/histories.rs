@@ -86,6 +86,54 @@ pub struct Histories {
     pub film: Film,
 }
 
+impl Histories {
+    /// Whether every series has a value for each moment, or none: what was read from a file may have been forged.
+    pub fn is_whole(&self) -> bool {
+        let moments = self.time.len();
+        let fits = |count: usize| count == 0 || count == moments;
+        let single = [
+            self.force.len(),
+            self.force_instant.len(),
+            self.force_scatter.len(),
+            self.moment.len(),
+            self.lateral_largest.len(),
+            self.bed_force.len(),
+            self.bolt_largest.len(),
+            self.bolt_lift.len(),
+            self.net_largest.len(),
+            self.broken_pieces.len(),
+            self.drawn_out.len(),
+            self.top_rope_height.len(),
+            self.velocity.len(),
+            self.push_at_rest.len(),
+            self.pushes_by_state.len(),
+            self.dead_depth.len(),
+            self.dead.len(),
+            self.moving.len(),
+            self.lost.len(),
+            self.incoming.len(),
+            self.approaching.len(),
+            self.front.len(),
+            self.barrier_depth.len(),
+            self.ledger.len(),
+        ];
+        let by_rope = [
+            &self.rope_mean,
+            &self.rope_largest,
+            &self.anchors,
+            &self.extension,
+            &self.strokes,
+            &self.strokes_mean,
+            &self.brakes,
+        ];
+        let rows = by_rope.into_iter().chain([&self.segments]).flatten().map(Vec::len);
+        let ropes = self.rope_mean.len();
+        single.into_iter().chain(rows).all(fits)
+            && by_rope.iter().all(|rows| rows.len() == ropes)
+            && self.film.is_whole()
+    }
+}
+
 /// The flow in a window across the channel; zeros where there are no grains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Gauge {

@@ -4,6 +4,8 @@
 //! or gravity, heavily damped. Below the density where frictionless grains jam (about 0.64 for spheres, 0.7
 //! for clumps) this ends without overlaps.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::dem::Vec3;
 use crate::dem::model::{Material, Model};
 use crate::dem::simulation::{Simulation, Unstable};
@@ -64,6 +66,15 @@ pub enum PackingError {
     Interrupted,
 }
 
+/// How attempts at packing are watched from outside.
+pub struct Attempts<'a> {
+    pub stop: &'a AtomicBool,
+    /// Attempts that have failed before.
+    pub failed: usize,
+    /// Called with the number of attempts that have failed, before the next.
+    pub next: &'a mut dyn FnMut(usize),
+}
+
 /// Packs `bodies` into `room`; grain numbers follow the order of `bodies`. Where they do not fit, as happens when grains
 /// are large against the room, the room is made longer (along x) and another start is tried. Returns the grains and the
 /// length they took (m). Grains that shall be apart are packed a little larger than they are, by half the overlap that is left, so
@@ -74,17 +85,29 @@ pub fn pack(
     room: PackingRoom,
     seed: u64,
 ) -> Result<(Vec<Grain>, f64), PackingError> {
-    let mut longer = room;
-    let mut attempt = 0_usize;
+    pack_watched(bodies, shape, room, seed, Attempts { stop: &AtomicBool::new(false), failed: 0, next: &mut |_| () })
+}
+
+/// The same, given up when it is asked to stop.
+pub fn pack_watched(
+    bodies: &[GrainBody],
+    shape: GrainShape,
+    room: PackingRoom,
+    seed: u64,
+    attempts: Attempts,
+) -> Result<(Vec<Grain>, f64), PackingError> {
     let swollen: Vec<GrainBody> = match room.apart {
         true => bodies.iter().map(|body| body.scaled(1.0 + SWELLING)).collect(),
         false => bodies.to_vec(),
     };
+    let mut attempt = attempts.failed.min(LENGTHENING.len() - 1);
     loop {
-        match pack_once(&swollen, shape, longer, seed.wrapping_add((attempt as u64) << 32)) {
+        let mut longer = room;
+        longer.size.x = room.size.x * (1.0 + LENGTHENING[attempt]);
+        match pack_once(&swollen, shape, longer, seed.wrapping_add((attempt as u64) << 32), attempts.stop) {
             Err(PackingError::DoesNotFit { .. }) if attempt + 1 < LENGTHENING.len() => {
                 attempt += 1;
-                longer.size.x = room.size.x * (1.0 + LENGTHENING[attempt]);
+                (attempts.next)(attempt);
             }
             Err(error) => return Err(error),
             Ok(mut grains) => {
@@ -100,6 +123,7 @@ fn pack_once(
     shape: GrainShape,
     room: PackingRoom,
     seed: u64,
+    stop: &AtomicBool,
 ) -> Result<Vec<Grain>, PackingError> {
     let model = Model {
         shape,
@@ -115,6 +139,9 @@ fn pack_once(
     let mut simulation = Simulation::new(model, step, skin, f64::INFINITY);
     simulation.drag = RELAXATION_DRAG / step;
     for _ in 0..MOST_STEPS {
+        if stop.load(Ordering::Relaxed) {
+            return Err(PackingError::Interrupted);
+        }
         simulation.step()?;
         hold_inside(&mut simulation, room);
         if simulation.sums.contacts.overlap_ratio < OVERLAP_ALLOWED {

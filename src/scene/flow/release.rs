@@ -1,13 +1,15 @@
 //! The flow as it starts: packed upstream of the barrier, at rest behind a gate or already moving.
 
+use serde::{Deserialize, Serialize};
+
 use crate::dem::Vec3;
 use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
-use crate::scene::flow::packing::{PackingError, PackingRoom, pack};
+use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched};
 use crate::units::GRAVITY;
 
 /// Where the block stands: x of the foot of its downstream face, and its sizes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Block {
     pub front: f64,
     /// Along the bed (m).
@@ -74,13 +76,14 @@ pub fn packed_block(
     channel: &Channel,
     block: &Block,
     seed: u64,
+    attempts: Attempts,
 ) -> Result<(Vec<Grain>, Block), PackingError> {
     let room = PackingRoom {
         size: Vec3::new(block.length, channel.width, block.height),
         nose: block.nose,
         apart: block.moves(),
     };
-    let (mut grains, length) = pack(&bodies(flow), shape(flow), room, seed)?;
+    let (mut grains, length) = pack_watched(&bodies(flow), shape(flow), room, seed, attempts)?;
     let corner = Vec3::new(block.front - length, 0.0, 0.0);
     for grain in &mut grains {
         grain.position += corner;

@@ -19,8 +19,6 @@ use crate::scene::net::rings::{POISSON, ring_stand_off};
 pub const ROPE_DENSITY: f64 = 7850.0;
 /// Axial damping of a rope segment over critical (numerical; the thesis states none).
 pub const ROPE_DAMPING_RATIO: f64 = 0.05;
-/// Length between anchor and first knot (m): one 70 mm cylinder in Albaba 2015, section 4.2.3.
-pub const END_PIECE: f64 = 0.07;
 
 /// Rest length, over the ring spacing, below which no rope is taken out between two rings: there they touch.
 pub const SHORTEST_SEGMENT: f64 = 0.25;
@@ -95,8 +93,9 @@ impl Builder<'_> {
 
     /// Distance of a column from the first side wall (m).
     pub(super) fn across(&self, column: usize) -> f64 {
-        let inner = self.channel.width - 2.0 * END_PIECE;
-        END_PIECE + inner * column as f64 / self.grid.columns as f64
+        let gap = self.design.side_gap();
+        let inner = self.channel.width - 2.0 * gap;
+        gap + inner * column as f64 / self.grid.columns as f64
     }
 
     /// Unit vectors up the barrier's plane and out of it, upstream.
@@ -221,7 +220,7 @@ impl Builder<'_> {
             Some(dissipator) => self.barrier.dissipators.push(Dissipator {
                 nodes: [anchor, end],
                 rope,
-                rest_length: END_PIECE,
+                rest_length: self.design.side_gap(),
                 radius: 0.5 * self.design.main_ropes.rope.diameter,
                 stiffness: dissipator.stiffness,
                 plateau: dissipator.plateau,
