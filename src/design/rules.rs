@@ -346,8 +346,12 @@ fn wall_face_stands_on_its_base(e: &Entries) -> Option<Problem> {
     ((tilt + base).abs() > OFF_UPRIGHT).then(|| {
         let show = |angle| Dimension::Angle.show(angle);
         let found = format!("a face {} from plumb on a base of {}", show(tilt), show(base));
-        Problem::new(path, found, format!("a face upright on its base, {} to 6 deg", show(-base)))
-            .hint("sliding and overturning are worked out for a wall of even thickness that stands upright on its base")
+        Problem::new(
+            path,
+            found,
+            format!("a face upright on its base: {} to {}", show(-base - OFF_UPRIGHT), show(-base + OFF_UPRIGHT)),
+        )
+        .hint("sliding and overturning are worked out for a wall of even thickness that stands upright on its base")
     })
 }
 
