@@ -175,6 +175,33 @@ fn a_run_that_is_stopped_before_rest_or_never_met_the_barrier_is_undecided() {
         }
     });
     assert_eq!(missed, Verdict::Undecided, "{doubts:?}");
+    let mut event = with(|_| ());
+    assert!(event.ending == Ending::Steady && !numerics(&event).missed && !numerics(&event).unfinished);
+    event.histories.force.iter_mut().for_each(|force| *force = Vec3::zeros());
+    assert!(told(&event).contains("without ever touching the barrier"), "{}", told(&event));
+}
+
+/// Each packing's doubts count, and an input whose runs cannot be relied on is said to say nothing.
+#[test]
+fn what_other_packings_and_varied_inputs_cannot_tell_is_told() {
+    let mut file = file();
+    file.design.simulation.longest = 0.3;
+    let run = watched(|watch| {
+        let mut run = run(file, 2, watch)?;
+        barrier_check::pipeline::vary(&mut run, watch)?;
+        Ok::<_, barrier_check::simulated::RunError>(run)
+    })
+    .expect("a run");
+    assert_eq!(run.verdict, Verdict::Undecided);
+    for seed in ["seed 1: ", "seed 2: "] {
+        assert!(
+            run.doubts.iter().any(|doubt| doubt.starts_with(seed) && doubt.contains("come to rest")),
+            "{:?}",
+            run.doubts
+        );
+    }
+    assert!(!run.varied.is_empty());
+    assert!(run.varied.iter().all(|swing| swing.down.utilisation.is_none() && swing.up.utilisation.is_none()));
 }
 
 #[test]

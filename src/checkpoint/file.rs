@@ -216,4 +216,13 @@ mod tests {
         assert!(error.to_string().contains("kept by 0.0.1 abc, but this is barrier-check "), "{error}");
         clear(path.parent().expect("a folder"));
     }
+
+    #[test]
+    fn a_file_of_another_kind_is_refused() {
+        let path = place("kind");
+        write(&path, Kind::Order, None, &vec![1.0]).expect("a file");
+        assert!(matches!(read::<Vec<f64>>(&path, Kind::Simulation, None), Err(CheckpointError::Design)));
+        assert!(read::<Vec<f64>>(&path, Kind::Order, None).is_ok());
+        clear(path.parent().expect("a folder"));
+    }
 }

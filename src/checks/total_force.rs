@@ -33,3 +33,41 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         ),
     }]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::outcome::CheckVerdict;
+    use crate::demand::Demand;
+    use crate::design::Stability;
+    use crate::design::read::read_design;
+
+    /// Verdict of a wall under 100 kN with this resistance, over a factor of 1.3, and this base, of 2 m thickness.
+    fn verdict(resistance: Option<f64>, base_width: Option<f64>) -> CheckVerdict {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        (wall.resistance, wall.resistance_factor) = (resistance, 1.3);
+        wall.stability = base_width.map(|base_width| Stability {
+            thickness: 2.0,
+            density: 2400.0,
+            base_width,
+            base_slope: 0.0,
+            base_friction: 0.7,
+            sliding_factor: 1.1,
+            overturning_factor: 1.5,
+        });
+        let total_force = Demand { guideline: Some(100e3), ..Demand::default() };
+        check(&design, &Demands { total_force, ..Demands::default() })[0].verdict
+    }
+
+    #[test]
+    fn a_wall_is_held_against_its_resistance_or_is_a_plain_block() {
+        assert_eq!(verdict(Some(150e3), None), CheckVerdict::Pass);
+        assert_eq!(verdict(Some(135e3), None), CheckVerdict::Warn);
+        assert_eq!(verdict(Some(125e3), None), CheckVerdict::Fail);
+        assert_eq!(verdict(None, None), CheckVerdict::Open);
+        assert_eq!(verdict(None, Some(2.0)), CheckVerdict::Info);
+        assert_eq!(verdict(None, Some(2.5)), CheckVerdict::Open);
+        assert_eq!(verdict(Some(125e3), Some(2.0)), CheckVerdict::Fail);
+    }
+}

@@ -55,3 +55,50 @@ pub fn tell_drawn_out(design: &Design, demands: &Demands) -> Vec<Outcome> {
     }
     vec![outcome]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demand::Demand;
+    use crate::design::read::read_design;
+
+    /// The net of the example, whose net ropes break or draw out.
+    fn design(breaks: bool, elastic_limit: Option<f64>) -> Design {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        (net.net_rope.breaks, net.net_rope.elastic_limit) = (breaks, elastic_limit);
+        design
+    }
+
+    fn demands(broken: Option<f64>, drawn_out: Option<f64>) -> Demands {
+        let seen = |simulation| Demand { simulation, ..Demand::default() };
+        Demands { broken_pieces: seen(broken), drawn_out: seen(drawn_out), ..Demands::default() }
+    }
+
+    #[test]
+    fn a_rope_that_breaks_fails_the_design_and_one_that_cannot_is_not_asked() {
+        let verdict = |broken| check_broken(&design(true, None), &demands(broken, None))[0].verdict;
+        assert_eq!(verdict(Some(0.0)), CheckVerdict::Pass);
+        assert_eq!(verdict(Some(1.0)), CheckVerdict::Fail);
+        assert_eq!(verdict(Some(f64::NAN)), CheckVerdict::Fail);
+        assert_eq!(verdict(None), CheckVerdict::Open);
+        assert!(check_broken(&design(false, None), &demands(Some(1.0), None)).is_empty());
+        // Whichever of the ropes it is.
+        for part in 0..3 {
+            let mut design = design(false, None);
+            let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+            [&mut net.net_rope, &mut net.main_ropes.rope, &mut net.lateral_rope][part].breaks = true;
+            assert_eq!(check_broken(&design, &demands(Some(2.0), None))[0].verdict, CheckVerdict::Fail);
+        }
+    }
+
+    #[test]
+    fn a_rope_that_draws_out_leaves_the_design_open() {
+        let design = design(false, Some(50e3));
+        let verdict = |drawn_out| tell_drawn_out(&design, &demands(None, drawn_out))[0].verdict;
+        assert_eq!(verdict(Some(0.0)), CheckVerdict::Info);
+        assert_eq!(verdict(Some(0.002)), CheckVerdict::Open);
+        assert_eq!(verdict(Some(f64::NAN)), CheckVerdict::Open);
+        assert_eq!(verdict(None), CheckVerdict::Open);
+    }
+}

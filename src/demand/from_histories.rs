@@ -293,4 +293,88 @@ mod tests {
         assert_relative_eq!(observed.wall_sliding_peak, 87.26e3 + 0.5 * 57.32e3, max_relative = 1e-3);
         assert_relative_eq!(observed.wall_overturning_peak, 50e3 + 2.0 * 57.32e3, max_relative = 1e-3);
     }
+
+    /// Each number of a net is read off its own history: its largest value, or its last, by rope.
+    #[test]
+    fn every_number_is_read_off_its_history() {
+        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let guideline = crate::demand::from_loads::guideline(&design);
+        let ropes = |rows: [f64; 3]| rows.map(|row| vec![0.5 * row, row, 0.25 * row]).to_vec();
+        let single = |peak: f64| vec![0.2 * peak, peak, 0.5 * peak];
+        let gauge = Gauge { velocity: 4.0, depth: 0.9, flux: 14.0, ..Gauge::default() };
+        let histories = Histories {
+            time: vec![1.0, 2.0, 3.0],
+            force: [30.0, 90.0, 60.0].map(|x| crate::dem::Vec3::new(x, 0.0, 0.0)).to_vec(),
+            rope_mean: ropes([1.0, 2.0, 3.0]),
+            rope_largest: ropes([4.0, 5.0, 6.0]),
+            anchors: ropes([7.0, 8.0, 9.0]),
+            extension: ropes([10.0, 11.0, 12.0]),
+            strokes: ropes([13.0, 14.0, 15.0]),
+            strokes_mean: ropes([16.0, 17.0, 18.0]),
+            brakes: ropes([19.0, 20.0, 21.0]),
+            lateral_largest: single(22.0),
+            bed_force: single(23.0),
+            bolt_largest: single(24.0),
+            bolt_lift: single(25.0),
+            net_largest: single(26.0),
+            broken_pieces: vec![0.0, 1.0, 2.0],
+            drawn_out: single(0.27),
+            top_rope_height: vec![2.0, 1.8, 1.5],
+            velocity: vec![[5.0, 0.0], [3.0, 0.0], [0.0, 0.0]],
+            lost: vec![[0.0; 4], [0.0; 4], [0.04, 0.03, 0.02, 0.01]],
+            stopped_upstream: 0.1,
+            incoming: vec![gauge; 3],
+            approaching: vec![Gauge::default(); 3],
+            barrier_depth: vec![0.0, 0.5, 0.7],
+            dead_depth: vec![0.0; 3],
+            pushes_by_state: vec![[0.0; 2]; 3],
+            dead: vec![0.0; 3],
+            moving: vec![0.0; 3],
+            front: vec![0.0; 3],
+            ..Histories::default()
+        };
+        let seen = Observed::read(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
+        assert_eq!((seen.force_peak, seen.force_peak_time, seen.force_residual), (90.0, 2.0, 60.0));
+        assert_eq!((seen.push_peak, seen.velocity_peak, seen.velocity_peak_time), (90.0, 5.0, 1.0));
+        assert_eq!(seen.rope_mean_peak, [1.0, 2.0, 3.0]);
+        assert_eq!(seen.rope_mean_residual, [0.25, 0.5, 0.75]);
+        assert_eq!(seen.rope_tension_peak, [4.0, 5.0, 6.0]);
+        assert_eq!(seen.anchor_force_peak, [7.0, 8.0, 9.0]);
+        assert_eq!(seen.extension, [10.0, 11.0, 12.0]);
+        assert_eq!(seen.brake_stroke, [13.0, 14.0, 15.0]);
+        assert_eq!(seen.brake_stroke_mean, [16.0, 17.0, 18.0]);
+        assert_eq!(seen.brake_force_peak, [19.0, 20.0, 21.0]);
+        assert_eq!((seen.lateral_tension_peak, seen.bed_force_peak), (22.0, 23.0));
+        assert_eq!((seen.bolt_force_peak, seen.bolt_lift_peak, seen.net_tension_peak), (24.0, 25.0, 26.0));
+        assert_eq!((seen.broken_pieces, seen.first_break, seen.drawn_out), (2.0, Some(2.0), 0.27));
+        assert_relative_eq!(seen.residual_height, 0.75);
+        // 10 % went past, 10 % never came: 80 of the 90 % that came are held.
+        assert_relative_eq!(seen.retained, 0.8 / 0.9, max_relative = 1e-12);
+        assert_eq!((seen.deposit_depth, seen.incoming.velocity), (0.7, 4.0));
+        assert!(seen.fits(&design) && histories.is_whole());
+    }
+
+    /// K ρ g' H²/2 with K = 1.5 on a deposit of 2 m at rest; λ ρ v² h = 0.8 of a flow of h v² = 36 m³/s² before.
+    #[test]
+    fn k_and_lambda_are_read_off_the_force() {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        design.factors.earth_pressure = 1.2;
+        let guideline = crate::demand::from_loads::guideline(&design);
+        let (unit, width) = (guideline.input.density * guideline.input.gravity_normal, design.channel.width);
+        let (at_peak, at_rest) =
+            (0.5 * 1.2 * unit * 1.0 + 0.8 * guideline.input.density * 36.0, 0.5 * 1.5 * unit * 4.0);
+        assert!(at_peak > at_rest);
+        let gauge = Gauge { depth: 1.0, velocity: 6.0, flux: 36.0, ..Gauge::default() };
+        let histories = Histories {
+            time: vec![0.0, 1.0, 2.0],
+            force: [0.0, at_peak, at_rest].map(|along| crate::dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
+            barrier_depth: vec![0.0, 1.0, 2.0],
+            incoming: vec![gauge, Gauge::default(), Gauge { at_rest: 0.5, flux: 99.0, ..gauge }],
+            ..Histories::default()
+        };
+        let mut seen = Observed { deposit_depth: 2.0, ..Observed::default() };
+        seen.measure_coefficients(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
+        assert_relative_eq!(seen.k_effective.unwrap(), 1.5, max_relative = 1e-9);
+        assert_relative_eq!(seen.lambda_effective.unwrap(), 0.8, max_relative = 1e-9);
+    }
 }

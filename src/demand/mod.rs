@@ -394,4 +394,16 @@ mod tests {
         assert_eq!(demands.net_tension.simulation, Some(30e3));
         assert_eq!(demands.retained.simulation, Some(0.97));
     }
+
+    #[test]
+    fn the_simulation_s_answer_is_without_the_equations() {
+        let design = small_net();
+        let mut demands = Demands::by_equations(&guideline(&design), &design.factors);
+        assert!(demands.total_force.guideline.is_some() && demands.rope_tension[1].guideline.is_some());
+        demands.leave_out_guideline();
+        let single = [demands.total_force, demands.bed_force, demands.bolt_force, demands.brake_force];
+        let by_rope = [&demands.rope_tension, &demands.anchor_force, &demands.brake_stroke];
+        assert!(single.iter().chain(by_rope.into_iter().flatten()).all(|demand| demand.guideline.is_none()));
+        assert!(demands.wall_sliding.guideline.is_none() && demands.wall_overturning.guideline.is_none());
+    }
 }

@@ -110,9 +110,7 @@ impl Ongoing {
     fn judge(&mut self, longest: f64, watch: &Watch) -> Option<Ending> {
         let histories = &self.recorder.histories;
         let error = self.simulation.ledger.relative_error(&histories.at_release);
-        if error.abs() > self.energy_error.abs() || error.is_nan() {
-            self.energy_error = error;
-        }
+        self.energy_error = worse(self.energy_error, error);
         let force = histories.force.last().map_or(0.0, |force| force.norm());
         let time = self.simulation.time;
         (watch.progress)(ProgressReport { time, share: (time / self.expected_time).min(0.99), force });
@@ -124,6 +122,11 @@ impl Ongoing {
         }
         (time >= longest).then_some(Ending::OutOfTime)
     }
+}
+
+/// The imbalance further from zero; one that is not a number stays.
+fn worse(before: f64, now: f64) -> f64 {
+    if now.abs() > before.abs() || now.is_nan() { now } else { before }
 }
 
 /// Whether the last two stretches tell the same.
@@ -139,4 +142,49 @@ fn steady(histories: &Histories, stretch: usize) -> bool {
     (after - before).abs() <= STEADY_FORCE * after.max(before)
         && dead < STEADY_DEAD
         && lost(count - 1) - lost(count - stretch) < STEADY_LOST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    /// Two stretches of ten samples in which nothing changes, but for what `change` does to the last.
+    fn after(change: impl Fn(&mut Histories, usize)) -> bool {
+        let count = 20;
+        let mut histories = Histories {
+            time: (0..count).map(f64::from).collect(),
+            force: vec![crate::dem::Vec3::new(100.0, 0.0, 0.0); count as usize],
+            moving: vec![0.01; count as usize],
+            dead: vec![0.9; count as usize],
+            lost: vec![[0.01, 0.0, 0.0, 0.0]; count as usize],
+            ..Histories::default()
+        };
+        (10..20).for_each(|sample| change(&mut histories, sample));
+        steady(&histories, 10)
+    }
+
+    #[test]
+    fn an_event_is_over_when_force_mass_at_rest_and_mass_held_no_longer_change() {
+        let ramp = |sample: usize| (sample - 10) as f64 / 9.0;
+        assert!(after(|_, _| ()));
+        assert!(!after(|histories, sample| histories.force[sample].x = 103.0));
+        assert!(!after(|histories, sample| histories.force[sample].x = 97.0));
+        assert!(!after(|histories, sample| histories.moving[sample] = 0.03));
+        assert!(!after(|histories, sample| histories.dead[sample] += 0.01 * ramp(sample)));
+        assert!(!after(|histories, sample| histories.dead[sample] -= 0.01 * ramp(sample)));
+        assert!(!after(|histories, sample| histories.lost[sample][3] += 0.004 * ramp(sample)));
+        // Within what may still change.
+        assert!(after(|histories, sample| histories.dead[sample] += 0.004 * ramp(sample)));
+        assert!(after(|histories, sample| histories.lost[sample][3] += 0.001 * ramp(sample)));
+        // Nothing is steady before there are two stretches, or where what moves is unknown.
+        assert!(!steady(&Histories::default(), 10));
+        assert!(!after(|histories, sample| histories.moving[sample] = f64::NAN));
+        assert!(!after(|histories, sample| histories.force[sample].x = f64::NAN));
+    }
+
+    #[test]
+    fn the_largest_imbalance_of_energy_is_kept_and_one_that_is_no_number_stays() {
+        assert_eq!(worse(0.01, -0.02), -0.02);
+        assert_eq!(worse(-0.02, 0.01), -0.02);
+        assert!(worse(0.01, f64::NAN).is_nan() && worse(f64::NAN, 0.01).is_nan());
+    }
 }
