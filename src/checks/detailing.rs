@@ -5,6 +5,7 @@ use crate::demand::from_loads::{Guideline, event_fill};
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
 use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
+use crate::loads::input::GuidelineInput;
 
 /// What hangs on a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +69,34 @@ const SPECIAL: &str = "outside the range the guideline was made for: a special d
 /// All rules that apply to the design.
 pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
     let input = &guideline.input;
+    let mut rules = of_pressures(design, input);
+    if let BarrierDesign::FlexibleNet(net) = &design.barrier {
+        rules.push(most("Depth of the flow", input.depth, 2.0, "m", RANGE, SPECIAL));
+        rules.push(most("Velocity of the flow", input.velocity, 10.0, "m/s", RANGE, SPECIAL));
+        rules.extend(of_net(design, net));
+        rules.extend(of_sag(design, guideline));
+        rules.extend(guideline.retention.map(of_volume));
+        rules.extend(of_point_load(design, net));
+    }
+    rules.extend(guideline.retention.map(|held| {
+        least(
+            "Volume held against that of the event",
+            held.volume,
+            design.flow.event_volume,
+            "m³",
+            "derived, with the shares of height and slope of the design",
+            "the event more than fills the barrier: what comes after goes over it",
+        )
+    }));
+    rules.push(of_freeboard(design, guideline));
+    rules.push(of_discharge(design, guideline));
+    // What hangs on grains of which nothing is said.
+    rules.retain(|rule| !rule.most.is_some_and(f64::is_nan));
+    rules
+}
+
+/// Where the guideline's pressures are known to hold.
+fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
     let mut rules = vec![
         Rule {
             title: "Density of the flow",
@@ -138,28 +167,6 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
     });
     rules.push(coefficient("Coefficient K", input.earth_pressure, 1.0));
     rules.push(coefficient("Coefficient λ", input.dynamic_pressure, 0.7));
-    if let BarrierDesign::FlexibleNet(net) = &design.barrier {
-        rules.push(most("Depth of the flow", input.depth, 2.0, "m", RANGE, SPECIAL));
-        rules.push(most("Velocity of the flow", input.velocity, 10.0, "m/s", RANGE, SPECIAL));
-        rules.extend(of_net(design, net));
-        rules.extend(of_sag(design, guideline));
-        rules.extend(guideline.retention.map(of_volume));
-        rules.extend(of_point_load(design, net));
-    }
-    rules.extend(guideline.retention.map(|held| {
-        least(
-            "Volume held against that of the event",
-            held.volume,
-            design.flow.event_volume,
-            "m³",
-            "derived, with the shares of height and slope of the design",
-            "the event more than fills the barrier: what comes after goes over it",
-        )
-    }));
-    rules.push(of_freeboard(design, guideline));
-    rules.push(of_discharge(design, guideline));
-    // What hangs on grains of which nothing is said.
-    rules.retain(|rule| !rule.most.is_some_and(f64::is_nan));
     rules
 }
 

@@ -5,12 +5,14 @@ pub mod entries;
 pub mod factor_sets;
 pub mod grain_lengths;
 pub mod key;
+pub mod net_rules;
 pub mod read;
 pub mod resolve;
 pub mod rope_rules;
 pub mod rules;
 pub mod schema;
 pub mod sizes;
+pub mod wall_rules;
 pub mod yaml_faults;
 
 use self::sizes::SizeCurve;

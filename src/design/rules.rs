@@ -5,6 +5,7 @@ use crate::design::entries::Entries;
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::sizes::SizeCurve;
+use crate::design::{net_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -22,32 +23,32 @@ pub const RULES: &[Rule] = &[
     dam_break_height_agrees,
     surge_length_agrees,
     flow_within_side_walls,
-    wall_segments_fill_the_wall,
-    wall_base_carries_the_wall,
-    wall_base_no_steeper_than_the_bed,
-    wall_face_stands_on_its_base,
+    wall_rules::wall_segments_fill_the_wall,
+    wall_rules::wall_base_carries_the_wall,
+    wall_rules::wall_base_no_steeper_than_the_bed,
+    wall_rules::wall_face_stands_on_its_base,
     point_load_on_the_barrier,
     self_weight_of_a_net,
     overflow_has_friction_and_length,
-    mesh_within_the_barrier,
-    main_ropes_counted_once,
-    rope_heights_increase,
-    rope_heights_span_the_barrier,
-    ropes_leave_room_for_the_mesh,
-    mesh_within_the_channel,
-    rings_match_the_mesh,
-    bolts_have_one_resistance,
-    bolts_have_their_distance,
-    opening_below_the_barrier,
+    net_rules::mesh_within_the_barrier,
+    net_rules::main_ropes_counted_once,
+    net_rules::rope_heights_increase,
+    net_rules::rope_heights_span_the_barrier,
+    net_rules::ropes_leave_room_for_the_mesh,
+    net_rules::mesh_within_the_channel,
+    net_rules::rings_match_the_mesh,
+    net_rules::bolts_have_one_resistance,
+    net_rules::bolts_have_their_distance,
+    net_rules::opening_below_the_barrier,
     barrier_leans_within_reach,
     slope_lets_a_dam_break_flow,
     dam_break_clears_the_barrier,
-    lateral_ropes_have_their_dissipators,
-    dissipators_are_stiff,
-    cylinders_have_no_slack,
-    net_rope_draws_out_or_breaks,
-    main_rope_draws_out_or_breaks,
-    lateral_rope_draws_out_or_breaks,
+    net_rules::lateral_ropes_have_their_dissipators,
+    net_rules::dissipators_are_stiff,
+    net_rules::cylinders_have_no_slack,
+    net_rules::net_rope_draws_out_or_breaks,
+    net_rules::main_rope_draws_out_or_breaks,
+    net_rules::lateral_rope_draws_out_or_breaks,
     net_rope_is_one,
     main_rope_is_one,
     lateral_rope_is_one,
@@ -59,8 +60,8 @@ pub const GRAIN_RULES: &[Rule] = &[
     grains_fit_the_channel,
     grain_count_is_bearable,
     block_larger_than_the_grains,
-    knots_are_bearable,
-    cylinders_are_bearable,
+    net_rules::knots_are_bearable,
+    net_rules::cylinders_are_bearable,
 ];
 
 const NET: &str = "barrier.flexible_net";
@@ -102,26 +103,6 @@ fn event_is_no_less_than_the_flow(e: &Entries) -> Option<Problem> {
     (event < 0.999 * flow).then(|| {
         Problem::new("flow.event_volume", show(event), format!("no less than the flow itself, {}", show(flow)))
             .hint("the flow is one surge of the event, or all of it")
-    })
-}
-
-fn bolts_have_one_resistance(e: &Entries) -> Option<Problem> {
-    let [of_all, of_one] = ["bed_resistance", "bed_bolt_resistance"].map(|key| at(&format!("anchors.{key}")));
-    (e.mentions(&of_all) && e.mentions(&of_one)).then(|| {
-        Problem::new(
-            of_all,
-            "the resistance of all bolts and that of one",
-            "either bed_resistance or bed_bolt_resistance",
-        )
-        .hint("keep bed_bolt_resistance, the resistance of one bolt")
-    })
-}
-
-fn bolts_have_their_distance(e: &Entries) -> Option<Problem> {
-    let path = at("anchors.bed_bolt_resistance");
-    (e.mentions(&path) && !e.mentions(&at("anchors.bed_bolt_spacing"))).then(|| {
-        Problem::new(path, "a resistance of one bolt without their distance", "anchors.bed_bolt_spacing beside it")
-            .hint("the load of a bolt follows from how far apart they are")
     })
 }
 
@@ -294,67 +275,6 @@ fn flow_within_side_walls(e: &Entries) -> Option<Problem> {
     })
 }
 
-fn wall_segments_fill_the_wall(e: &Entries) -> Option<Problem> {
-    let path = "barrier.rigid_wall.segments";
-    let (parts, height) = (e.numbers(path)?, e.number("barrier.rigid_wall.height")?);
-    let sum: f64 = parts.iter().sum();
-    ((sum - height).abs() > 1e-6 * height).then(|| {
-        Problem::new(
-            path,
-            format!("parts that add up to {}", length(sum)),
-            format!("parts that add up to the height {}", length(height)),
-        )
-    })
-}
-
-const STABILITY: &str = "barrier.rigid_wall.stability";
-
-fn wall_base_carries_the_wall(e: &Entries) -> Option<Problem> {
-    let path = format!("{STABILITY}.base_width");
-    let (base, thickness) = (e.number(&path)?, e.number(&format!("{STABILITY}.thickness"))?);
-    (base < thickness).then(|| {
-        Problem::new(
-            path,
-            format!("a base of {}", length(base)),
-            format!("at least the thickness, {}", length(thickness)),
-        )
-        .hint("the base reaches from the wall's upstream face downstream")
-    })
-}
-
-fn wall_base_no_steeper_than_the_bed(e: &Entries) -> Option<Problem> {
-    let path = format!("{STABILITY}.base_slope");
-    let (base, bed) = (e.number(&path)?, e.number("channel.slope")?);
-    (base > bed).then(|| {
-        let show = |angle| Dimension::Angle.show(angle);
-        Problem::new(
-            path,
-            format!("a base of {}", show(base)),
-            format!("no more than the slope of the bed, {}", show(bed)),
-        )
-        .hint("on a steeper base the load would lift the wall, which is not checked")
-    })
-}
-
-/// Angle by which a given face may be off the normal of the base (rad): the balance of the wall takes it as upright on its base.
-const OFF_UPRIGHT: f64 = 0.1;
-
-fn wall_face_stands_on_its_base(e: &Entries) -> Option<Problem> {
-    let path = "barrier.rigid_wall.tilt";
-    let (tilt, base) = (e.number(path)?, e.number(&format!("{STABILITY}.base_slope"))?);
-    // Positive leans upstream; a base that falls downstream leans the wall downstream.
-    ((tilt + base).abs() > OFF_UPRIGHT).then(|| {
-        let show = |angle| Dimension::Angle.show(angle);
-        let found = format!("a face {} from plumb on a base of {}", show(tilt), show(base));
-        Problem::new(
-            path,
-            found,
-            format!("a face upright on its base: {} to {}", show(-base - OFF_UPRIGHT), show(-base + OFF_UPRIGHT)),
-        )
-        .hint("sliding and overturning are worked out for a wall of even thickness that stands upright on its base")
-    })
-}
-
 fn point_load_on_the_barrier(e: &Entries) -> Option<Problem> {
     let path = "loads.point_load.height";
     let height = e.number(path)?;
@@ -390,149 +310,6 @@ fn overflow_has_friction_and_length(e: &Entries) -> Option<Problem> {
         Problem::new(given, format!("no `{missing}`"), "both or neither")
             .hint("the drag of an overtopping flow is its weight on that length times tan of that angle"),
     )
-}
-
-fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
-    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
-    (mesh * std::f64::consts::SQRT_2 > height).then(|| {
-        let found = format!("a mesh of {} in a barrier {} high", length(mesh), length(height));
-        Problem::new(at("mesh_opening"), found, "a mesh whose diagonal fits the barrier's height")
-    })
-}
-
-fn main_ropes_counted_once(e: &Entries) -> Option<Problem> {
-    let path = at("main_ropes");
-    let (count, heights) = (at("main_ropes.count"), at("main_ropes.heights"));
-    let found = match (e.mentions(&count), e.mentions(&heights)) {
-        (true, true) => "both count and heights",
-        (false, false) if e.has_section(&path) => "neither count nor heights",
-        _ => return None,
-    };
-    Some(Problem::new(path, found, "either count or heights"))
-}
-
-/// Heights of the main ropes along the barrier, whichever way they were given.
-pub fn rope_heights(e: &Entries) -> Option<Vec<f64>> {
-    if let Some(heights) = e.numbers(&at("main_ropes.heights")) {
-        return Some(heights.to_vec());
-    }
-    let (count, height) = (e.number(&at("main_ropes.count"))? as usize, e.number(&at("height"))?);
-    Some((0..count).map(|rope| height * rope as f64 / (count - 1) as f64).collect())
-}
-
-fn rope_heights_increase(e: &Entries) -> Option<Problem> {
-    let path = at("main_ropes.heights");
-    let heights = e.numbers(&path)?;
-    let pair = heights.windows(2).find(|pair| pair[1] <= pair[0])?;
-    Some(Problem::new(path, format!("{} after {}", length(pair[1]), length(pair[0])), "heights that increase"))
-}
-
-fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
-    let path = at("main_ropes.heights");
-    let (heights, height) = (e.numbers(&path)?, e.number(&at("height"))?);
-    let (first, last) = (heights[0], heights[heights.len() - 1]);
-    (heights.len() < 2 || first != 0.0 || (last - height).abs() > 1e-6 * height).then(|| {
-        let found = format!("{} rope(s) from {} to {}", heights.len(), length(first), length(last));
-        Problem::new(path, found, format!("two ropes or more, from 0 m to the barrier's height {}", length(height)))
-    })
-}
-
-fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
-    let (mesh, heights) = (e.number(&at("mesh_opening"))?, rope_heights(e)?);
-    let diagonal = mesh * std::f64::consts::SQRT_2;
-    let bay = heights.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
-    (bay > 0.0 && bay < 0.6 * diagonal).then(|| {
-        let found = format!("ropes {} apart with a mesh diagonal of {}", length(bay), length(diagonal));
-        Problem::new(at("main_ropes"), found, "at least one mesh diagonal between two main ropes")
-    })
-}
-
-fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
-    let (mesh, width) = (e.number(&at("mesh_opening"))?, e.number("channel.width")?);
-    (3.0 * mesh * std::f64::consts::SQRT_2 > width).then(|| {
-        let found = format!("a mesh of {} across a channel of {}", length(mesh), length(width));
-        Problem::new(at("mesh_opening"), found, "at least three mesh diagonals across the channel")
-    })
-}
-
-fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
-    let (spacing, mesh) = (e.number(&at("main_ropes.rings.spacing"))?, e.number(&at("mesh_opening"))?);
-    let diagonal = mesh * std::f64::consts::SQRT_2;
-    ((spacing / diagonal - 1.0).abs() > 0.1).then(|| {
-        let found = format!("rings every {} with a mesh diagonal of {}", length(spacing), length(diagonal));
-        Problem::new(
-            at("main_ropes.rings.spacing"),
-            found,
-            "one ring to each mesh along the rope (the diagonal to 10 %)",
-        )
-    })
-}
-
-/// Most cylinders of main ropes, beyond which a run takes hours.
-const MOST_CYLINDERS: f64 = 10_000.0;
-
-fn has_cylinders(e: &Entries) -> bool {
-    e.text("simulation.barrier_model") == Some("cylinders")
-}
-
-fn cylinders_are_bearable(e: &Entries) -> Option<Problem> {
-    let ropes =
-        e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
-    let (piece, width) = (e.number(&at("main_ropes.element_length"))?, e.number("channel.width")?);
-    let count = ropes * width / piece;
-    (has_cylinders(e) && count > MOST_CYLINDERS).then(|| {
-        let found = format!("{} for {ropes} ropes of {}: {count:.0} cylinders", length(piece), length(width));
-        Problem::new(
-            at("main_ropes.element_length"),
-            found,
-            format!("at most {MOST_CYLINDERS:.0} cylinders of main ropes"),
-        )
-        .hint("longer cylinders: a few to each ring are enough")
-    })
-}
-
-fn cylinders_have_no_slack(e: &Entries) -> Option<Problem> {
-    let slack = e.number(&at("net_slack"))?;
-    (has_cylinders(e) && slack > 0.0).then(|| {
-        let found = format!("`{}` with barrier_model cylinders", e.typed(&at("net_slack")));
-        Problem::new(at("net_slack"), found, "0 % with cylinders, which are straight at rest")
-            .hint("use barrier_model sliding_ropes for a slack net")
-    })
-}
-
-fn net_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
-    draws_out_or_breaks(e, "net_rope")
-}
-
-fn main_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
-    draws_out_or_breaks(e, "main_ropes")
-}
-
-fn lateral_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
-    draws_out_or_breaks(e, "lateral_ropes")
-}
-
-/// A rope that draws out at constant tension never reaches its breaking load.
-fn draws_out_or_breaks(e: &Entries, part: &str) -> Option<Problem> {
-    let path = at(&format!("{part}.elastic_limit"));
-    let (elastic, breaking) = (e.number(&path)?, e.number(&at(&format!("{part}.breaking_load")))?);
-    if elastic >= breaking {
-        let found =
-            format!("{} with a breaking load of {}", Dimension::Force.show(elastic), Dimension::Force.show(breaking));
-        return Some(Problem::new(path, found, "less than the breaking load"));
-    }
-    (e.text(&at(&format!("{part}.at_breaking_load")))? == "breaks").then(|| {
-        Problem::new(path, "an elastic limit and `at_breaking_load: breaks`", "one of the two")
-            .hint("a rope that draws out at its elastic limit never reaches its breaking load")
-    })
-}
-
-fn opening_below_the_barrier(e: &Entries) -> Option<Problem> {
-    let (opening, height) = (e.number(&at("bottom.opening"))?, e.number(&at("height"))?);
-    (opening >= height).then(|| {
-        let found = format!("an opening of {} below a barrier of {}", length(opening), length(height));
-        Problem::new(at("bottom.opening"), found, "less than the barrier's height")
-    })
 }
 
 fn barrier_leans_within_reach(e: &Entries) -> Option<Problem> {
@@ -589,43 +366,5 @@ fn dam_break_clears_the_barrier(e: &Entries) -> Option<Problem> {
         let found =
             format!("a gate {} from the foot of a barrier that reaches {} upstream", length(distance), length(reach));
         Problem::new("flow.arrival.dam_break.distance", found, "a gate upstream of the whole barrier")
-    })
-}
-
-/// Elastic travel of a dissipator before it yields, over its stroke, up to which it can be left out of the stroke.
-const ELASTIC_TRAVEL: f64 = 0.25;
-
-fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
-    let [plateau, stroke, stiffness] =
-        ["plateau_force", "stroke", "stiffness"].map(|key| e.number(&at(&format!("dissipators.{key}"))));
-    let (travel, stroke) = (plateau? / stiffness?, stroke?);
-    (travel > ELASTIC_TRAVEL * stroke).then(|| {
-        let found =
-            format!("an elastic travel of {} up to the plateau, with a stroke of {}", length(travel), length(stroke));
-        Problem::new(at("dissipators.stiffness"), found, "a plateau that is reached within a quarter of the stroke")
-            .hint("the stroke is the travel at the plateau; elastic travel does not count to it")
-    })
-}
-
-fn lateral_ropes_have_their_dissipators(e: &Entries) -> Option<Problem> {
-    let path = at("lateral_ropes.tied_to");
-    (e.text(&path) == Some("dissipators") && !e.mentions(&at("dissipators"))).then(|| {
-        Problem::new(
-            path,
-            "`dissipators` in a barrier without dissipators",
-            "rope_ends or anchors, or a section dissipators",
-        )
-    })
-}
-
-/// Knots of the net beyond which a run would take hours.
-const MOST_KNOTS: f64 = 50_000.0;
-
-fn knots_are_bearable(e: &Entries) -> Option<Problem> {
-    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
-    let knots = e.number("channel.width")? * height / (mesh * mesh);
-    (knots > MOST_KNOTS).then(|| {
-        let found = format!("a mesh of {} with about {knots:.0} knots", length(mesh));
-        Problem::new(at("mesh_opening"), found, format!("at most {MOST_KNOTS:.0} knots")).hint("is the unit right?")
     })
 }

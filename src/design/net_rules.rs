@@ -1,0 +1,207 @@
+//! Contradictions between values of a flexible net; listed in [`super::rules`].
+
+use crate::design::entries::Entries;
+use crate::design::rules::{at, length};
+use crate::problem::Problem;
+use crate::units::Dimension;
+
+pub fn bolts_have_one_resistance(e: &Entries) -> Option<Problem> {
+    let [of_all, of_one] = ["bed_resistance", "bed_bolt_resistance"].map(|key| at(&format!("anchors.{key}")));
+    (e.mentions(&of_all) && e.mentions(&of_one)).then(|| {
+        Problem::new(
+            of_all,
+            "the resistance of all bolts and that of one",
+            "either bed_resistance or bed_bolt_resistance",
+        )
+        .hint("keep bed_bolt_resistance, the resistance of one bolt")
+    })
+}
+
+pub fn bolts_have_their_distance(e: &Entries) -> Option<Problem> {
+    let path = at("anchors.bed_bolt_resistance");
+    (e.mentions(&path) && !e.mentions(&at("anchors.bed_bolt_spacing"))).then(|| {
+        Problem::new(path, "a resistance of one bolt without their distance", "anchors.bed_bolt_spacing beside it")
+            .hint("the load of a bolt follows from how far apart they are")
+    })
+}
+
+pub fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
+    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
+    (mesh * std::f64::consts::SQRT_2 > height).then(|| {
+        let found = format!("a mesh of {} in a barrier {} high", length(mesh), length(height));
+        Problem::new(at("mesh_opening"), found, "a mesh whose diagonal fits the barrier's height")
+    })
+}
+
+pub fn main_ropes_counted_once(e: &Entries) -> Option<Problem> {
+    let path = at("main_ropes");
+    let (count, heights) = (at("main_ropes.count"), at("main_ropes.heights"));
+    let found = match (e.mentions(&count), e.mentions(&heights)) {
+        (true, true) => "both count and heights",
+        (false, false) if e.has_section(&path) => "neither count nor heights",
+        _ => return None,
+    };
+    Some(Problem::new(path, found, "either count or heights"))
+}
+
+/// Heights of the main ropes along the barrier, whichever way they were given.
+pub fn rope_heights(e: &Entries) -> Option<Vec<f64>> {
+    if let Some(heights) = e.numbers(&at("main_ropes.heights")) {
+        return Some(heights.to_vec());
+    }
+    let (count, height) = (e.number(&at("main_ropes.count"))? as usize, e.number(&at("height"))?);
+    Some((0..count).map(|rope| height * rope as f64 / (count - 1) as f64).collect())
+}
+
+pub fn rope_heights_increase(e: &Entries) -> Option<Problem> {
+    let path = at("main_ropes.heights");
+    let heights = e.numbers(&path)?;
+    let pair = heights.windows(2).find(|pair| pair[1] <= pair[0])?;
+    Some(Problem::new(path, format!("{} after {}", length(pair[1]), length(pair[0])), "heights that increase"))
+}
+
+pub fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
+    let path = at("main_ropes.heights");
+    let (heights, height) = (e.numbers(&path)?, e.number(&at("height"))?);
+    let (first, last) = (heights[0], heights[heights.len() - 1]);
+    (heights.len() < 2 || first != 0.0 || (last - height).abs() > 1e-6 * height).then(|| {
+        let found = format!("{} rope(s) from {} to {}", heights.len(), length(first), length(last));
+        Problem::new(path, found, format!("two ropes or more, from 0 m to the barrier's height {}", length(height)))
+    })
+}
+
+pub fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
+    let (mesh, heights) = (e.number(&at("mesh_opening"))?, rope_heights(e)?);
+    let diagonal = mesh * std::f64::consts::SQRT_2;
+    let bay = heights.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    (bay > 0.0 && bay < 0.6 * diagonal).then(|| {
+        let found = format!("ropes {} apart with a mesh diagonal of {}", length(bay), length(diagonal));
+        Problem::new(at("main_ropes"), found, "at least one mesh diagonal between two main ropes")
+    })
+}
+
+pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
+    let (mesh, width) = (e.number(&at("mesh_opening"))?, e.number("channel.width")?);
+    (3.0 * mesh * std::f64::consts::SQRT_2 > width).then(|| {
+        let found = format!("a mesh of {} across a channel of {}", length(mesh), length(width));
+        Problem::new(at("mesh_opening"), found, "at least three mesh diagonals across the channel")
+    })
+}
+
+pub fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
+    let (spacing, mesh) = (e.number(&at("main_ropes.rings.spacing"))?, e.number(&at("mesh_opening"))?);
+    let diagonal = mesh * std::f64::consts::SQRT_2;
+    ((spacing / diagonal - 1.0).abs() > 0.1).then(|| {
+        let found = format!("rings every {} with a mesh diagonal of {}", length(spacing), length(diagonal));
+        Problem::new(
+            at("main_ropes.rings.spacing"),
+            found,
+            "one ring to each mesh along the rope (the diagonal to 10 %)",
+        )
+    })
+}
+
+/// Most cylinders of main ropes, beyond which a run takes hours.
+const MOST_CYLINDERS: f64 = 10_000.0;
+
+fn has_cylinders(e: &Entries) -> bool {
+    e.text("simulation.barrier_model") == Some("cylinders")
+}
+
+pub fn cylinders_are_bearable(e: &Entries) -> Option<Problem> {
+    let ropes =
+        e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
+    let (piece, width) = (e.number(&at("main_ropes.element_length"))?, e.number("channel.width")?);
+    let count = ropes * width / piece;
+    (has_cylinders(e) && count > MOST_CYLINDERS).then(|| {
+        let found = format!("{} for {ropes} ropes of {}: {count:.0} cylinders", length(piece), length(width));
+        Problem::new(
+            at("main_ropes.element_length"),
+            found,
+            format!("at most {MOST_CYLINDERS:.0} cylinders of main ropes"),
+        )
+        .hint("longer cylinders: a few to each ring are enough")
+    })
+}
+
+pub fn cylinders_have_no_slack(e: &Entries) -> Option<Problem> {
+    let slack = e.number(&at("net_slack"))?;
+    (has_cylinders(e) && slack > 0.0).then(|| {
+        let found = format!("`{}` with barrier_model cylinders", e.typed(&at("net_slack")));
+        Problem::new(at("net_slack"), found, "0 % with cylinders, which are straight at rest")
+            .hint("use barrier_model sliding_ropes for a slack net")
+    })
+}
+
+pub fn net_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
+    draws_out_or_breaks(e, "net_rope")
+}
+
+pub fn main_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
+    draws_out_or_breaks(e, "main_ropes")
+}
+
+pub fn lateral_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
+    draws_out_or_breaks(e, "lateral_ropes")
+}
+
+/// A rope that draws out at constant tension never reaches its breaking load.
+fn draws_out_or_breaks(e: &Entries, part: &str) -> Option<Problem> {
+    let path = at(&format!("{part}.elastic_limit"));
+    let (elastic, breaking) = (e.number(&path)?, e.number(&at(&format!("{part}.breaking_load")))?);
+    if elastic >= breaking {
+        let found =
+            format!("{} with a breaking load of {}", Dimension::Force.show(elastic), Dimension::Force.show(breaking));
+        return Some(Problem::new(path, found, "less than the breaking load"));
+    }
+    (e.text(&at(&format!("{part}.at_breaking_load")))? == "breaks").then(|| {
+        Problem::new(path, "an elastic limit and `at_breaking_load: breaks`", "one of the two")
+            .hint("a rope that draws out at its elastic limit never reaches its breaking load")
+    })
+}
+
+pub fn opening_below_the_barrier(e: &Entries) -> Option<Problem> {
+    let (opening, height) = (e.number(&at("bottom.opening"))?, e.number(&at("height"))?);
+    (opening >= height).then(|| {
+        let found = format!("an opening of {} below a barrier of {}", length(opening), length(height));
+        Problem::new(at("bottom.opening"), found, "less than the barrier's height")
+    })
+}
+
+/// Elastic travel of a dissipator before it yields, over its stroke, up to which it can be left out of the stroke.
+const ELASTIC_TRAVEL: f64 = 0.25;
+
+pub fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
+    let [plateau, stroke, stiffness] =
+        ["plateau_force", "stroke", "stiffness"].map(|key| e.number(&at(&format!("dissipators.{key}"))));
+    let (travel, stroke) = (plateau? / stiffness?, stroke?);
+    (travel > ELASTIC_TRAVEL * stroke).then(|| {
+        let found =
+            format!("an elastic travel of {} up to the plateau, with a stroke of {}", length(travel), length(stroke));
+        Problem::new(at("dissipators.stiffness"), found, "a plateau that is reached within a quarter of the stroke")
+            .hint("the stroke is the travel at the plateau; elastic travel does not count to it")
+    })
+}
+
+pub fn lateral_ropes_have_their_dissipators(e: &Entries) -> Option<Problem> {
+    let path = at("lateral_ropes.tied_to");
+    (e.text(&path) == Some("dissipators") && !e.mentions(&at("dissipators"))).then(|| {
+        Problem::new(
+            path,
+            "`dissipators` in a barrier without dissipators",
+            "rope_ends or anchors, or a section dissipators",
+        )
+    })
+}
+
+/// Knots of the net beyond which a run would take hours.
+const MOST_KNOTS: f64 = 50_000.0;
+
+pub fn knots_are_bearable(e: &Entries) -> Option<Problem> {
+    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
+    let knots = e.number("channel.width")? * height / (mesh * mesh);
+    (knots > MOST_KNOTS).then(|| {
+        let found = format!("a mesh of {} with about {knots:.0} knots", length(mesh));
+        Problem::new(at("mesh_opening"), found, format!("at most {MOST_KNOTS:.0} knots")).hint("is the unit right?")
+    })
+}
