@@ -15,6 +15,9 @@ use crate::report::lock::{self, Lock};
 use crate::report::manifest::{self, Manifest, digest_of, hexadecimal, is_plain};
 use crate::report::recording;
 
+/// Bytes of a manifest at the most.
+const LONGEST_MANIFEST: u64 = 16 << 20;
+
 /// The file that is put in place last.
 const RESULT: &str = "result.json";
 
@@ -100,6 +103,9 @@ impl Folder {
         }
         folder.remove_leftovers();
         folder.manifest.source = place.or(folder.manifest.source.take());
+        if folder.manifest.program.is_empty() {
+            folder.manifest.program = PROGRAM.to_string();
+        }
         folder.put_manifest().map_err(unwritable)?;
         Ok(folder)
     }
@@ -117,8 +123,11 @@ impl Folder {
 
     /// Reads the manifest, or tells that the folder is not the program's.
     fn whose(&mut self) -> Result<(), Refusal> {
-        let read = fs::read(self.path.join(manifest::FILE)).ok().and_then(|bytes| Manifest::read(&bytes));
-        if let Some(manifest) = read {
+        let place = self.path.join(manifest::FILE);
+        let regular =
+            fs::symlink_metadata(&place).is_ok_and(|found| found.is_file() && found.len() <= LONGEST_MANIFEST);
+        let read = regular.then(|| fs::read(&place).ok()).flatten();
+        if let Some(manifest) = read.and_then(|bytes| Manifest::read(&bytes)) {
             self.manifest = manifest;
             return Ok(());
         }
@@ -126,6 +135,9 @@ impl Folder {
         let recorded = digest_in(&self.path.join(recording::FILE)).filter(|_| self.has_recording());
         let kept = self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER).is_file();
         let mut foreign = self.others();
+        if fs::symlink_metadata(&place).is_ok() {
+            foreign.push(manifest::FILE.to_string());
+        }
         foreign.retain(|name| (name != recording::FILE || recorded.is_none()) && (name != checkpoint::FOLDER || !kept));
         if !foreign.is_empty() {
             return Err(Refusal::Foreign(self.path.display().to_string(), listed(&foreign)));
@@ -145,7 +157,7 @@ impl Folder {
     fn others(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-        names.retain(|name| name != lock::FILE && name != manifest::FILE && !is_temporary(name));
+        names.retain(|name| name != lock::FILE && name != manifest::FILE && temporary_of(name).is_none());
         names.sort();
         names
     }
@@ -178,6 +190,7 @@ impl Folder {
         let placed = self.place(files);
         if placed.is_ok() {
             self.manifest.replaced.clear();
+            self.remove_leftovers();
         }
         self.put_manifest()?;
         placed
@@ -254,7 +267,9 @@ impl Folder {
     /// Removes what programs that were killed while they wrote have left; with the lock held nobody else is writing.
     fn remove_leftovers(&self) {
         for entry in fs::read_dir(&self.path).into_iter().flatten().flatten() {
-            if is_temporary(&entry.file_name().to_string_lossy()) {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let of = temporary_of(&name);
+            if of.is_some_and(|of| of == manifest::FILE || self.manifest.names().any(|known| known == of)) {
                 let _ = fs::remove_file(entry.path());
             }
         }
@@ -316,10 +331,11 @@ fn sync(folder: &Path) {
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
 }
 
-/// `.name.process.tmp`
-fn is_temporary(name: &str) -> bool {
-    let inside = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
-    inside.and_then(|name| name.rsplit_once('.')).is_some_and(|(_, process)| process.parse::<u32>().is_ok())
+/// The name in `.name.process.tmp`.
+fn temporary_of(name: &str) -> Option<&str> {
+    let inside = name.strip_prefix('.')?.strip_suffix(".tmp")?;
+    let (name, process) = inside.rsplit_once('.')?;
+    process.parse::<u32>().is_ok().then_some(name)
 }
 
 /// SHA-256 of a regular file; nothing of anything else.
@@ -399,6 +415,9 @@ mod tests {
         assert!(matches!(claim(&path), Err(Refusal::Foreign(_, names)) if names == "design.yaml"));
         assert_eq!(names(&path), ["design.yaml"]);
         fs::remove_file(path.join("design.yaml")).unwrap();
+        fs::write(path.join("manifest.json"), r#"{"name": "of something else"}"#).unwrap();
+        assert!(matches!(claim(&path), Err(Refusal::Foreign(_, names)) if names == "manifest.json"));
+        fs::remove_file(path.join("manifest.json")).unwrap();
         claim(&path).unwrap().write(&files(&["report.md", "result.json"])).unwrap();
         fs::write(path.join("report.md"), "with my remarks").unwrap();
         assert!(matches!(claim(&path), Err(Refusal::Changed(_, names)) if names == "report.md"));

@@ -24,9 +24,12 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// Reads a manifest; nothing where it is none. A name that leads elsewhere is not taken.
+    /// Reads a manifest; nothing where it is none, or that of another program. A name that leads elsewhere is not taken.
     pub fn read(bytes: &[u8]) -> Option<Self> {
         let mut manifest: Self = serde_json::from_slice(bytes).ok()?;
+        if !manifest.program.starts_with("barrier-check ") {
+            return None;
+        }
         manifest.files.retain(|name, _| is_plain(name));
         manifest.replaced.retain(|name, _| is_plain(name));
         Some(manifest)
@@ -87,9 +90,10 @@ mod tests {
         ] {
             assert_eq!(is_plain(name), plain, "{name}");
         }
-        let forged = br#"{"program": "x", "files": {"../x": "00", "report.md": "11"}}"#;
+        let forged = br#"{"program": "barrier-check 1", "files": {"../x": "00", "report.md": "11"}}"#;
         let manifest = Manifest::read(forged).expect("a manifest");
         assert_eq!(manifest.names().collect::<Vec<_>>(), ["report.md"]);
         assert_eq!(Manifest::read(b"[]"), None);
+        assert_eq!(Manifest::read(br#"{"program": "another", "files": {}}"#), None);
     }
 }
