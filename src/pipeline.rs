@@ -59,12 +59,17 @@ pub struct Run {
 /// By equations alone: loads, ropes, checks.
 pub fn by_equations(file: DesignFile) -> Run {
     let guideline = guideline(&file.design);
-    finish(file, guideline, None)
+    finish(file, guideline, None, None)
 }
 
 /// Runs one design from words to verdict, with as many packings as `starts` asks for, from the design's seed on, under each of its
 /// load cases. Call inside the thread pool that shall do the work: one simulation uses all its threads, several run side by side.
 pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
+    run_on(None, file, starts, watch)
+}
+
+/// The same on a rung of the ladder, whose accuracy is then known; else it is that of the rung that the run is like.
+fn run_on(rung: Option<&'static Rung>, file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
     let design = &file.design;
     let guideline = guideline(design);
     let threads = rayon::current_num_threads();
@@ -95,16 +100,17 @@ pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError
             LoadCase::Factored => simulated.factored.extend(other.starts),
         }
     }
-    Ok(finish(file, guideline, Some(simulated)))
+    Ok(finish(file, guideline, Some(simulated), rung))
 }
 
 /// What a recorded simulation says, as at first.
 pub fn restore(mut file: DesignFile, simulated: Option<Simulated>, varied: Vec<Swing>, climb: Vec<Step>) -> Run {
-    if let Some(step) = climb.last() {
-        file.design = RUNGS[step.rung].of(&file.design);
+    let rung = climb.last().map(|step| &RUNGS[step.rung]);
+    if let Some(rung) = rung {
+        file.design = rung.of(&file.design);
     }
     let guideline = guideline(&file.design);
-    Run { varied, climb, ..finish(file, guideline, simulated) }
+    Run { varied, climb, ..finish(file, guideline, simulated, rung) }
 }
 
 /// Runs one design on one rung of the ladder after the other, until no verdict can flip. `starts` is the least number of packings
@@ -124,8 +130,7 @@ pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunErr
         let climbed = std::mem::take(&mut now.climb);
         now = match rung.starts {
             0 => by_equations(file),
-            1 => run(file, 1, watch)?,
-            several => run(file, several.max(starts), watch)?,
+            several => run_on(Some(rung), file, if several > 1 { several.max(starts) } else { 1 }, watch)?,
         };
         now.climb = climbed;
         let mut open = rung.open(&now.outcomes);
@@ -185,17 +190,18 @@ fn doubts_of(case: LoadCase, run: &Simulated, starts: u32) -> Vec<String> {
     run.doubts.iter().map(named).collect()
 }
 
-fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) -> Run {
+fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, rung: Option<&'static Rung>) -> Run {
     let design = &file.design;
+    let packings = simulated.as_ref().map_or(0, |simulated| simulated.starts.len());
+    let rung = rung.unwrap_or_else(|| rung_of(design, packings));
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
     let mut outcomes = check_all(design, &demands);
-    let first_surge = simulated.as_ref().map(|simulated| first_surge(design, simulated));
+    let first_surge = simulated.as_ref().map(|simulated| first_surge(rung, simulated));
     leave_open_not_covered(design, &guideline, first_surge, &mut outcomes);
     leave_open_outside_range(design, &guideline, &mut outcomes);
-    if let Some(simulated) = &simulated {
-        let packings = simulated.starts.len();
-        rung_of(design, packings).leave_open_what_is_too_close(packings, &mut outcomes);
+    if simulated.is_some() {
+        rung.leave_open_what_is_too_close(packings, &mut outcomes);
     }
     let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
     doubts.extend(simulated.as_ref().and_then(|simulated| slower_than_designed(design, simulated)));
@@ -203,8 +209,8 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>) 
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
 
-fn first_surge(design: &Design, simulated: &Simulated) -> FirstSurge {
-    let band = rung_of(design, simulated.starts.len()).band;
+fn first_surge(rung: &Rung, simulated: &Simulated) -> FirstSurge {
+    let band = rung.band;
     let at_rest: Vec<f64> = simulated.starts.iter().filter_map(|start| start.observed.k_effective).collect();
     FirstSurge {
         push: simulated.spread(|seen| seen.push_peak).mean,
@@ -225,6 +231,9 @@ fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String
     let arrives = |seen: &Observed| seen.incoming.velocity.max(seen.front_velocity.unwrap_or(0.0));
     let velocity = simulated.spread(arrives).mean;
     let flux = simulated.spread(|seen| seen.incoming.flux).mean;
+    if velocity.is_nan() || flux.is_nan() {
+        return Some("the velocity with which the simulated flow arrives is not a number".into());
+    }
     let (depth, given) = given_arrival(&design.flow.arrival)?;
     (!like_the_design(depth, given, velocity, flux)).then(|| {
         let seen = simulated.first().incoming;

@@ -61,6 +61,8 @@ pub struct Vault {
     warned: AtomicBool,
     /// Names of the files that the simulations of this run have asked for.
     asked: Mutex<BTreeSet<String>>,
+    /// Names of those that this run has kept: a fresh one takes these alone.
+    written: Mutex<BTreeSet<String>>,
 }
 
 impl Vault {
@@ -69,7 +71,18 @@ impl Vault {
     pub fn new(folder: PathBuf, order: Order, every: Duration, keep_done: bool, fresh: bool) -> Self {
         let no = || AtomicBool::new(false);
         let (ordered, asked) = (Mutex::new(false), Mutex::default());
-        Self { folder, order, every, keep_done, fresh, ordered, kept: no(), warned: no(), asked }
+        Self {
+            folder,
+            order,
+            every,
+            keep_done,
+            fresh,
+            ordered,
+            kept: no(),
+            warned: no(),
+            asked,
+            written: Mutex::default(),
+        }
     }
 
     /// The order of the vault in `folder`.
@@ -92,7 +105,7 @@ impl Vault {
         let others = file::simulations(&self.folder).into_iter().filter(|name| !asked.contains(name)).count();
         if !self.fresh && others > 0 {
             terminal::warn(format_args!(
-                "note: {others} of the simulations kept in {} belong to none of this run and were not used",
+                "note: {others} of the checkpoints in {} do not belong to this run and were ignored",
                 self.folder.display()
             ));
         }
@@ -127,7 +140,12 @@ impl Vault {
         let kept = write(&self.folder.join(name), Kind::Simulation, Some(print), content);
         let result = kept.and_then(|()| self.put_order());
         match result {
-            Ok(()) => self.kept.store(true, Ordering::Relaxed),
+            Ok(()) => {
+                self.kept.store(true, Ordering::Relaxed);
+                if let Ok(mut written) = self.written.lock() {
+                    written.insert(name.to_string());
+                }
+            }
             Err(error) => {
                 if !self.warned.swap(true, Ordering::Relaxed) {
                     terminal::warn(format_args!(
@@ -153,7 +171,8 @@ pub struct Shelf<'a> {
 impl Shelf<'_> {
     /// What was kept last and can be read. What cannot is told, and the one before it taken, or none.
     pub fn take<T: DeserializeOwned>(&self) -> Option<T> {
-        if self.vault.fresh {
+        let own = |written: &BTreeSet<String>| written.contains(&self.name);
+        if self.vault.fresh && !self.vault.written.lock().is_ok_and(|written| own(&written)) {
             return None;
         }
         let path = self.vault.folder.join(&self.name);

@@ -60,7 +60,7 @@ fn leave_open_later_surges(design: &Design, guideline: &Guideline, push: f64, ou
             && outcome.demand.guideline.is_some()
     };
     for outcome in outcomes.iter_mut().filter(of_surges) {
-        outcome.leave_open(Opening::OutOfRange(format!(
+        outcome.leave_open(Opening::Contradicted(format!(
             "the simulated first surge pushes {ratio:.2} times as hard as the guideline's, so that its later surges over a deposit are too low (raise factors.dynamic_lambda until they agree within {:.0} %, or say loads.filling: one_event)",
             100.0 * (LIKE_FIRST_SURGES - 1.0)
         )));
@@ -88,7 +88,7 @@ fn leave_open_full_barrier(design: &Design, guideline: &Guideline, seen: FirstSu
         // Written so that a NaN counts as not within.
         let within = |used: f64| used <= 1.0;
         if !within(used) {
-            outcome.leave_open(Opening::OutOfRange(format!(
+            outcome.leave_open(Opening::Contradicted(format!(
                 "{full}, which it would not hold in proportion (simulate a larger flow, or say loads.filling: one_event)"
             )));
         } else if !within(may_be) {
@@ -100,7 +100,7 @@ fn leave_open_full_barrier(design: &Design, guideline: &Guideline, seen: FirstSu
 }
 
 /// Utilisation by the simulation with `more` times the load, as simulated and with the largest error that the simulation may have;
-/// nothing where the equations, which know the full barrier, govern.
+/// nothing where that says nothing.
 fn used_when_full(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option<[f64; 2]> {
     let (demand, capacity) = (outcome.demand.simulation?, outcome.capacity?);
     match outcome.kind {
@@ -115,9 +115,7 @@ fn used_when_full(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option<[f64
     }
     // The equations spread the load evenly over the bolts, so theirs is no measure of the worst one.
     let of_bolts = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts);
-    if outcome.governed_by_equations() && !of_bolts {
-        return None;
-    }
+    let known = outcome.governed_by_equations() && !of_bolts;
     let power = if outcome.kind == Kind::BetweenBolts { 2.0 / 3.0 } else { 1.0 };
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
@@ -125,7 +123,13 @@ fn used_when_full(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option<[f64
         // Asked so that what is not a number stays so.
         (if full > cap { cap } else { full }) / capacity
     };
-    Some([used(0.0), used(if outcome.unit == "m" { seen.stroke_band } else { seen.force_band })])
+    // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them.
+    let band = match outcome.unit {
+        _ if known => 0.0,
+        "m" => seen.stroke_band,
+        _ => seen.force_band,
+    };
+    Some([used(0.0), used(band)])
 }
 
 /// What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
@@ -213,10 +217,9 @@ fn leave_open_harder_flows(design: &Design, guideline: &Guideline, seen: FirstSu
         }),
     ];
     let found = found.into_iter().flatten().collect::<Vec<_>>().join(" and ");
-    for ((outcome, then), held) in outcomes.iter_mut().zip(&checks).zip(before) {
-        if !outcome.holds() || outcome.id != then.id {
-            continue;
-        }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        let Some(place) = checks.iter().position(|then| then.id == outcome.id) else { continue };
+        let (then, held) = (&checks[place], before[place]);
         let equations_count = outcome.governed_by_equations() || design.loads.to_the_top;
         let why = if then.fails_by_equations() {
             "the equations would fail this check"
@@ -225,7 +228,7 @@ fn leave_open_harder_flows(design: &Design, guideline: &Guideline, seen: FirstSu
         } else {
             continue;
         };
-        outcome.leave_open(Opening::OutOfRange(format!("the simulated flow {found}; with what it shows, {why}")));
+        outcome.leave_open(Opening::Contradicted(format!("the simulated flow {found}; with what it shows, {why}")));
     }
 }
 

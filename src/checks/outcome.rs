@@ -58,14 +58,18 @@ pub enum Opening {
     TooClose(String),
     /// The formula that governs is used outside its range.
     OutOfRange(String),
+    /// What the simulation shows contradicts what the check rests on; a finer one may show otherwise.
+    Contradicted(String),
 }
 
 impl Opening {
     pub fn words(&self) -> &str {
         match self {
-            Self::NotGiven(words) | Self::NeedsSimulation(words) | Self::TooClose(words) | Self::OutOfRange(words) => {
-                words
-            }
+            Self::NotGiven(words)
+            | Self::NeedsSimulation(words)
+            | Self::TooClose(words)
+            | Self::OutOfRange(words)
+            | Self::Contradicted(words) => words,
         }
     }
 }

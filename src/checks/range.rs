@@ -15,11 +15,11 @@ pub const LARGEST_STRAIN: f64 = 0.1;
 /// Leaves open what would hold by a formula that is used outside its range.
 pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes: &mut [Outcome]) {
     let stand = design.limits.outside_range == OutsideRange::Warn;
-    let outside = |outcome: &mut Outcome, why: String| {
+    let outside = |outcome: &mut Outcome, why: Opening| {
         if stand {
             outcome.warn();
         } else {
-            outcome.leave_open(Opening::OutOfRange(why));
+            outcome.leave_open(why);
         }
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
@@ -29,7 +29,7 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
                 100.0 * strain,
                 100.0 * LARGEST_STRAIN
             );
-            outside(outcome, why);
+            outside(outcome, Opening::Contradicted(why));
         }
     }
     let broken =
@@ -51,10 +51,8 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
             pressures.map(|titles| format!("its pressures are used outside the range they are known for ({titles}; see the rules of detailing and range)"))
         });
         if let Some(why) = why {
-            outside(
-                outcome,
-                format!("the equations govern it and {why} (limits.outside_range: warn would let it stand)"),
-            );
+            let why = format!("the equations govern it and {why} (limits.outside_range: warn would let it stand)");
+            outside(outcome, Opening::OutOfRange(why));
         }
     }
 }

@@ -47,7 +47,7 @@ pub fn tell_drawn_out(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let within = elongation <= DRAWN_OUT;
             if !within {
                 outcome.leave_open(Opening::NotGiven(format!(
-                    "ropes draw out by up to {:.1} % at their elastic limit, which cuts off the tension that is checked, and the design gives no elongation that they bear (without elastic_limit the tension tells)",
+                    "ropes draw out by up to {:.1} % at their elastic limit, which cuts off the tension that is checked, and the design gives no allowable elongation (without elastic_limit the check uses the tension instead)",
                     100.0 * elongation
                 )));
             }

@@ -31,7 +31,7 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
     Some(match said {
         _ if said.contains("tab character") => "indent with spaces: the line is indented with a tab".to_string(),
         _ if said.contains("expected ':'") => match content.split_once(':') {
-            Some((key, value)) => format!("write a blank behind the colon: `{key}: {}`", value.trim()),
+            Some((key, value)) => format!("put a space after the colon: `{key}: {}`", value.trim()),
             None => match content.split_once(' ') {
                 Some((key, value)) => format!("a key is followed by a colon: `{key}: {}`", value.trim()),
                 None => format!("a key is followed by a colon: `{content}:`"),
@@ -106,7 +106,7 @@ mod tests {
             (problem.position.map(|place| place.line), problem.hint.unwrap_or_default())
         };
         for (from, to, line, hint) in [
-            ("slope: 25", "slope:25", 3, "write a blank behind the colon: `slope: 25 deg`"),
+            ("slope: 25", "slope:25", 3, "put a space after the colon: `slope: 25 deg`"),
             ("slope: 25", "slope 25", 3, "a key is followed by a colon: `slope: 25 deg`"),
             ("  slope", "   slope", 3, "`slope` is indented more than the line above it"),
             ("  slope", " slope", 3, "`slope` is indented otherwise than those above it"),

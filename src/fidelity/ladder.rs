@@ -216,7 +216,7 @@ impl Rung {
             // No finer model closes these.
             Some(Opening::NotGiven(_) | Opening::OutOfRange(_)) if self.starts > 0 => return Answer::Holds,
             Some(Opening::NotGiven(_)) => return Answer::Holds,
-            Some(Opening::TooClose(_)) => return Answer::Open,
+            Some(Opening::TooClose(_) | Opening::Contradicted(_)) => return Answer::Open,
             _ => {}
         }
         let (Some(capacity), Some(used)) = (outcome.capacity, outcome.utilisation) else {

@@ -128,6 +128,6 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
 
 /// Two significant digits, downwards: a step a person can read.
 fn round_down(step: f64) -> f64 {
-    let magnitude = 10_f64.powi(libm::log10(step).floor() as i32 - 1);
+    let magnitude = libm::exp10(libm::log10(step).floor() - 1.0);
     (step / magnitude).floor() * magnitude
 }

@@ -3,6 +3,7 @@
 //! Nothing of the user's is lost: a folder that holds files and is not that of an earlier run is refused, and so is one in which files of
 //! an earlier run were changed; what turns up during a run is moved aside. `manifest.json` tells which files are the program's.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -47,7 +48,7 @@ pub enum Refusal {
     )]
     Changed(String, String),
     #[error(
-        "{0} holds the report of another design file of the same name: name a folder with --out (`--out {0}` if that report may go)"
+        "{0} holds the report of another design file of the same name: name a folder with --out (to overwrite it, `--out {0}`)"
     )]
     OtherDesign(String),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
@@ -71,6 +72,8 @@ pub struct Folder {
     path: PathBuf,
     there_before: bool,
     manifest: Manifest,
+    /// The design file whose report is to be written.
+    source: Option<String>,
     // Last, so that the folder is in order before the next may have it.
     lock: Option<Lock>,
 }
@@ -84,7 +87,8 @@ impl Folder {
         }
         let there_before = path.exists();
         fs::create_dir_all(path).map_err(unwritable)?;
-        let mut folder = Self { path: path.to_path_buf(), there_before, manifest: Manifest::default(), lock: None };
+        let mut folder =
+            Self { path: path.to_path_buf(), there_before, manifest: Manifest::default(), source: None, lock: None };
         folder.whose()?;
         folder.lock =
             Some(Lock::take(path).map_err(unwritable)?.ok_or_else(|| Refusal::Taken(path.display().to_string()))?);
@@ -102,7 +106,9 @@ impl Folder {
             return Err(Refusal::Changed(path.display().to_string(), listed(&changed)));
         }
         folder.remove_leftovers();
-        folder.manifest.source = place.or(folder.manifest.source.take());
+        // Another's report stays another's until this one is written.
+        folder.manifest.source = folder.manifest.source.take().or(place.clone());
+        folder.source = place;
         if folder.manifest.program.is_empty() {
             folder.manifest.program = PROGRAM.to_string();
         }
@@ -190,6 +196,7 @@ impl Folder {
         let placed = self.place(files);
         if placed.is_ok() {
             self.manifest.replaced.clear();
+            self.manifest.source = self.source.clone().or(self.manifest.source.take());
             self.remove_leftovers();
         }
         self.put_manifest()?;
@@ -216,9 +223,8 @@ impl Folder {
         let moved = moved.collect::<io::Result<Vec<_>>>()?;
         self.put_manifest()?;
         // While the others are replaced there is no result, rather than the old one among new files.
-        let result = self.path.join(RESULT);
-        if result.exists() {
-            fs::remove_file(&result)?;
+        if self.is_ours(RESULT) {
+            fs::remove_file(self.path.join(RESULT))?;
         }
         let last = |file: &&ReportFile| file.name == RESULT;
         let put = |file: &ReportFile| fs::rename(self.temporary(&file.name), self.path.join(&file.name));
@@ -266,11 +272,17 @@ impl Folder {
 
     /// Removes what programs that were killed while they wrote have left; with the lock held nobody else is writing.
     fn remove_leftovers(&self) {
-        for entry in fs::read_dir(&self.path).into_iter().flatten().flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let of = temporary_of(&name);
-            if of.is_some_and(|of| of == manifest::FILE || self.manifest.names().any(|known| known == of)) {
-                let _ = fs::remove_file(entry.path());
+        let below: BTreeSet<&Path> = self.manifest.names().filter_map(|name| folder_of(name)).collect();
+        for folder in std::iter::once(Path::new("")).chain(below) {
+            for entry in fs::read_dir(self.path.join(folder)).into_iter().flatten().flatten() {
+                let name = entry.file_name().to_string_lossy().into_owned();
+                let of = temporary_of(&name).map(|of| folder.join(of));
+                let ours = |of: &Path| {
+                    of == Path::new(manifest::FILE) || self.manifest.names().any(|known| Path::new(known) == of)
+                };
+                if of.is_some_and(|of| ours(&of)) {
+                    let _ = fs::remove_file(entry.path());
+                }
             }
         }
     }
@@ -422,6 +434,16 @@ mod tests {
         fs::write(path.join("report.md"), "with my remarks").unwrap();
         assert!(matches!(claim(&path), Err(Refusal::Changed(_, names)) if names == "report.md"));
         assert_eq!(fs::read_to_string(path.join("report.md")).unwrap(), "with my remarks");
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    #[test]
+    fn a_result_of_the_user_beside_a_page_that_has_none_stays() {
+        let path = place("result");
+        claim(&path).unwrap().write(&files(&["compare.md"])).unwrap();
+        fs::write(path.join("result.json"), "mine").unwrap();
+        claim(&path).unwrap().write(&files(&["compare.md"])).unwrap();
+        assert_eq!(fs::read_to_string(path.join("result.json")).unwrap(), "mine");
         fs::remove_dir_all(path).unwrap();
     }
 

@@ -20,7 +20,7 @@ pub struct ResultFile {
     pub design: DesignPart,
     /// pass, fail or undecided
     pub verdict: String,
-    /// Why the run cannot be relied on; empty unless undecided.
+    /// Why the simulation cannot be relied on; only a failure by the equations stands beside one.
     pub doubts: Vec<String>,
     pub checks: Vec<CheckPart>,
     pub guideline: GuidelinePart,

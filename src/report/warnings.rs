@@ -128,7 +128,7 @@ fn flow_not_stopped(run: &Run) -> Option<String> {
     let ways = ways.map(|(way, share)| format!("{} {way} it", with_unit(share, "-"))).collect::<Vec<_>>().join(", ");
     (lost > LEAK).then(|| {
         format!(
-            "The barrier does not stop the flow: {} of the mass went past it ({ways}). All forces, strokes and tensions of the simulation below are those of a flow that was not stopped; one that is loads the barrier more.",
+            "The barrier does not stop the flow: {} of the mass went past it ({ways}). All forces, strokes and tensions of the simulation below are those of a flow that was not stopped; a flow that is stopped would load the barrier more.",
             with_unit(lost, "-")
         )
     })

@@ -16,7 +16,7 @@ pub struct Estimate {
     pub spheres: f64,
     /// Segments, cylinders and dissipators of the barrier.
     pub elements: f64,
-    /// Of the event, the settling included (s).
+    /// Of the event (s).
     pub simulated: f64,
     pub steps: f64,
     /// On one core (s).
@@ -99,17 +99,17 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
 impl Estimate {
     /// Why the design should not be run as it is, if so, with what to change.
     pub fn too_much(&self) -> Option<String> {
-        let change = "larger grains (flow.grain_sizes), less flow (flow.mass or flow.volume), a softer flow.contact_modulus or simulation.fidelity: fast make it less";
+        let change = "to reduce it, use larger grains (flow.grain_sizes), less flow (flow.mass or flow.volume), a softer flow.contact_modulus or simulation.fidelity: fast";
         if self.seconds > MOST_SECONDS {
             let limit = MOST_SECONDS / 3600.0;
             return Some(format!(
-                "it would take about {:.0} hours on one core, allowed are {limit:.0}; {change}",
+                "it would take about {:.0} hours on one core, and the limit is {limit:.0}; {change}",
                 self.seconds / 3600.0
             ));
         }
         (self.bytes > MOST_BYTES).then(|| {
             format!(
-                "it would take about {:.0} GB of memory, allowed are {:.0}; {change}",
+                "it would take about {:.0} GB of memory, and the limit is {:.0}; {change}",
                 self.bytes / 1e9,
                 MOST_BYTES / 1e9
             )
