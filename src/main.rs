@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process;
 use std::time::Duration;
 
-use barrier_check::commands::check::{Wishes, check, dry_run, loads, resume};
+use barrier_check::commands::check::{MOST_STARTS, Wishes, check, dry_run, loads, resume};
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
@@ -67,7 +67,7 @@ struct HowArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Number of starts, each with a packing of its own: their scatter enters the verdict
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_STARTS)))]
     seeds: u32,
     /// Also simulates the design with each of its main inputs changed alone, down and up
     #[arg(long)]

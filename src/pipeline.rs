@@ -8,7 +8,7 @@ use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::demand::from_histories::Observed;
-use crate::demand::from_loads::{Guideline, guideline};
+use crate::demand::from_loads::{Guideline, earth_pressure_by_weight, guideline};
 use crate::design::read::DesignFile;
 use crate::design::{Arrival, Design};
 use crate::fidelity::choose;
@@ -197,7 +197,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
     let mut outcomes = check_all(design, &demands);
-    let first_surge = simulated.as_ref().map(|simulated| first_surge(rung, simulated));
+    let first_surge = simulated.as_ref().map(|simulated| first_surge(rung, design, &guideline, simulated));
     leave_open_not_covered(design, &guideline, first_surge, &mut outcomes);
     leave_open_outside_range(design, &guideline, &mut outcomes);
     if simulated.is_some() {
@@ -209,13 +209,15 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
 
-fn first_surge(rung: &Rung, simulated: &Simulated) -> FirstSurge {
+fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &Simulated) -> FirstSurge {
+    // Where the deposit is too thin to show its K, and the barrier fills later, its weight tells.
+    let by_weight = design.loads.to_the_top.then(|| earth_pressure_by_weight(design, guideline)).flatten();
     let band = rung.band;
     let at_rest: Vec<f64> = simulated.starts.iter().filter_map(|start| start.observed.k_effective).collect();
     FirstSurge {
         push: simulated.spread(|seen| seen.push_peak).mean,
         velocity: simulated.spread(|seen| seen.incoming.velocity).mean,
-        earth_pressure: (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean),
+        earth_pressure: (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean).or(by_weight),
         force_band: band.force,
         stroke_band: band.stroke,
         share_band: band.share,

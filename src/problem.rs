@@ -49,6 +49,7 @@ pub struct Problems {
 pub fn harmless(text: &str) -> String {
     let steers = |letter: char| {
         letter.is_control() && !"\n\t".contains(letter)
+            || "\u{2028}\u{2029}".contains(letter)
             || ('\u{202a}'..='\u{202e}').contains(&letter)
             || ('\u{2066}'..='\u{2069}').contains(&letter)
     };

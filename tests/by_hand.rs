@@ -101,19 +101,19 @@ fn loads_of_the_net() {
     // 19.912 (2.7189²/2 + 2.7189 · 0.3) + drag 1800 · 9.2184 · 0.3 · tan 22° · 0.6 = 1.2067 kN/m
     near(case("overtopped").shear, 1.2067e3);
     near(case("overtopped").force_per_width(), 91.047e3);
-    // The flow over the full barrier, with the boulder, governs the force, the last surge the moment; both by 1.35.
-    near(demands.total_force.guideline.unwrap(), 507.86e3);
+    // The flow over the full barrier, with the boulder, governs the force, the last surge the moment; both by 1.35. What
+    // presses on a face that leans by 25° from the bed's normal is 376.19/cos 25°, and its moment (106.17 − 4.2)/cos² 25° + 4.2.
+    near(demands.total_force.guideline.unwrap(), 560.36e3);
     near(guideline.largest_force, 376.19e3);
-    near(guideline.largest_moment, 106.17e3);
-    near(demands.wall_overturning.guideline.unwrap(), 143.33e3);
+    near(demands.wall_overturning.guideline.unwrap(), 173.26e3);
 }
 
-/// Ropes 0.9063 m apart above the bed carry their strips under the worst stage, by 1.35; the boulder is shared by its lever between
+/// Ropes 0.9063 m apart above the bed carry their strips under the worst stage, over cos 25° and by 1.35; the boulder is shared by its lever between
 /// ropes 2 and 3; the net's weight, 150 Pa on 3 m, hangs on the top rope. EA = 22.81 MN, plateau 150 kN: all three yield.
 #[test]
 fn ropes_of_the_net() {
     let (guideline, demands, outcomes) = by_equations(&design(NET));
-    for (rope, load, stroke) in [(2, 55.156e3, 0.32911), (3, 35.135e3, 0.076966), (4, 17.843e3, 0.0066680)] {
+    for (rope, load, stroke) in [(2, 60.858e3, 0.51265), (3, 38.767e3, 0.10247), (4, 19.404e3, 0.010509)] {
         let found = &guideline.ropes[rope - 1];
         assert!((found.load / load - 1.0).abs() < 3e-3, "rope {rope}: {} instead of {load}", found.load);
         near(found.state.tension, 150e3);
@@ -131,12 +131,12 @@ fn ropes_of_the_net() {
     }
     near(demands.brake_force.guideline.unwrap(), 150e3);
     near(outcome(&outcomes, "anchor_plateau").demand.guideline.unwrap(), 180e3);
-    // The lowest strip, 34.014 kN/m, on 4 m, over six spaces between bolts; T = (P² EA/24)^⅓ = 78.77 kN, the end bolt √(T² + (P/2)²).
-    near(guideline.bed_force.unwrap(), 136.06e3);
-    near(guideline.bolt_force.unwrap(), 22.676e3);
-    near(outcome(&outcomes, "rope_1_tension").demand.guideline.unwrap(), 78.765e3);
+    // The lowest strip, 37.530 kN/m, on 4 m, over six spaces between bolts; T = (P² EA/24)^⅓ = 84.10 kN, the end bolt √(T² + (P/2)²).
+    near(guideline.bed_force.unwrap(), 150.12e3);
+    near(guideline.bolt_force.unwrap(), 25.020e3);
+    near(outcome(&outcomes, "rope_1_tension").demand.guideline.unwrap(), 84.104e3);
     let bolts = outcome(&outcomes, "bed_bolts");
-    near(bolts.demand.guideline.unwrap(), 79.577e3);
+    near(bolts.demand.guideline.unwrap(), 85.030e3);
     // 200/1.25 · 90 %
     near(bolts.capacity.unwrap(), 144e3);
 }
@@ -181,7 +181,8 @@ fn what_a_simulation_without_factors_shows_is_factored() {
     // 3 % lost of the 10 % that may be; 20 % of the height lost of 50 %.
     near(outcome(&outcomes, "retained_mass").utilisation.unwrap(), 0.3);
     near(outcome(&outcomes, "residual_height").utilisation.unwrap(), 0.4);
-    near(outcome(&outcomes, "brake_2_stroke").utilisation.unwrap(), 0.5 / 0.85);
+    // The stroke by the equations, 0.513 m, is the longer one.
+    near(outcome(&outcomes, "brake_2_stroke").utilisation.unwrap(), 0.51265 / 0.85);
 }
 
 /// Two packings, the worse counts for the share held and for the load: mean ± k₂ s with k₂ = 7.733.
@@ -216,16 +217,21 @@ fn zero() -> Observed {
 fn the_wall() {
     let (guideline, _, outcomes) = by_equations(&design(WALL));
     near(guideline.largest_force, 6.0 * 128.851e3);
-    near(guideline.largest_moment, 210.385e3);
+    // (210.385 − 5)/cos² 22° + 5
+    near(guideline.face_moment, 243.912e3);
     let force = outcome(&outcomes, "total_force");
-    near(force.demand.guideline.unwrap(), 1043.69e3);
+    near(force.demand.guideline.unwrap(), 1125.66e3);
     near(force.capacity.unwrap(), 692.31e3);
     let sliding = outcome(&outcomes, "wall_sliding");
     near(sliding.demand.guideline.unwrap(), 200.698e3);
     // 104.54 cos 5° tan 32°/1.2
     near(sliding.capacity.unwrap(), 54.228e3);
     let overturning = outcome(&outcomes, "wall_overturning");
-    near(overturning.demand.guideline.unwrap(), 310.60e3);
+    near(overturning.demand.guideline.unwrap(), 355.86e3);
     // 104.54 cos 5° (2 − 0.75)/1.4
     near(overturning.capacity.unwrap(), 92.982e3);
+    // The base, 2 m wide, cannot hold that: 1 m − (104.14 · 1.25 − 355.86)/104.14 is far beyond its edge; a third is allowed.
+    let eccentricity = outcome(&outcomes, "wall_eccentricity");
+    near(eccentricity.demand.guideline.unwrap(), 3.1671);
+    near(eccentricity.capacity.unwrap(), 2.0 / 3.0);
 }

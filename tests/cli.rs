@@ -59,7 +59,7 @@ fn a_barrier_of_cylinders_repeats_bit_for_bit_and_is_no_pass_when_cut_short() {
     let (head, tail) = text.split_once("longest: ").expect("a longest time");
     let (_, tail) = tail.split_once(" s").expect("with its unit");
     let design = folder("cylinders").with_extension("yaml");
-    std::fs::write(&design, format!("{head}longest: 0.95 s{tail}")).expect("design is written");
+    std::fs::write(&design, format!("{head}longest: 1.1 s{tail}")).expect("design is written");
     let [one, two] = [("cylinders_one", "1"), ("cylinders_two", "2")].map(|(name, threads)| {
         let out = folder(name);
         let paths = [&design, &out].map(|path| path.to_str().expect("path"));
@@ -76,7 +76,7 @@ fn a_barrier_of_cylinders_repeats_bit_for_bit_and_is_no_pass_when_cut_short() {
     assert_eq!(numerics["rope_crossings"], 0);
     assert!(numerics["energy_error_relative"].as_f64().expect("number").abs() < 0.005);
     let peak = result["simulation"]["force_total_peak_n"].as_f64().expect("number");
-    // Ropes that slide give some 120 kN.
+    // Ropes that slide give 119 kN, give or take 20 kN from packing to packing.
     assert!((0.9e5..1.6e5).contains(&peak), "{peak}");
 }
 

@@ -98,7 +98,7 @@ fn two_designs_of_one_name_are_not_taken_for_each_other() {
     std::fs::write(place.join("b/net.yaml"), DESIGN.replace("Small net", "Another net")).expect("a design");
     run(&place, &["loads", "net.yaml"]);
     let refused = run(&place, &["loads", "b/net.yaml"]);
-    assert!(error(&refused).contains("another design file of the same name"), "{}", error(&refused));
+    assert!(error(&refused).contains("holds a report of something else"), "{}", error(&refused));
     assert!(std::fs::read_to_string(place.join("out/net_loads/report.md")).expect("a report").contains("Small net"));
     run(&place, &["loads", "b/net.yaml", "--out", "out/net_loads"]);
     assert!(std::fs::read_to_string(place.join("out/net_loads/report.md")).expect("a report").contains("Another net"));

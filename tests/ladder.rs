@@ -40,7 +40,13 @@ fn a_clear_failure_needs_no_simulation() {
 
 #[test]
 fn a_clear_pass_needs_one_start() {
-    let (code, rungs, report) = run("pass", &[("\nlimits:", "\nloads:\n  filling: one_event\n\nlimits:")]);
+    let (code, rungs, report) = run(
+        "pass",
+        &[
+            ("\nlimits:", "\nloads:\n  filling: one_event\n\nlimits:"),
+            ("      d30: 220 mm", "      d10: 170 mm\n      d30: 220 mm"),
+        ],
+    );
     assert_eq!((code, rungs), (Some(0), vec!["equations".to_string(), "grains".to_string()]));
     assert!(report.contains("was sufficient"));
 }

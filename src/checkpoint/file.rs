@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::program::PROGRAM;
 use crate::sealed::{Broken, seal, unseal};
 
-const NAME: &[u8; 8] = b"BARRKPT\n";
+pub const NAME: &[u8; 8] = b"BARRKPT\n";
 /// Changes whenever anything that is kept changes.
 const FORMAT: u32 = 4;
 

@@ -71,8 +71,12 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
     let input = &guideline.input;
     let mut rules = of_pressures(design, input);
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
-        rules.push(most("Depth of the flow", input.depth, 2.0, "m", RANGE, SPECIAL));
-        rules.push(most("Velocity of the flow", input.velocity, 10.0, "m/s", RANGE, SPECIAL));
+        let special = |title, found, limit, unit| Rule {
+            bearing: Bearing::Pressures,
+            ..most(title, found, limit, unit, RANGE, SPECIAL)
+        };
+        rules.push(special("Depth of the flow", input.depth, 2.0, "m"));
+        rules.push(special("Velocity of the flow", input.velocity, 10.0, "m/s"));
         rules.extend(of_net(design, net));
         rules.extend(of_sag(design, guideline));
         rules.extend(guideline.retention.map(of_volume));

@@ -135,11 +135,11 @@ mod tests {
         for (from, to, what) in [
             ("retained_mass: 90 %", "retained_mass: 0.9 %", "limits.retained_mass"),
             ("residual_height: 50 %", "residual_height: 5 %", "limits.residual_height"),
-            ("resistance: 250 kN", "resistance: 250 MN", "barrier.flexible_net.anchors.resistance"),
+            ("resistance: 290 kN", "resistance: 290 MN", "barrier.flexible_net.anchors.resistance"),
             ("modulus: 10 GPa", "modulus: 200 GPa", "barrier.flexible_net.net_rope.modulus"),
             ("velocity: 4.6 m/s", "velocity: 26 m/s", "flow.arrival.surge.velocity"),
             ("solid_density: 2650", "solid_density: 5650", "flow.solid_density"),
-            ("plateau_force: 130 kN", "plateau_force: 1.5 MN", "barrier.flexible_net.dissipators.plateau_force"),
+            ("plateau_force: 150 kN", "plateau_force: 1.5 MN", "barrier.flexible_net.dissipators.plateau_force"),
         ] {
             assert_eq!(told(from, to), [what]);
         }

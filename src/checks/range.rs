@@ -16,7 +16,9 @@ pub const LARGEST_STRAIN: f64 = 0.1;
 pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes: &mut [Outcome]) {
     let stand = design.limits.outside_range == OutsideRange::Warn;
     let outside = |outcome: &mut Outcome, why: Opening| {
-        if stand {
+        // What is stretched beyond all sense stands by no wish.
+        let absurd = strain_beyond(design, outcome).is_some_and(|strain| strain > 3.0 * LARGEST_STRAIN);
+        if stand && !absurd {
             outcome.warn();
         } else {
             outcome.leave_open(why);
@@ -63,6 +65,7 @@ fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
     let rope = match outcome.id.as_str() {
         "net_tension" => &net.net_rope,
         "lateral_tension" => &net.lateral_rope,
+        "rope_1_tension" => &net.main_ropes.rope,
         _ => return None,
     };
     outcome.demand.simulation.map(|tension| tension / rope.axial_stiffness()).filter(|strain| *strain > LARGEST_STRAIN)

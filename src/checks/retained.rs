@@ -18,8 +18,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![outcome]
 }
 
-/// Share of the mass from which on the curve must be given: finer grains are continued on the slope of the coarser ones.
-const KNOWN_FROM: f64 = 0.3;
+/// Share of the mass from which on the curve must be given at the latest, that of the finest size that can be: finer grains are continued
+/// on the slope of the coarser ones, and may all be lost.
+const KNOWN_FROM: f64 = 0.1;
 
 /// What the simulation cannot have seen get lost: surges that were not simulated, and grains that were made too coarse for mesh and gap.
 fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
@@ -41,10 +42,11 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
             )));
         }
     }
-    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) && flow.known_from > KNOWN_FROM {
+    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) && flow.known_from > allowed.max(KNOWN_FROM) + 1e-9 {
         return Some(Opening::NotGiven(format!(
-            "nothing is said of the finest {:.0} % of the flow, which are what passes a net (give flow.grain_sizes.curve from d30 or finer)",
-            100.0 * flow.known_from
+            "nothing is said of the finest {:.0} % of the flow, which are what passes a net, and no more than {:.0} % may be lost (give flow.grain_sizes.curve from d10)",
+            100.0 * flow.known_from,
+            100.0 * allowed
         )));
     }
     if let (None, BarrierDesign::FlexibleNet(net)) = (&flow.cut, &design.barrier)

@@ -22,7 +22,24 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let [holds_up, tilt] = input.overturning();
     let sliding = CheckName::new("wall_sliding", "Sliding of the wall, per width", "N/m", WALL_BALANCE);
     let overturning = CheckName::new("wall_overturning", "Overturning of the wall, per width", "N m/m", WALL_BALANCE);
+    let eccentricity = CheckName::new(
+        "wall_eccentricity",
+        "Eccentricity of the pressure under the wall",
+        "m",
+        "EN 1997-1, 6.5.4, from memory: beyond a third of the base special precautions are needed",
+    );
+    // The resultant stands holds_up − demand over the weight's share normal to the base from the downstream edge; the lift, which makes
+    // the weight less, is left out on the safe side.
+    let normal = input.weight() * libm::cos(input.base_slope);
+    let off_centre = |demand: f64| 0.5 * input.base_width - (holds_up - demand) / normal;
+    let tipped = with_own(moment, tips, tilt);
+    let off = Demand {
+        guideline: tipped.guideline.map(off_centre),
+        simulation: tipped.simulation.map(off_centre),
+        ..Demand::default()
+    };
     vec![
+        Outcome::at_most(eccentricity, off, Resistance { characteristic: input.base_width / 3.0, factor: 1.0 }, 1.0),
         Outcome::at_most(
             sliding,
             with_own(force, slides, pull),

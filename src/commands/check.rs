@@ -23,6 +23,9 @@ use crate::sensitivity::simulated::variants;
 use crate::simulated::RunError;
 use crate::terminal;
 
+/// Packings of a run at the most.
+pub const MOST_STARTS: u32 = 1000;
+
 /// Whether Ctrl-C was pressed.
 pub static STOP: AtomicBool = AtomicBool::new(false);
 
@@ -89,6 +92,10 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
         }
     };
     let Some(claimed) = claimed else { return ExitCode::Undecided };
+    if !(1..=MOST_STARTS).contains(&order.starts) {
+        terminal::warn(format_args!("error: the run kept in {} asks for {} packings", kept.display(), order.starts));
+        return ExitCode::Undecided;
+    }
     let Order { starts, vary, vtk, .. } = order;
     let vault = open_vault(folder, order, &file, keep_every, false);
     run_kept(file, claimed, Wishes { threads, starts, vary, vtk }, &vault)

@@ -9,7 +9,7 @@ use crate::commands::output::{exit_code, put, write_report};
 use crate::commands::report::read_recording;
 use crate::pipeline::Run;
 use crate::report::compare::{Variant, files};
-use crate::report::folder::{Folder, Named, folder_name};
+use crate::report::folder::{Folder, folder_name};
 use crate::terminal;
 
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report and the page
@@ -32,7 +32,7 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     // Their folders too: no run whose report cannot be written.
     let sources: Vec<Source> = sources.into_iter().flatten().collect();
     let names: Vec<String> = sources.iter().map(|source| free_name(source.name(), &mut folders)).collect();
-    let claimed = Folder::claim(out, None, Named::Explicitly).and_then(|page| {
+    let claimed = Folder::claim_for(out, "comparison").and_then(|page| {
         let reports = names.iter().map(|name| page.claim_inner(name)).collect::<Result<Vec<_>, _>>()?;
         Ok((page, reports))
     });

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use crate::commands::ExitCode;
-use crate::commands::check::claim;
 use crate::commands::output::put;
-use crate::report::folder::Named;
+use crate::report::folder::Folder;
 use crate::report::validation::{Row, render, verdict_line};
 use crate::terminal;
 use crate::validation::CASES;
@@ -54,9 +53,12 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         terminal::warn(format_args!("error: --quick leaves nothing of {}; run without it", selection.names.join(", ")));
         return ExitCode::Undecided;
     }
-    let mut folder = match claim(folder, None, Named::Explicitly) {
+    let mut folder = match Folder::claim_for(folder, "validation") {
         Ok(folder) => folder,
-        Err(code) => return code,
+        Err(refusal) => {
+            terminal::warn(format_args!("error: {refusal}"));
+            return ExitCode::Undecided;
+        }
     };
     let mut ran = Vec::new();
     for case in cases {

@@ -92,6 +92,24 @@ pub fn coefficients(
 }
 
 impl Coefficients {
+    /// Whether every series has a value for each moment.
+    pub fn is_whole(&self) -> bool {
+        let series = [
+            &self.deposit,
+            &self.moving,
+            &self.velocity_upstream,
+            &self.velocity_mean,
+            &self.force_dead,
+            &self.force_moving,
+            &self.guideline_dead,
+            &self.guideline_moving,
+            &self.earth_pressure,
+            &self.dynamic_upstream,
+            &self.dynamic_mean,
+        ];
+        series.iter().all(|series| series.len() == self.time.len())
+    }
+
     /// The sample at which a force is largest.
     pub fn peak_of(force: &[f64]) -> usize {
         peak(force).0

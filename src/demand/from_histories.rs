@@ -131,6 +131,7 @@ impl Observed {
         ];
         by_rope.iter().all(|row| row.len() == ropes)
             && [&self.segment_peak, &self.segment_residual].iter().all(|row| row.len() == segments)
+            && self.coefficients.is_whole()
     }
 
     pub fn read(histories: &Histories, design: &Design, guideline: &Guideline, reading: Reading) -> Self {
@@ -222,7 +223,9 @@ impl Observed {
         self.push_peak = peak_along;
         if self.deposit_depth > thin {
             let at_rest = tail_mean(&along, reading.tail);
-            self.k_effective = Some(2.0 * at_rest / width / (unit * self.deposit_depth.powi(2)));
+            // What stands above the barrier's top presses on what is below it.
+            let (depth, top) = (self.deposit_depth, self.deposit_depth.min(guideline.input.barrier_height));
+            self.k_effective = Some(2.0 * at_rest / width / (unit * top * (2.0 * depth - top)));
         }
         // Grains at rest in the window are deposit, no flow that comes.
         let flux = |gauge: &Gauge| if gauge.at_rest > STANDING { 0.0 } else { gauge.flux };

@@ -17,10 +17,13 @@ pub struct Guideline {
     /// Width of the channel (m).
     pub width: f64,
     pub cases: Vec<LoadCase>,
-    /// Largest total force over the envelope, point loads included (N).
+    /// Lean of the barrier's face upstream from the bed's normal θ (rad).
+    pub lean: f64,
+    /// Largest total force along the bed over the envelope, point loads included (N).
     pub largest_force: f64,
-    /// Largest moment about the bed over the envelope, per width (N m/m).
-    pub largest_moment: f64,
+    /// Largest force normal to the face over the envelope (N), and its largest moment about the foot of the face, per width (N m/m).
+    pub face_force: f64,
+    pub face_moment: f64,
     /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
     pub ropes: Vec<RopeLoad>,
     /// On what holds the lowest rope to the bed, in all, with the partial factor on loads (N); nothing where it is free.
@@ -90,7 +93,9 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         }),
         cases: all(&input, &extras),
         largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger),
-        largest_moment: stages.iter().map(|case| case.mean_moment(width)).fold(0.0, larger),
+        lean: lean(design),
+        face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger),
+        face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger),
         ropes,
         dissipator: match &design.barrier {
             BarrierDesign::FlexibleNet(net) => {
@@ -193,6 +198,15 @@ pub fn held_below(design: &Design, surface: f64) -> Option<Retention> {
     (slope > surface).then(|| shape.retention(design.flow.volume()))
 }
 
+/// K of a deposit that fills the barrier and is held by it and by the friction of the bed alone: with its weight per width W, along the bed
+/// W (sin α − tan φ cos α) = ½ K ρ g cos α H². Nothing on a bed that the deposit does not rest on by a slope of its own.
+pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Option<f64> {
+    let held = guideline.retention?;
+    let (slope, friction) = (design.channel.slope, design.channel.base_friction);
+    let pulls = held.volume / guideline.width * (libm::tan(slope) - friction).max(0.0);
+    Some(2.0 * pulls / guideline.input.barrier_height.powi(2))
+}
+
 /// The wall of the design, if it stands by its weight.
 pub fn wall_of(design: &Design) -> Option<WallInput> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
@@ -282,10 +296,11 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let high = if index == last { f64::INFINITY } else { 0.5 * (heights[index] + heights[index + 1]) };
             let strip = [low, high];
             let on_rope = |case: &LoadCase| {
-                let spread = case.strip_force(low, high) + point_on_rope(case, &heights, index, span.span);
+                let along_bed = case.strip_force(low, high) + point_on_rope(case, &heights, index, span.span);
+                // Normal to the net's plane, which leans upstream from plumb by its tilt; the weight hangs plumb.
+                let spread = along_bed / libm::cos(lean(design));
                 let hung = if index == last { weight } else { 0.0 };
-                // The weight hangs plumb, the pressure acts along the bed: they are (90° − α) apart.
-                (spread * spread + hung * hung + 2.0 * spread * hung * libm::sin(design.channel.slope)).sqrt()
+                (spread * spread + hung * hung - 2.0 * spread * hung * libm::sin(net.tilt)).sqrt()
             };
             // The surge whose moving flow starts or ends with the strip may lie between the stages.
             let room = (input.fill_height - input.moving_depth()).max(0.0);
@@ -297,6 +312,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let governing = stages.iter().chain(&own).max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
             let load = design.factors.load * governing.map_or(0.0, on_rope);
             let spread = governing.map_or(0.0, |case| point_on_rope(case, &heights, index, span.span));
+            let spread = spread / libm::cos(lean(design));
             let point = 0.5 * design.factors.load * spread * span.span;
             if index == 0 && net.bottom == Bottom::Fixed {
                 // It neither sags nor pulls at anchors: the bed takes its load where it is.

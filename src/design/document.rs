@@ -48,6 +48,12 @@ pub struct Document {
     pub root: Node,
 }
 
+/// Whether a line that says something is indented with a tab.
+fn tab_indented(line: &str) -> bool {
+    let content = line.trim_start();
+    !content.is_empty() && !content.starts_with('#') && line[..line.len() - content.len()].contains('\t')
+}
+
 /// Brackets open at once beyond which a text is refused unread: the parser takes time with the square of them.
 const DEEPEST: usize = 1000;
 
@@ -82,9 +88,10 @@ impl Document {
                 .hint("save the file as UTF-8 text; is it a binary file?"));
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
-        if let Some(line) = text.lines().position(|line| line.starts_with('\t')) {
+        if let Some(line) = text.lines().position(tab_indented) {
             let position = Position { line: line + 1, column: 1 };
-            return Err(whole("a tab at the beginning of the line", "spaces").at(Some(position)));
+            let problem = whole("a tab in the indentation of the line", "spaces");
+            return Err(problem.hint("indent with spaces").at(Some(position)));
         }
         if brackets_are_too_deep(&text) {
             return Err(whole("brackets within brackets within brackets", "at most a few levels"));

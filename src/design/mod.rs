@@ -336,8 +336,9 @@ pub struct Factors {
     pub earth_pressure: f64,
     /// Hydrodynamic pressure coefficient λ.
     pub dynamic_pressure: f64,
-    /// On loads.
+    /// On loads, and whether the design or its set gives it; else it is a 1 that nobody vouches for.
     pub load: f64,
+    pub load_given: bool,
     /// On rope resistance: breaking load over this is the design resistance.
     pub rope: f64,
     /// On anchor resistance.

@@ -8,7 +8,7 @@ use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
 use crate::design::rules::{GRAIN_RULES, RULES};
 use crate::design::schema::DESIGN;
-use crate::problem::{Problem, Problems};
+use crate::problem::{Problem, Problems, harmless};
 
 /// A design with the words it was read from.
 #[derive(Clone, Debug)]
@@ -45,6 +45,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
     take_remarks(&mut entries, &document, bytes);
     keep_texts_as_typed(&mut entries, &document);
+    make_harmless(&mut entries);
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
@@ -86,6 +87,17 @@ fn keep_texts_as_typed(entries: &mut Entries, document: &Document) {
     }
 }
 
+/// No text of the design steers what shows it, terminal or page.
+fn make_harmless(entries: &mut Entries) {
+    for entry in entries.values.values_mut() {
+        if let Value::Text(text) = &mut entry.value {
+            *text = harmless(text);
+        }
+        entry.typed = harmless(&entry.typed);
+        entry.remark = harmless(&entry.remark);
+    }
+}
+
 /// What follows the first `#` that begins a comment: one after a blank, outside quotes.
 fn comment(line: &str) -> Option<&str> {
     let (mut quote, mut before) = (None, ' ');
@@ -115,7 +127,7 @@ fn nearest_position(document: &Document, path: &str) -> Option<crate::problem::P
 fn stem(file: &str) -> String {
     std::path::Path::new(file)
         .file_stem()
-        .map_or_else(|| "design".to_string(), |stem| stem.to_string_lossy().into_owned())
+        .map_or_else(|| "design".to_string(), |stem| harmless(&stem.to_string_lossy()))
 }
 
 fn sha256(bytes: &[u8]) -> String {

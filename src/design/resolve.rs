@@ -244,6 +244,7 @@ fn factors(e: &Entries) -> Option<Factors> {
         earth_pressure: value("earth_pressure_k")?,
         dynamic_pressure: value("dynamic_lambda")?,
         load,
+        load_given: e.given("factors.load"),
         rope: value("rope")?,
         anchor: value("anchor")?,
         rope_end: value("rope_end")?,

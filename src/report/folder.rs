@@ -48,7 +48,7 @@ pub enum Refusal {
     )]
     Changed(String, String),
     #[error(
-        "{0} holds the report of another design file of the same name: name a folder with --out (to overwrite it, `--out {0}`)"
+        "{0} holds a report of something else, as of another design file of the same name: name another folder with --out (a report of another design is overwritten with `--out {0}`)"
     )]
     OtherDesign(String),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
@@ -116,6 +116,16 @@ impl Folder {
         Ok(folder)
     }
 
+    /// Takes a folder for what is made from no single design: a comparison, a validation.
+    pub fn claim_for(path: &Path, what: &str) -> Result<Self, Refusal> {
+        let mut folder = Self::claim(path, None, Named::Explicitly)?;
+        if folder.manifest.source.as_ref().is_some_and(|source| source != what) && !folder.manifest.files.is_empty() {
+            return Err(Refusal::OtherDesign(path.display().to_string()));
+        }
+        folder.source = Some(what.to_string());
+        Ok(folder)
+    }
+
     /// Takes a folder within this one, of a report of its own.
     pub fn claim_inner(&self, name: &str) -> Result<Self, Refusal> {
         let path = inner(&self.path, name)
@@ -138,8 +148,10 @@ impl Folder {
             return Ok(());
         }
         // A recording that was brought here is to have its report; a run that was interrupted is to go on.
-        let recorded = digest_in(&self.path.join(recording::FILE)).filter(|_| self.has_recording());
-        let kept = self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER).is_file();
+        let recording = self.path.join(recording::FILE);
+        let recorded = starts_with(&recording, recording::NAME).then(|| digest_in(&recording)).flatten();
+        let order = self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER);
+        let kept = starts_with(&order, checkpoint::file::NAME);
         let mut foreign = self.others();
         if fs::symlink_metadata(&place).is_ok() {
             foreign.push(manifest::FILE.to_string());
@@ -151,12 +163,6 @@ impl Folder {
         let files = recorded.map(|digest| (recording::FILE.to_string(), digest)).into_iter().collect();
         self.manifest = Manifest { files, ..Manifest::default() };
         Ok(())
-    }
-
-    fn has_recording(&self) -> bool {
-        let mut head = [0; recording::NAME.len()];
-        let read = File::open(self.path.join(recording::FILE)).and_then(|mut file| file.read_exact(&mut head));
-        read.is_ok() && head == *recording::NAME
     }
 
     /// What lies in the folder besides the lock, the manifest and what a killed program has left.
@@ -179,7 +185,9 @@ impl Folder {
 
     /// Whether the file of this name is as the program wrote it.
     fn is_ours(&self, name: &str) -> bool {
-        digest_in(&self.path.join(name)).is_some_and(|digest| self.manifest.wrote(name, &digest))
+        // What lies behind a link is not in the folder.
+        let inside = folder_of(name).is_none_or(|below| inner(&self.path, &below.to_string_lossy()).is_ok());
+        inside && digest_in(&self.path.join(name)).is_some_and(|digest| self.manifest.wrote(name, &digest))
     }
 
     /// Writes `files`, and removes what the program has put there before and does not write now. All are first written beside their
@@ -331,6 +339,14 @@ fn create(place: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create_new(place)?;
     file.write_all(bytes)?;
     file.sync_all()
+}
+
+/// Whether a regular file begins so.
+fn starts_with(path: &Path, head: &[u8]) -> bool {
+    let mut found = vec![0; head.len()];
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
+        && File::open(path).and_then(|mut file| file.read_exact(&mut found)).is_ok()
+        && found == head
 }
 
 /// The folder below that a name lies in, if it does.

@@ -217,7 +217,8 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let beside = (high.min(diagram.block_to) - low.max(diagram.block_from)).max(0.0);
     let factor = if design.factors.load == 1.0 { String::new() } else { format!("{:.2} · ", design.factors.load) };
     // What the pressure alone does not make of q, on this rope and in this case.
-    let pressure = design.factors.load * diagram.force(rope.strip[0], rope.strip[1]);
+    let leans = libm::cos(run.guideline.lean);
+    let pressure = design.factors.load * diagram.force(rope.strip[0], rope.strip[1]) / leans;
     let more = if (rope.load - pressure).abs() > 1e-9 * rope.load {
         ", with point load, drag or weight on this rope"
     } else {
@@ -227,7 +228,7 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
     let half = 0.5 * rope.load * span / 1e3;
     format!(
-        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3}){more} = {:.2} kN/m; H = q L²/(8 f) = {:.2} · {span:.2}²/(8 · {:.3}) = {horizontal:.1} kN; T = √({horizontal:.1}² + {half:.1}²) = {:.1} kN",
+        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3})/{leans:.3}{more} = {:.2} kN/m; H = q L²/(8 f) = {:.2} · {span:.2}²/(8 · {:.3}) = {horizontal:.1} kN; T = √({horizontal:.1}² + {half:.1}²) = {:.1} kN",
         diagram.unit / 1e3,
         depth(low),
         depth(high),

@@ -89,6 +89,11 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             SAFE,
         ),
         (
+            true,
+            "By the equations pressures act normal to the barrier's face, and the forces of the load cases are their part along the bed: a face that leans by θ from the bed's normal takes R/cos θ.",
+            EITHER,
+        ),
+        (
             net,
             "By the equations each main rope carries its strip as a uniform load across the channel, alone: neither net nor lateral ropes share it out.",
             EITHER,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::report::folder::ReportFile;
+use crate::report::folder::{ReportFile, folder_name};
 use crate::report::numbers::quoted;
 use crate::report::pictures::Chart;
 use crate::report::plots::pareto::{Line, Pareto};
@@ -133,7 +133,7 @@ fn chart(scene: &Scene, told: &[Told]) -> Chart {
     let pareto = Pareto { title: format!("{title}, {}", scene.name), lines, default, floor: scatter(scene) };
     Chart {
         title,
-        file: format!("pareto_{}.svg", scene.name),
+        file: format!("pareto_{}.svg", folder_name(&scene.name)),
         svg: pareto.svg(),
         note: "Every line is one knob turned alone, through the model as it is. Error: the largest over all observables, against the finest model."
             .into(),

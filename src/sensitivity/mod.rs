@@ -84,7 +84,7 @@ fn changed(design: &Design, (_, _, change): Change, factor: f64) -> Point {
     flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
     let guideline = guideline_for(&design, flow);
     let outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
-    Point::of(guideline.largest_force, &outcomes)
+    Point::of(guideline.face_force, &outcomes)
 }
 
 impl Point {

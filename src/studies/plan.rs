@@ -96,6 +96,10 @@ impl Plan {
         if plan.scenes.is_empty() {
             wrong.push("scenes: one at least".to_string());
         }
+        let names: Vec<_> = plan.scenes.iter().map(|scene| scene.file_stem()).collect();
+        if (1..names.len()).any(|place| names[..place].contains(&names[place])) {
+            wrong.push("scenes: two have the same file name; their pictures could not be told apart".to_string());
+        }
         for (key, starts) in [("starts", plan.starts), ("starts_of_knobs", plan.starts_of_knobs)] {
             if !(1..=MOST_STARTS).contains(&starts) {
                 wrong.push(format!("{key}: found {starts}, allowed 1 to {MOST_STARTS}"));

@@ -95,6 +95,18 @@ impl LoadCase {
         self.moment_per_width() + self.point.map_or(0.0, |point| point.force * point.height / width)
     }
 
+    /// Force normal to a face that leans by θ from the bed's normal, on a barrier of this width (N): what presses on it has R along the bed
+    /// and R tan θ off it, R/cos θ in all. Drag and point load are taken likewise, which is on the safe side.
+    pub fn face_force(&self, width: f64, lean: f64) -> f64 {
+        self.total_force(width) / libm::cos(lean)
+    }
+
+    /// Moment of that force about the foot of the face, per width (N m/m): the pressures act at z/cos θ along it, so that theirs is the
+    /// moment of R by 1 + tan² θ; drag and point load act along the bed.
+    pub fn face_moment(&self, width: f64, lean: f64) -> f64 {
+        self.mean_moment(width) + self.diagram.moment(0.0, f64::INFINITY) * libm::tan(lean).powi(2)
+    }
+
     /// Force per width on the strip of a rope between two heights; the topmost strip takes the drag (N/m).
     pub fn strip_force(&self, low: f64, high: f64) -> f64 {
         let drag = if high >= self.diagram.top && low < self.diagram.top { self.decisive_shear() } else { 0.0 };
