@@ -158,5 +158,12 @@ mod tests {
             net.net_rope.modulus = 0.1e9;
         }
         assert_eq!(verdict(&design), CheckVerdict::Open);
+        // 64 % stand by no wish; 13 % do.
+        design.limits.outside_range = OutsideRange::Warn;
+        assert_eq!(verdict(&design), CheckVerdict::Open);
+        if let BarrierDesign::FlexibleNet(net) = &mut design.barrier {
+            net.net_rope.modulus = 0.36e9;
+        }
+        assert_eq!(verdict(&design), CheckVerdict::Warn);
     }
 }
