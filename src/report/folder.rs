@@ -463,6 +463,20 @@ mod tests {
         fs::remove_dir_all(path).unwrap();
     }
 
+    /// A folder of ours that somebody has moved elsewhere and put a link in its place: what lies there now is his.
+    #[cfg(unix)]
+    #[test]
+    fn nothing_behind_a_link_is_removed() {
+        let (path, elsewhere) = (place("linked"), place("elsewhere"));
+        claim(&path).unwrap().write(&files(&["report.md", "vtk/1.vtu", "result.json"])).unwrap();
+        fs::rename(path.join("vtk"), &elsewhere).unwrap();
+        std::os::unix::fs::symlink(&elsewhere, path.join("vtk")).unwrap();
+        assert!(matches!(claim(&path), Err(Refusal::Changed(_, names)) if names == "vtk/1.vtu"));
+        assert!(elsewhere.join("1.vtu").is_file());
+        fs::remove_dir_all(path).unwrap();
+        fs::remove_dir_all(elsewhere).unwrap();
+    }
+
     #[test]
     fn what_turns_up_during_a_run_is_moved_aside() {
         let path = place("aside");
