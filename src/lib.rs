@@ -24,7 +24,7 @@
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
 //! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
-//! | a load or a course of the event that nothing covers | a function in [`checks::not_covered`] |
+//! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, beside `pipeline::slower_than_designed` |
 //! | a warning to the reviewer | a function and a line in [`report::warnings`]; a usual range of an input in [`checks::implausible`] |
 //! | a field of `result.json` | [`report::json`]; raise its `schema_version` where one changes or goes |

@@ -98,7 +98,7 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
             }
         }
         BarrierDesign::RigidWall(wall) => {
-            if wall.resistance.is_some() {
+            if wall.resistance.is_some() || wall.moment_resistance.is_some() {
                 rows.push(Combination {
                     what: "Resistance of the wall",
                     factor: wall.resistance_factor,
@@ -117,6 +117,12 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
                     what: "Moment that holds the wall",
                     factor: stability.overturning_factor,
                     by_equations: "divides the moment of its weight",
+                    by_simulation: "the same",
+                });
+                rows.push(Combination {
+                    what: "Bearing resistance under the wall",
+                    factor: stability.bearing_factor,
+                    by_equations: "divides the characteristic resistance; the weight of the wall has no factor",
                     by_simulation: "the same",
                 });
             }

@@ -3,12 +3,12 @@
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
-use crate::checks::not_covered::{FirstSurge, leave_open_not_covered};
+use crate::checks::not_covered::{FirstSurge, Known, leave_open_not_covered};
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::leave_open_outside_range;
-use crate::demand::Demands;
 use crate::demand::from_histories::Observed;
 use crate::demand::from_loads::{Guideline, earth_pressure_by_weight, guideline};
+use crate::demand::{Demands, larger};
 use crate::design::read::DesignFile;
 use crate::design::{Arrival, Design};
 use crate::fidelity::choose;
@@ -197,8 +197,8 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
     let mut outcomes = check_all(design, &demands);
-    let first_surge = simulated.as_ref().map(|simulated| first_surge(rung, design, &guideline, simulated));
-    leave_open_not_covered(design, &guideline, first_surge, &mut outcomes);
+    let seen = simulated.as_ref().map(|simulated| first_surge(rung, design, &guideline, simulated));
+    leave_open_not_covered(Known { design, guideline: &guideline, seen }, &mut outcomes);
     leave_open_outside_range(design, &guideline, &mut outcomes);
     if simulated.is_some() {
         rung.leave_open_what_is_too_close(packings, &mut outcomes);
@@ -213,9 +213,12 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
     // Where the deposit is too thin to show its K, and the barrier fills later, its weight tells.
     let by_weight = design.loads.to_the_top.then(|| earth_pressure_by_weight(design, guideline)).flatten();
     let band = rung.band;
+    let short_peaks =
+        simulated.starts.iter().map(|start| start.observed.force_peak_sampled / start.observed.force_peak);
     let at_rest: Vec<f64> = simulated.starts.iter().filter_map(|start| start.observed.k_effective).collect();
     FirstSurge {
         push: simulated.spread(|seen| seen.push_peak).mean,
+        sampled_over_smoothed: short_peaks.fold(1.0, larger),
         velocity: simulated.spread(|seen| seen.incoming.velocity).mean,
         earth_pressure: (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean).or(by_weight),
         force_band: band.force,

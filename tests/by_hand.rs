@@ -51,8 +51,9 @@ barrier:
     height: 3 m
     tilt: -3 deg
     resistance: 900 kN
+    moment_resistance: 250 kN m/m
     resistance_factor: 1.3
-    stability: {thickness: 1.5 m, base_width: 2 m, density: 2400 kg/m3, base_slope: 5 deg, base_friction: 32 deg, sliding_factor: 1.2, overturning_factor: 1.4}
+    stability: {thickness: 1.5 m, base_width: 2 m, density: 2400 kg/m3, base_slope: 5 deg, base_friction: 32 deg, sliding_factor: 1.2, overturning_factor: 1.4, bearing_resistance: 400 kPa, bearing_factor: 1.6}
 limits: {retained_mass: 90 %}
 factors: {earth_pressure_k: 1.1, dynamic_lambda: 1.8, load: 1.35}
 loads:
@@ -222,6 +223,10 @@ fn the_wall() {
     let force = outcome(&outcomes, "total_force");
     near(force.demand.guideline.unwrap(), 1125.66e3);
     near(force.capacity.unwrap(), 692.31e3);
+    // (243.912 + 20 (0.5 − 1.5/6)) by 1.35: the boulder's moment spreads over twice its height, not over the whole width.
+    let moment = outcome(&outcomes, "wall_moment");
+    near(moment.demand.guideline.unwrap(), 336.031e3);
+    near(moment.capacity.unwrap(), 192.308e3);
     let sliding = outcome(&outcomes, "wall_sliding");
     near(sliding.demand.guideline.unwrap(), 200.698e3);
     // 104.54 cos 5° tan 32°/1.2
@@ -234,4 +239,25 @@ fn the_wall() {
     let eccentricity = outcome(&outcomes, "wall_eccentricity");
     near(eccentricity.demand.guideline.unwrap(), 3.1671);
     near(eccentricity.capacity.unwrap(), 2.0 / 3.0);
+    // Nothing of it bears then.
+    assert_eq!(outcome(&outcomes, "wall_bearing").demand.guideline, Some(f64::INFINITY));
+}
+
+/// The same wall leaning downstream, 4 m thick on a base of 4.5 m: H = 3 cos 17° = 2.8689 m, the last surge pushes 132.955 kN/m with a
+/// moment of 241.768 kN m/m, both by 1.35; it weighs 287.523 kN/m, N = 286.428, and its own tilt has a moment of 25.059 · 3.0530/2.
+#[test]
+fn a_broad_wall_presses_on_the_ground() {
+    let text = WALL.replace("tilt: -3 deg", "tilt: -8 deg");
+    let text = text.replace("thickness: 1.5 m, base_width: 2 m", "thickness: 4 m, base_width: 4.5 m");
+    let (guideline, _, outcomes) = by_equations(&design(&text));
+    near(guideline.face_moment, 241.768e3);
+    // 1.35 · 132.955 (cos 20° + tan 17° sin 20°) + 25.059; it is pressed down, so that nothing is lifted.
+    near(outcome(&outcomes, "wall_sliding").demand.guideline.unwrap(), 212.492e3);
+    near(outcome(&outcomes, "wall_overturning").demand.guideline.unwrap(), 364.641e3);
+    // 2.25 − (286.428 · 2.5 − 364.641)/286.428
+    near(outcome(&outcomes, "wall_eccentricity").demand.guideline.unwrap(), 1.02306);
+    // (286.428 + 1.35 · 132.955 (sin 20° − tan 17° cos 20°))/(4.5 − 2 · 1.02306)
+    let bearing = outcome(&outcomes, "wall_bearing");
+    near(bearing.demand.guideline.unwrap(), 120.728e3);
+    near(bearing.capacity.unwrap(), 250e3);
 }

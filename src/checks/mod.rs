@@ -14,6 +14,7 @@ pub mod retained;
 pub mod ropes;
 pub mod total_force;
 pub mod wall;
+pub mod wall_moment;
 pub mod wear;
 
 use crate::checks::outcome::Outcome;
@@ -25,6 +26,7 @@ type Check = fn(&Design, &Demands) -> Vec<Outcome>;
 /// All checks, in the order of the report.
 const CHECKS: &[Check] = &[
     total_force::check,
+    wall_moment::check,
     wall::check,
     ropes::check_main,
     ropes::check_net,

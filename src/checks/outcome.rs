@@ -43,6 +43,8 @@ pub enum Kind {
     Bolts,
     /// The lowest rope between its bolts, whose tension grows as the load of the worst bolt to the power of 2/3.
     BetweenBolts,
+    /// The strength of a wall.
+    WallStrength,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
 }

@@ -1,7 +1,7 @@
 //! Total force on the barrier against the resistance of a rigid wall. A net's force is borne by its parts, which are checked one by
 //! one; a wall that stands by its weight is checked against sliding and overturning.
 
-use crate::checks::outcome::{CheckName, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
@@ -15,7 +15,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![match (wall.resistance, wall.stability) {
         (Some(characteristic), _) => {
             let resistance = Resistance { characteristic, factor: wall.resistance_factor };
-            Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0)
+            Outcome { kind: Kind::WallStrength, ..Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0) }
         }
         // A plain block bears what it weighs; a foot that reaches out must be able to.
         (None, Some(stability)) if stability.base_width <= stability.thickness => {
@@ -55,6 +55,8 @@ mod tests {
             base_friction: 0.7,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
+            bearing_resistance: None,
+            bearing_factor: 1.4,
         });
         let total_force = Demand { guideline: Some(100e3), ..Demand::default() };
         check(&design, &Demands { total_force, ..Demands::default() })[0].verdict

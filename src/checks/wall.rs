@@ -1,4 +1,5 @@
-//! A wall that stands by its weight: sliding along its base, overturning about the downstream edge. Per metre of width.
+//! A wall that stands by its weight: sliding along its base, overturning about the downstream edge, pressure under the base. Per metre of
+//! width.
 
 use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::from_loads::wall_of;
@@ -38,7 +39,26 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         simulation: tipped.simulation.map(off_centre),
         ..Demand::default()
     };
+    let press = demands.wall_press;
+    let bears = |off: Option<f64>, press: Option<f64>| Some(input.pressure(off?, press?));
+    let bearing = Demand {
+        guideline: bears(off.guideline, press.guideline.map(|load| load * input.press_share())),
+        simulation: bears(off.simulation, press.simulation),
+        ..Demand::default()
+    };
+    let under = CheckName::new(
+        "wall_bearing",
+        "Pressure under the wall",
+        "Pa",
+        "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
+    );
     vec![
+        match stability.bearing_resistance {
+            Some(characteristic) => {
+                Outcome::at_most(under, bearing, Resistance { characteristic, factor: stability.bearing_factor }, 1.0)
+            }
+            None => Outcome::without_resistance(under, bearing, "barrier.rigid_wall.stability.bearing_resistance"),
+        },
         Outcome::at_most(eccentricity, off, Resistance { characteristic: input.base_width / 3.0, factor: 1.0 }, 1.0),
         Outcome::at_most(
             sliding,
@@ -87,6 +107,8 @@ mod tests {
             base_friction: 0.7,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
+            bearing_resistance: None,
+            bearing_factor: 1.4,
         });
         design
     }

@@ -71,6 +71,8 @@ pub struct Observed {
     /// and largest moment about the upstream end of its base, with that of the lift (N m/m).
     pub wall_sliding_peak: f64,
     pub wall_overturning_peak: f64,
+    /// What presses on its base beside its weight, at the most (N/m).
+    pub wall_press_peak: f64,
     /// The flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there.
     pub incoming: Gauge,
     /// Speed of the front on the last stretch before the gauge just upstream of the barrier (m/s); absent where it was not seen there.
@@ -202,6 +204,7 @@ impl Observed {
         let slides: Vec<f64> = pushes().map(|(along, off)| wall.sliding_demand(*along, *off)).collect();
         let tips =
             pushes().zip(&moment).map(|((along, off), moment)| moment + wall.lift(*along, *off) * wall.base_width);
+        self.wall_press_peak = peak(&pushes().map(|(along, off)| wall.press(*along, *off)).collect::<Vec<_>>()).1;
         self.wall_sliding_peak = peak(&slides).1;
         self.wall_overturning_peak = peak(&tips.collect::<Vec<_>>()).1;
     }
@@ -283,6 +286,8 @@ mod tests {
             base_friction: 0.5,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
+            bearing_resistance: None,
+            bearing_factor: 1.4,
         });
         let width = design.channel.width;
         let samples = 5;

@@ -24,6 +24,8 @@ pub struct Guideline {
     /// Largest force normal to the face over the envelope (N), and its largest moment about the foot of the face, per width (N m/m).
     pub face_force: f64,
     pub face_moment: f64,
+    /// Largest moment about that foot that any metre of a wall takes (N m/m).
+    pub foot_moment: f64,
     /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
     pub ropes: Vec<RopeLoad>,
     /// On what holds the lowest rope to the bed, in all, with the partial factor on loads (N); nothing where it is free.
@@ -96,6 +98,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         lean: lean(design),
         face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger),
         face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger),
+        foot_moment: stages.iter().map(|case| case.foot_moment(width, lean(design))).fold(0.0, larger),
         ropes,
         dissipator: match &design.barrier {
             BarrierDesign::FlexibleNet(net) => {
@@ -378,5 +381,21 @@ mod tests {
         assert_relative_eq!(shares[0], 0.0);
         assert_relative_eq!(shares[1], 15.0);
         assert_relative_eq!(shares[2], 5.0);
+    }
+
+    /// On a bed of 45° with a friction of 20° a deposit of V presses with K = 2 V (tan 45° − tan 20°)/(b H²).
+    #[test]
+    fn the_weight_of_a_deposit_tells_k_where_it_is_not_seen() {
+        let bytes = include_bytes!("../../designs/small_net.yaml");
+        let mut design = crate::design::read::read_design("x", bytes).unwrap().design;
+        design.channel.slope = 45_f64.to_radians();
+        design.channel.base_friction = libm::tan(20_f64.to_radians());
+        let guideline = guideline(&design);
+        let held = guideline.retention.expect("a deposit").volume / guideline.width;
+        let by_hand = 2.0 * held * (1.0 - 0.363_970) / guideline.input.barrier_height.powi(2);
+        let found = earth_pressure_by_weight(&design, &guideline).expect("K");
+        assert!((found / by_hand - 1.0).abs() < 1e-5, "{found} {by_hand}");
+        design.channel.base_friction = 2.0;
+        assert_eq!(earth_pressure_by_weight(&design, &guideline), Some(0.0));
     }
 }

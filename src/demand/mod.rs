@@ -43,6 +43,10 @@ pub struct Demands {
     /// the base (N/m, N m/m); of the simulation what slides the wall along its base and what tips it, lift included.
     pub wall_sliding: Demand,
     pub wall_overturning: Demand,
+    /// Likewise what presses on its base beside its weight, per width: by the guideline the load along the bed (N/m).
+    pub wall_press: Demand,
+    /// About the foot of a wall, per width (N m/m).
+    pub wall_moment: Demand,
     /// N
     pub rope_tension: Vec<Demand>,
     /// N
@@ -110,6 +114,8 @@ impl Demands {
             wall_sliding: meeting
                 .force(by_guideline(guideline.largest_force * per_width), &|seen| seen.wall_sliding_peak),
             wall_overturning: meeting.force(by_guideline(guideline.face_moment), &|seen| seen.wall_overturning_peak),
+            wall_press: meeting.force(by_guideline(guideline.largest_force * per_width), &|seen| seen.wall_press_peak),
+            wall_moment: meeting.force(by_guideline(guideline.foot_moment), &|seen| seen.moment_peak),
             rope_tension: meeting.by_rope(&RopeQuantity {
                 guideline: |rope| rope.state.tension,
                 observed: |seen| &seen.rope_tension_peak,
@@ -144,6 +150,8 @@ impl Demands {
             &mut self.total_force,
             &mut self.wall_sliding,
             &mut self.wall_overturning,
+            &mut self.wall_press,
+            &mut self.wall_moment,
             &mut self.bed_force,
             &mut self.bolt_force,
             &mut self.brake_force,

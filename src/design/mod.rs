@@ -149,6 +149,8 @@ pub struct RigidWall {
     /// Resistance of the whole wall to the total force (N), if known, and the partial factor on it.
     pub resistance: Option<f64>,
     pub resistance_factor: f64,
+    /// Resistance to bending at its foot, per width (N m/m), over the same factor.
+    pub moment_resistance: Option<f64>,
     pub stability: Option<Stability>,
 }
 
@@ -168,6 +170,9 @@ pub struct Stability {
     /// Partial factors on the resistance to sliding and on the moment that holds the wall.
     pub sliding_factor: f64,
     pub overturning_factor: f64,
+    /// Of the ground under the base (Pa), if known, and the partial factor on it.
+    pub bearing_resistance: Option<f64>,
+    pub bearing_factor: f64,
 }
 
 /// A net of wire ropes on horizontal main ropes.

@@ -136,6 +136,8 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
             sliding_factor: value("sliding_factor")?,
             overturning_factor: value("overturning_factor")?,
+            bearing_resistance: value("bearing_resistance"),
+            bearing_factor: value("bearing_factor")?,
         })
     });
     let slope = e.number("channel.slope")?;
@@ -150,6 +152,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
         segment_tops: segment_tops.collect(),
         resistance: e.number("barrier.rigid_wall.resistance"),
         resistance_factor: e.number("barrier.rigid_wall.resistance_factor")?,
+        moment_resistance: e.number("barrier.rigid_wall.moment_resistance"),
         stability: match stability {
             Some(stability) => Some(stability?),
             None => None,

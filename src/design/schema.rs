@@ -156,7 +156,7 @@ const RIGID_WALL: &[Key] = &[
     Key::optional(
         "resistance",
         quantity(D::Force, 1.0, 1e12),
-        "characteristic resistance of the whole wall to the total force",
+        "characteristic resistance of the whole wall, its foundation included, to the total force",
     ),
     Key::default(
         "resistance_factor",
@@ -165,9 +165,14 @@ const RIGID_WALL: &[Key] = &[
         "partial factor on that resistance (1.5: concrete, EN 1992-1-1); 1 where the resistance is a design value",
     ),
     Key::optional(
+        "moment_resistance",
+        quantity(D::MomentPerWidth, 1.0, 1e12),
+        "characteristic resistance to bending at the foot of the wall, per metre of width; over the same partial factor",
+    ),
+    Key::optional(
         "stability",
         Kind::Section(STABILITY),
-        "a wall that stands by its weight: checked against sliding and overturning",
+        "a wall that stands by its weight: checked against sliding, overturning and the pressure under its base",
     ),
 ];
 
@@ -190,6 +195,17 @@ const STABILITY: &[Key] = &[
         "overturning_factor",
         Kind::Number { low: 1.0, high: 5.0 },
         "partial factor on the moment that holds the wall",
+    ),
+    Key::optional(
+        "bearing_resistance",
+        quantity(D::Pressure, 1e3, 1e9),
+        "characteristic bearing resistance of the ground under the base, for a load as eccentric and inclined as this one",
+    ),
+    Key::default(
+        "bearing_factor",
+        Kind::Number { low: 1.0, high: 5.0 },
+        "1.4",
+        "partial factor on the bearing resistance (1.4: EN 1997-1, design approach 2)",
     ),
 ];
 

@@ -70,8 +70,8 @@ fn formulas_that_stand(run: &Run) -> Option<String> {
 fn parts_that_no_check_sees(run: &Run) -> Option<String> {
     match &run.file.design.barrier {
         BarrierDesign::RigidWall(wall) => match (wall.resistance, wall.stability) {
-            (Some(_), None) => Some("The wall is checked against the resistance that the design gives for the whole force: bending, shear, sliding, overturning and the ground below are in that number or in none (barrier.rigid_wall.stability checks sliding and overturning).".into()),
-            (None, Some(_)) => Some("The wall is checked against sliding and overturning: its own bending and shear, and the ground below, are not (barrier.rigid_wall.resistance).".into()),
+            (Some(_), None) => Some("The wall is checked against the resistances that the design gives for the total force and for the moment at its foot: the sliding, overturning and bearing resistance of its foundation are in those numbers or are not checked (barrier.rigid_wall.stability checks them for a wall that stands by its weight).".into()),
+            (None, Some(_)) => Some("The wall is checked as a block that stands by its weight: its own strength in bending and shear is not checked (barrier.rigid_wall.resistance, moment_resistance).".into()),
             _ => None,
         },
         BarrierDesign::FlexibleNet(net) => net.side_extension.map(|extension| {

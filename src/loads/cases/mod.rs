@@ -107,6 +107,13 @@ impl LoadCase {
         self.mean_moment(width) + self.diagram.moment(0.0, f64::INFINITY) * libm::tan(lean).powi(2)
     }
 
+    /// The largest moment about the foot of the face that any metre of a wall takes (N m/m): a point load spreads at 45° on its way down to
+    /// the foot, over twice its height, if the wall is that wide.
+    pub fn foot_moment(&self, width: f64, lean: f64) -> f64 {
+        let spread = |point: PointLoad| point.force * (0.5 - point.height / width).max(0.0);
+        self.face_moment(width, lean) + self.point.map_or(0.0, spread)
+    }
+
     /// Force per width on the strip of a rope between two heights; the topmost strip takes the drag (N/m).
     pub fn strip_force(&self, low: f64, high: f64) -> f64 {
         let drag = if high >= self.diagram.top && low < self.diagram.top { self.decisive_shear() } else { 0.0 };

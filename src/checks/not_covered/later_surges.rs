@@ -1,0 +1,48 @@
+//! Surges over a deposit are in the equations alone: where the simulated first surge pushes harder than theirs, so would the later ones.
+
+use super::Known;
+use crate::checks::outcome::{Opening, Outcome};
+
+/// Simulated over the guideline's force of a first surge up to which its K and λ are taken to hold for the later ones too: the scatter
+/// of measured pressures (Bugnion et al. 2012: 20 % and more).
+pub const LIKE_FIRST_SURGES: f64 = 1.25;
+
+pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
+    let Some(seen) = known.seen else { return };
+    let ratio = seen.push / known.guideline.first_surge();
+    // Written so that a NaN counts as not alike.
+    let alike = ratio <= LIKE_FIRST_SURGES;
+    if alike || !known.design.loads.to_the_top {
+        return;
+    }
+    let of_surges = |outcome: &&mut Outcome| {
+        outcome.holds()
+            && outcome.utilisation.is_some()
+            && outcome.rests_on_pressures
+            && outcome.demand.guideline.is_some()
+    };
+    for outcome in outcomes.iter_mut().filter(of_surges) {
+        outcome.leave_open(Opening::Contradicted(format!(
+            "the simulated first surge pushes {ratio:.2} times as hard as the guideline's, so that its later surges over a deposit are too low (raise factors.dynamic_lambda until they agree within {:.0} %, or say loads.filling: one_event)",
+            100.0 * (LIKE_FIRST_SURGES - 1.0)
+        )));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::checks::not_covered::tests::{small_net, verdict};
+    use crate::checks::outcome::CheckVerdict;
+    use crate::demand::from_loads::guideline;
+
+    #[test]
+    fn later_surges_are_open_where_the_first_hits_harder_than_the_guideline_has_it() {
+        let mut design = small_net();
+        let first = guideline(&design).first_surge();
+        assert_eq!(verdict(&design, "rope_2_tension", 1.2 * first), CheckVerdict::Pass);
+        assert_eq!(verdict(&design, "rope_2_tension", 1.3 * first), CheckVerdict::Open);
+        assert_eq!(verdict(&design, "rope_2_tension", f64::NAN), CheckVerdict::Open);
+        design.loads.to_the_top = false;
+        assert_eq!(verdict(&design, "rope_2_tension", 1.3 * first), CheckVerdict::Pass);
+    }
+}

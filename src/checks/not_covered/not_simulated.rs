@@ -1,0 +1,65 @@
+//! What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
+//! later surges of a larger event, a boulder, snow, a flow over the full barrier.
+
+use super::Known;
+use crate::checks::outcome::{Kind, Opening, Outcome};
+
+pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
+    let (flow, loads) = (&known.design.flow, &known.design.loads);
+    let missing = [
+        (flow.event_volume > 1.001 * flow.volume(), "the later surges of the event"),
+        (loads.point_load.is_some(), "the point load"),
+        (loads.snow_pressure.is_some(), "the snow"),
+        (loads.overflow_depth.is_some(), "the flow over the full barrier"),
+        (loads.drained.is_some(), "the drained deposit"),
+        (loads.self_weight.is_some(), "the weight of the net as given"),
+    ];
+    let missing: Vec<&str> = missing.into_iter().filter(|(asked, _)| *asked).map(|(_, what)| what).collect();
+    if missing.is_empty() {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.demand.simulation.is_some()) {
+        // What has no utilisation is a dissipator at its plateau: its stroke tells. What is held has its own rule.
+        if outcome.holds()
+            && outcome.utilisation.is_some()
+            && !outcome.governed_by_equations()
+            && outcome.kind != Kind::MassHeld
+        {
+            outcome.leave_open(Opening::NotGiven(format!(
+                "the simulation governs it and covers one surge on the empty barrier; it does not include {}",
+                missing.join(", ")
+            )));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::checks::not_covered::tests::{net_holds, net_verdict, small_net};
+    use crate::checks::outcome::CheckVerdict;
+    use crate::demand::from_loads::guideline;
+    use crate::design::{Design, OutsideRange};
+
+    #[test]
+    fn what_the_simulation_governs_is_open_where_it_lacks_a_load_that_the_design_asks_for() {
+        let first = |design: &Design| guideline(design).largest_force;
+        type Ask = fn(&mut Design);
+        let asked: [Ask; 6] = [
+            |design| design.loads.overflow_depth = Some(0.05),
+            |design| design.flow.event_volume = 2.0 * design.flow.volume(),
+            |design| design.loads.point_load = Some((1e3, 1.0)),
+            |design| design.loads.snow_pressure = Some(1e3),
+            |design| design.loads.drained = Some((0.5, 1800.0)),
+            |design| design.loads.self_weight = Some(50.0),
+        ];
+        for ask in asked {
+            let mut design = small_net();
+            assert_eq!(net_verdict(&design, 0.4 * net_holds(&design), first(&design)), CheckVerdict::Pass);
+            ask(&mut design);
+            assert_eq!(net_verdict(&design, 0.4 * net_holds(&design), first(&design)), CheckVerdict::Open);
+            // A gap is no formula outside its range.
+            design.limits.outside_range = OutsideRange::Warn;
+            assert_eq!(net_verdict(&design, 0.4 * net_holds(&design), first(&design)), CheckVerdict::Open);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Bending at the foot of a wall, per metre of width. A plain block has no section of its own to bend there: it is held against
+//! overturning.
+
+use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
+use crate::demand::Demands;
+use crate::design::{BarrierDesign, Design};
+use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
+
+pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
+    let name = |source| CheckName::new("wall_moment", "Moment at the foot of the wall, per width", "N m/m", source);
+    let demand = demands.wall_moment;
+    vec![match (wall.moment_resistance, wall.stability) {
+        (Some(characteristic), _) => {
+            let resistance = Resistance { characteristic, factor: wall.resistance_factor };
+            Outcome { kind: Kind::WallStrength, ..Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0) }
+        }
+        (None, Some(stability)) if stability.base_width <= stability.thickness => {
+            Outcome::informative(name(NO_LIMIT), demand)
+        }
+        (None, Some(_)) => Outcome::without_resistance(
+            name(NO_LIMIT),
+            demand,
+            "barrier.rigid_wall.moment_resistance: the strength of a wall on a foot wider than itself",
+        ),
+        (None, None) => Outcome::without_resistance(
+            name(NO_LIMIT),
+            demand,
+            "barrier.rigid_wall.moment_resistance, or barrier.rigid_wall.stability for a plain block",
+        ),
+    }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::outcome::CheckVerdict;
+    use crate::demand::Demand;
+    use crate::design::read::read_design;
+
+    /// Verdict of a wall under 100 kN m/m with this resistance, over a factor of 1.3, and, if it has one, this base under 2 m of wall.
+    fn verdict(moment_resistance: Option<f64>, base_width: Option<f64>) -> CheckVerdict {
+        let text = include_str!("../../designs/rigid_wall.yaml");
+        let base = base_width.map_or(String::new(), |width| {
+            format!(
+                "    stability: {{thickness: 2 m, base_width: {width} m, density: 2400 kg/m3, base_friction: 35 deg, sliding_factor: 1.1, overturning_factor: 1.5}}\n"
+            )
+        });
+        let text = text.replace("  rigid_wall:\n", &format!("  rigid_wall:\n{base}"));
+        let mut design = read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
+        let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        (wall.moment_resistance, wall.resistance_factor) = (moment_resistance, 1.3);
+        let wall_moment = Demand { simulation: Some(100e3), ..Demand::default() };
+        check(&design, &Demands { wall_moment, ..Demands::default() })[0].verdict
+    }
+
+    #[test]
+    fn a_wall_bends_no_more_than_it_resists_or_is_a_plain_block() {
+        assert_eq!(verdict(Some(150e3), None), CheckVerdict::Pass);
+        assert_eq!(verdict(Some(135e3), None), CheckVerdict::Warn);
+        assert_eq!(verdict(Some(125e3), Some(2.0)), CheckVerdict::Fail);
+        assert_eq!(verdict(None, None), CheckVerdict::Open);
+        assert_eq!(verdict(None, Some(2.0)), CheckVerdict::Info);
+        assert_eq!(verdict(None, Some(2.5)), CheckVerdict::Open);
+    }
+}
