@@ -55,3 +55,48 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capaci
     }
     Some(outcome)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demand::from_loads::guideline;
+    use crate::design::read::read_design;
+
+    /// The check against the plateau of 150 kN, with a simulated tension of the lateral ropes (N).
+    fn plateau(change: impl Fn(&mut Design), lateral: Option<f64>) -> Outcome {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        change(&mut design);
+        let lateral_tension = Demand { simulation: lateral, ..Demand::default() };
+        let demands = Demands { lateral_tension, ..Demands::by_equations(&guideline(&design), &design.factors) };
+        check(&design, &demands).into_iter().find(|outcome| outcome.id == "anchor_plateau").expect("a check")
+    }
+
+    fn tied(design: &mut Design) {
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.lateral_to = LateralTo::Anchors;
+    }
+
+    #[test]
+    fn lateral_ropes_that_are_tied_to_anchors_pull_beside_the_plateau() {
+        let overstrength = |design: &mut Design| design.factors.overstrength = 1.2;
+        let apart = plateau(overstrength, Some(50e3)).demand;
+        assert_eq!((apart.guideline, apart.simulation), (Some(180e3), None));
+        let both = |design: &mut Design| {
+            overstrength(design);
+            tied(design);
+        };
+        let together = plateau(both, Some(50e3)).demand;
+        assert_eq!((together.guideline, together.simulation), (Some(180e3), Some(230e3)));
+        assert_eq!(plateau(both, None).verdict, CheckVerdict::Open);
+    }
+
+    #[test]
+    fn an_overstrength_that_is_not_given_is_open_unless_a_factor_on_loads_stands_for_it() {
+        let verdict = |given: bool, load: f64| {
+            plateau(|design| (design.factors.overstrength_given, design.factors.load) = (given, load), None).verdict
+        };
+        assert_eq!(verdict(true, 1.0), CheckVerdict::Pass);
+        assert_eq!(verdict(false, 1.0), CheckVerdict::Open);
+        assert_eq!(verdict(false, 1.35), CheckVerdict::Pass);
+    }
+}

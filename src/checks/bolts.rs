@@ -120,4 +120,29 @@ mod tests {
         }
         assert_eq!(verdicts(&design, 40e3), [CheckVerdict::Fail, CheckVerdict::Pass]);
     }
+
+    /// Rings every 0.3 m: bolts 1 m apart hold the rope, bolts 1.5 m apart do not. In a channel of 3 m both are whole spaces.
+    #[test]
+    fn bolts_further_apart_than_four_rings_leave_their_checks_open() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let outcomes = |design: &Design| {
+            let bolt_force = Demand { simulation: Some(20e3), ..Demand::default() };
+            check(design, &Demands { bolt_force, ..Demands::default() })
+        };
+        let mut verdict = |bolts: f64, rings: f64| {
+            let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+            net.bed_bolts.as_mut().expect("bolts").spacing = bolts;
+            net.main_ropes.ring_spacing = rings;
+            outcomes(&design).iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
+        };
+        assert_eq!(verdict(1.0, 0.3), [CheckVerdict::Pass; 2]);
+        assert_eq!(verdict(1.0, 0.25), [CheckVerdict::Pass; 2]);
+        assert_eq!(verdict(1.5, 0.3), [CheckVerdict::Open; 2]);
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.bed_bolts = None;
+        let held = Demands { bed_force: Demand { simulation: Some(1.0), ..Demand::default() }, ..Demands::default() };
+        let outcome = &check(&design, &held)[0];
+        assert_eq!((outcome.verdict, outcome.source), (CheckVerdict::Open, NO_LIMIT));
+        assert!(outcome.title.ends_with("in all"));
+    }
 }

@@ -50,3 +50,26 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
     }
     vec![outcome]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demand::Demand;
+    use crate::design::read::read_design;
+
+    /// A plateau of 150 kN: at it and 1 % above, which is rounding, a dissipator works; above that its stroke is used up.
+    #[test]
+    fn a_dissipator_works_at_its_plateau_and_is_used_up_beyond() {
+        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let told = |tension: f64| {
+            let brake_force = Demand { simulation: Some(tension), ..Demand::default() };
+            let outcomes = check_plateau(&design, &Demands { brake_force, ..Demands::default() });
+            let outcome = outcomes.first().expect("a check");
+            (outcome.verdict, outcome.utilisation.is_some())
+        };
+        assert_eq!(told(20e3), (CheckVerdict::Pass, false));
+        assert_eq!(told(151e3), (CheckVerdict::Pass, false));
+        assert_eq!(told(152e3), (CheckVerdict::Fail, true));
+        assert_eq!(told(f64::NAN), (CheckVerdict::Fail, true));
+    }
+}

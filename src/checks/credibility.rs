@@ -153,4 +153,20 @@ mod tests {
             assert_eq!(doubts(&broken).len(), 1, "{broken:?}");
         }
     }
+
+    #[test]
+    fn of_several_starts_counts_add_up_and_every_fault_stays() {
+        let one = Numerics { strays: 2, crossings: 1, unfinished: true, stray_share: 0.1, ..Numerics::default() };
+        let other = Numerics { strays: 3, crossings: 4, stored_at_release: -0.3, ..Numerics::default() };
+        for worst in [one.worst(&other), other.worst(&one)] {
+            assert_eq!((worst.strays, worst.crossings, worst.unfinished, worst.missed), (5, 5, true, false));
+            assert_eq!((worst.stray_share, worst.stored_at_release), (0.1, -0.3));
+        }
+        let missed = Numerics { missed: true, packing_shortfall: 0.5, step_ratio: 2.0, ..Numerics::default() };
+        let worst = Numerics::default().worst(&missed);
+        assert_eq!(
+            (worst.missed, worst.unfinished, worst.packing_shortfall, worst.step_ratio),
+            (true, false, 0.5, 2.0)
+        );
+    }
 }

@@ -144,4 +144,15 @@ mod tests {
             assert_eq!(told(from, to), [what]);
         }
     }
+
+    /// 150 MN over a face of 15.2 m by 5.5 m: 1.794 MPa.
+    #[test]
+    fn a_wall_stronger_than_walls_are_is_told() {
+        let text = include_str!("../../designs/rigid_wall.yaml");
+        let told = |text: String| implausible(&read_design("x", text.as_bytes()).unwrap().design);
+        assert!(told(text.to_string()).is_empty());
+        let strong = told(text.replace("resistance: 15 MN", "resistance: 150 MN"));
+        assert_eq!(strong.len(), 1);
+        assert!((strong[0].found - 1.794).abs() < 1e-3, "{strong:?}");
+    }
 }

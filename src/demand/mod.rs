@@ -414,4 +414,93 @@ mod tests {
         assert!(single.iter().chain(by_rope.into_iter().flatten()).all(|demand| demand.guideline.is_none()));
         assert!(demands.wall_sliding.guideline.is_none() && demands.wall_overturning.guideline.is_none());
     }
+
+    #[test]
+    fn without_a_factor_nothing_is_told_apart_as_characteristic() {
+        let alone = demands(&[[1e3, 1e3, 0.9]]);
+        assert_eq!((alone.net_tension.characteristic, alone.anchor_force[1].characteristic), (None, None));
+        assert_eq!(alone.retained.characteristic, None);
+        let seen = |net: f64| Observed { net_tension_peak: net, ..Observed::of_ropes(3) };
+        let [one, two] = [seen(1e3), seen(2e3)];
+        let both = Seen { characteristic: vec![&one], factored: vec![&two] };
+        let design = small_net();
+        let met = Demands::meet(&guideline(&design), &both, &design.factors);
+        assert_eq!((met.net_tension.simulation, met.net_tension.characteristic), (Some(2e3), Some(1e3)));
+        assert_eq!(met.retained.characteristic, Some(1.0));
+    }
+
+    #[test]
+    fn a_share_that_is_not_a_number_in_either_case_is_none() {
+        let design = small_net();
+        let seen = |retained: f64| Observed { retained, ..Observed::of_ropes(3) };
+        for (one, other) in [(0.9, f64::NAN), (f64::NAN, 0.9)] {
+            let [one, other] = [seen(one), seen(other)];
+            let both = Seen { characteristic: vec![&one], factored: vec![&other] };
+            let met = Demands::meet(&guideline(&design), &both, &design.factors);
+            assert!(met.retained.simulation.is_some_and(f64::is_nan));
+        }
+    }
+
+    /// A plateau of 100 kN, and half a percent more than it in one of three packings.
+    #[test]
+    fn what_a_dissipator_caps_says_so_as_long_as_none_is_used_up() {
+        let capped = demands(&[[0.0, 100.5e3, 1.0], [0.0, 100e3, 1.0], [0.0, 40e3, 1.0]]).anchor_force[1];
+        assert_eq!((capped.simulation, capped.cap), (Some(100.5e3), Some(100.5e3)));
+        let idle = demands(&[[0.0, 60e3, 1.0]]).anchor_force[1];
+        assert_eq!(idle.cap, Some(100e3));
+        let used_up = demands(&[[0.0, 120e3, 1.0]]);
+        assert_eq!(used_up.anchor_force[1].cap, None);
+        // The rope itself is pulled beside its dissipators as well.
+        assert_eq!(used_up.rope_tension[1].cap, None);
+        assert_eq!(demands(&[[0.0, 60e3, 1.0]]).rope_tension[1].cap, None);
+        // Nothing was simulated.
+        let design = small_net();
+        assert_eq!(Demands::by_equations(&guideline(&design), &design.factors).anchor_force[1].cap, None);
+        // With a factor of 1.5 and an overstrength of 1.25: 1.5 · 100 + 0.25 · 100.
+        let mut design = small_net();
+        (design.factors.load, design.factors.overstrength) = (1.5, 1.25);
+        let seen = Observed {
+            anchor_force_peak: vec![0.0, 100e3, 0.0],
+            brake_force_peak: vec![0.0, 100e3, 0.0],
+            ..Observed::of_ropes(3)
+        };
+        let alone = Seen { characteristic: vec![&seen], factored: Vec::new() };
+        let met = Demands::meet(&guideline(&design), &alone, &design.factors);
+        assert_eq!(met.anchor_force[1].cap, Some(175e3));
+        // With the lateral ropes at the anchors nothing caps their load.
+        let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.lateral_to = crate::design::LateralTo::Anchors;
+        let met = Demands::meet(&guideline(&design), &alone, &design.factors);
+        assert_eq!(met.anchor_force[1].cap, None);
+    }
+
+    /// Strokes of 0.9, 0.5 and 0.7 m scatter to 1.4 m; the stop is at 1 m. One that is not a number stays so.
+    #[test]
+    fn a_stroke_scatters_no_further_than_its_stop() {
+        let mut design = small_net();
+        let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.dissipators.as_mut().expect("dissipators").stroke = 1.0;
+        let stroke = |values: &[f64]| {
+            let seen: Vec<Observed> = values
+                .iter()
+                .map(|stroke| Observed { brake_stroke: vec![0.0, *stroke, 0.0], ..Observed::of_ropes(3) })
+                .collect();
+            let seen = Seen { characteristic: seen.iter().collect(), factored: Vec::new() };
+            let met = Demands::meet(&guideline(&design), &seen, &design.factors);
+            met.brake_stroke[1].simulation.expect("a stroke")
+        };
+        assert_eq!(stroke(&[0.9, 0.5, 0.7]), 1.0);
+        assert_eq!(stroke(&[0.5]), 0.5);
+        assert!(stroke(&[f64::NAN]).is_nan());
+    }
+
+    #[test]
+    fn a_rope_that_the_equations_do_not_load_has_no_demand_of_theirs() {
+        let design = small_net();
+        let mut guideline = guideline(&design);
+        guideline.ropes[2].load = 0.0;
+        let met = Demands::by_equations(&guideline, &design.factors);
+        assert_eq!((met.rope_tension[2].guideline, met.brake_stroke[2].guideline), (None, None));
+        assert!(met.rope_tension[1].guideline.is_some());
+    }
 }

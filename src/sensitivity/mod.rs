@@ -194,4 +194,63 @@ mod tests {
             }
         }
     }
+
+    /// On a wall every force is proportional to the density of the flow.
+    #[test]
+    fn a_swing_goes_down_and_up_by_its_share() {
+        let design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let swings = swings(&design);
+        let density = swings.iter().find(|swing| swing.name == "Density ρ").expect("a swing");
+        assert_eq!(density.share, 0.2);
+        assert!((density.up.force / density.down.force - 1.2 / 0.8).abs() < 1e-12);
+        // A wall has no dissipators, and what moves most comes first.
+        assert!(swings.iter().all(|swing| swing.name != "Plateau of the dissipators"));
+        assert!(swings.len() >= 4 && swings.windows(2).all(|pair| pair[0].width() >= pair[1].width()));
+    }
+
+    #[test]
+    fn the_plateau_is_taken_down_and_up() {
+        let mut design = design();
+        scale_plateau(&mut design, 0.8);
+        let crate::design::BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
+        assert!((net.dissipators.expect("dissipators").plateau - 120e3).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_swing_is_as_wide_as_its_utilisation_moves_or_its_force_where_there_is_none() {
+        let point = |force: f64, utilisation: Option<f64>| Point { force, utilisation, governing: "rope".into() };
+        let swing = |down: Point, up: Point| Swing { name: "x".into(), share: 0.1, down, up };
+        let judged = swing(point(10.0, Some(0.75)), point(30.0, Some(0.25)));
+        assert_eq!(judged.width(), 0.5);
+        let unjudged = swing(point(30.0, Some(0.75)), point(10.0, None));
+        assert_eq!(unjudged.width(), 20.0);
+        let silent = point(10.0, Some(0.5)).unreliable();
+        assert_eq!((silent.force, silent.utilisation, silent.governing.as_str()), (10.0, None, "cannot be relied on"));
+    }
+
+    #[test]
+    fn a_margin_is_told_where_there_is_one() {
+        let mut design = design();
+        assert!(least(&design).is_some_and(|point| point.utilisation.is_some()));
+        let everything = |design: &mut Design, factor: f64| {
+            let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+            net.main_ropes.rope.breaking_load *= factor;
+            net.anchor_resistance *= factor;
+            let bolts = net.bed_bolts.as_mut().expect("bolts");
+            bolts.resistance = bolts.resistance.map(|it| factor * it);
+            let dissipator = net.dissipators.as_mut().expect("dissipators");
+            (dissipator.plateau, dissipator.stroke) = (1e9, 1e9);
+            design.factors.overstrength = 1e-9;
+        };
+        let mut strong = design.clone();
+        everything(&mut strong, 1e9);
+        assert_eq!(margin(&strong).velocity, Limit::NeverFails);
+        everything(&mut design, 1e-9);
+        assert_eq!(margin(&design).velocity, Limit::AlwaysFails);
+        // With no resistance nothing is judged.
+        let mut wall = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let crate::design::BarrierDesign::RigidWall(bare) = &mut wall.barrier else { panic!("a wall") };
+        (bare.resistance, bare.moment_resistance) = (None, None);
+        assert_eq!((margin(&wall).depth, least(&wall)), (Limit::Unjudged, None));
+    }
 }

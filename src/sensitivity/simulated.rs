@@ -78,4 +78,52 @@ mod tests {
         assert_eq!(surge_on_net.len(), CHANGES.len());
         assert_eq!(surge_on_net.len() - block_on_wall.len(), 2, "{block_on_wall:?}");
     }
+
+    #[test]
+    fn each_variant_changes_its_input_down_and_up_by_its_share() {
+        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let variants = variants(&design);
+        let of = |name: &str| variants.iter().find(|variant| variant.name == name).expect("a variant");
+        let ratio = |name: &str, value: fn(&Design) -> f64| {
+            of(name).designs.each_ref().map(|changed| (1e6 * value(changed) / value(&design)).round() / 1e6)
+        };
+        let surge = |design: &Design| match design.flow.arrival {
+            Arrival::Surge(surge) => surge,
+            Arrival::DamBreak(_) => panic!("a surge"),
+        };
+        assert_eq!(ratio("Mass of the flow", |design| design.flow.mass), [0.8, 1.2]);
+        let length =
+            of("Mass of the flow").designs.each_ref().map(|changed| surge(changed).length / surge(&design).length);
+        assert!((length[0] - 0.8).abs() < 1e-9 && (length[1] - 1.2).abs() < 1e-9);
+        let velocity = of("Velocity of the surge").designs.each_ref().map(|changed| surge(changed).velocity / 4.6);
+        assert!((velocity[0] - 0.9).abs() < 1e-9 && (velocity[1] - 1.1).abs() < 1e-9);
+        for value in [
+            (|design| design.flow.mass) as fn(&Design) -> f64,
+            |design| design.flow.bulk_density,
+            |design| design.flow.solid_density,
+        ] {
+            assert_eq!(ratio("Density of grains and flow", value), [0.9, 1.1]);
+        }
+        assert_eq!(ratio("Friction on the bed", |design| design.channel.base_friction), [0.8, 1.2]);
+        assert_eq!(ratio("Friction between grains", |design| design.flow.grain_friction), [0.8, 1.2]);
+        let block = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let Arrival::DamBreak(before) = block.flow.arrival else { panic!("a block") };
+        let longer = |changed: &Design| match changed.flow.arrival {
+            Arrival::DamBreak(block) => block.length / before.length,
+            Arrival::Surge(_) => panic!("a block"),
+        };
+        let mass = super::variants(&block).into_iter().find(|variant| variant.name == "Mass of the flow").expect("it");
+        assert!((longer(&mass.designs[1]) - 1.2).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_most_telling_input_comes_first() {
+        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let variants: Vec<Variant> = variants(&design).into_iter().take(2).collect();
+        let [first, second] = [variants[0].name, variants[1].name];
+        let point = |used: f64| Point { force: 1.0, utilisation: Some(used), governing: "rope".into() };
+        let told = swings(variants, vec![[point(0.4), point(0.5)], [point(0.7), point(0.2)]]);
+        assert_eq!([told[0].name.as_str(), told[1].name.as_str()], [second, first]);
+        assert_eq!((told[0].share, told[0].down.utilisation, told[0].up.utilisation), (0.1, Some(0.7), Some(0.2)));
+    }
 }
