@@ -233,7 +233,7 @@ const LEAST_FLUX: f64 = 0.55;
 
 /// A simulated flow that arrives more slowly, or thinner, than the design says tells nothing of the design flow.
 fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
-    let arrives = |seen: &Observed| seen.incoming.velocity.max(seen.front_velocity.unwrap_or(0.0));
+    let arrives = |seen: &Observed| larger(seen.incoming.velocity, seen.front_velocity.unwrap_or(0.0));
     let velocity = simulated.spread(arrives).mean;
     let flux = simulated.spread(|seen| seen.incoming.flux).mean;
     if velocity.is_nan() || flux.is_nan() {
@@ -322,5 +322,115 @@ mod tests {
         ] {
             assert_eq!(verdict(&outcomes, doubts), expected, "{outcomes:?} {doubts:?}");
         }
+    }
+
+    use crate::dem::recorders::histories::Gauge;
+    use crate::demand::from_loads::guideline as guideline_of;
+    use crate::design::read::read_design;
+    use crate::fidelity::ladder::RUNGS;
+    use crate::simulated::Start;
+
+    fn small_net() -> Design {
+        read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design
+    }
+
+    /// Starts from seed 7 on, each with what it showed.
+    fn simulated(observed: Vec<Observed>) -> Simulated {
+        let starts = observed.into_iter().zip(7..).map(|(observed, seed)| Start { seed, observed });
+        Simulated { starts: starts.collect(), ..Simulated::default() }
+    }
+
+    /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
+    fn arriving(velocity: f64, flux: f64) -> Observed {
+        let incoming = Gauge { velocity, flux, depth: 0.4, ..Gauge::default() };
+        Observed { incoming, ..Observed::of_ropes(3) }
+    }
+
+    /// `small_net` is hit 0.6 m deep with 4.6 m/s: 12.7 m³/s².
+    #[test]
+    fn a_flow_slower_than_the_design_s_is_told_with_both() {
+        let design = small_net();
+        let told = |observed: Vec<Observed>| slower_than_designed(&design, &simulated(observed));
+        assert_eq!(given_arrival(&design.flow.arrival), Some((Some(0.6), 4.6)));
+        assert_eq!(told(vec![arriving(4.6, 10.6)]), None);
+        // The mean of the packings counts, and the front where it is faster.
+        assert_eq!(told(vec![arriving(3.0, 10.6), arriving(4.8, 10.6)]), None);
+        assert_eq!(told(vec![Observed { front_velocity: Some(4.0), ..arriving(3.0, 10.6) }]), None);
+        let slow = told(vec![arriving(3.0, 10.6)]).expect("a doubt");
+        assert!(slow.contains("0.40 m deep with 3.00 m/s where the design says 0.60 m with 4.60 m/s"), "{slow}");
+        assert!(told(vec![arriving(4.6, 5.0)]).is_some(), "thin");
+        for unknown in [arriving(f64::NAN, 10.6), arriving(4.6, f64::NAN)] {
+            assert!(told(vec![unknown]).is_some_and(|why| why.contains("not a number")));
+        }
+        let block = read_design("x", include_bytes!("../designs/rigid_wall.yaml")).unwrap().design;
+        assert_eq!(given_arrival(&block.flow.arrival), Some((Some(0.97), 8.85)));
+        let Arrival::DamBreak(mut block) = block.flow.arrival else { panic!("a block") };
+        block.velocity_at_barrier = None;
+        assert_eq!(given_arrival(&Arrival::DamBreak(block)), None);
+    }
+
+    #[test]
+    fn what_the_first_surge_shows_is_the_mean_of_its_packings_with_the_band_of_the_rung() {
+        let design = small_net();
+        let guideline = guideline_of(&design);
+        let seen = |push_peak: f64, k_effective: Option<f64>, sampled: f64| Observed {
+            push_peak,
+            k_effective,
+            force_peak: 100e3,
+            force_peak_sampled: sampled,
+            ..arriving(push_peak * 1e-4, 10.0)
+        };
+        let starts = simulated(vec![seen(40e3, Some(0.8), 150e3), seen(60e3, None, 120e3)]);
+        let first = first_surge(&RUNGS[2], &design, &guideline, &starts);
+        assert_eq!((first.push, first.velocity, first.earth_pressure), (50e3, 5.0, Some(0.8)));
+        assert_eq!(first.sampled_over_smoothed, 1.5);
+        let band = RUNGS[2].band;
+        assert_eq!((first.force_band, first.stroke_band, first.share_band), (band.force, band.stroke, band.share));
+        // Where no deposit shows its K, its weight tells, if the barrier fills.
+        let hidden = simulated(vec![seen(40e3, None, 1.0)]);
+        let by_weight = first_surge(&RUNGS[2], &design, &guideline, &hidden).earth_pressure;
+        assert_eq!(by_weight, crate::demand::from_loads::earth_pressure_by_weight(&design, &guideline));
+        assert!(by_weight.is_some());
+        let mut one_event = design.clone();
+        one_event.loads.to_the_top = false;
+        assert_eq!(first_surge(&RUNGS[2], &one_event, &guideline, &hidden).earth_pressure, None);
+    }
+
+    #[test]
+    fn a_doubt_says_of_which_packing_and_flow_it_is() {
+        let run = Simulated { doubts: vec!["it broke".into()], ..simulated(vec![Observed::of_ropes(3)]) };
+        assert_eq!(doubts_of(LoadCase::Characteristic, &run, 1), ["it broke"]);
+        assert_eq!(doubts_of(LoadCase::Characteristic, &run, 2), ["seed 7: it broke"]);
+        assert_eq!(doubts_of(LoadCase::Factored, &run, 1), ["factored flow: it broke"]);
+        assert_eq!(doubts_of(LoadCase::Factored, &run, 5), ["seed 7: factored flow: it broke"]);
+    }
+
+    #[test]
+    fn the_check_that_uses_most_governs() {
+        let named = |title: &str, demand: f64| Outcome { title: title.into(), ..check(demand, demand) };
+        assert_eq!(governing(&[named("rope", 0.2), named("net", 0.75), named("bolt", 0.3)]), "net (75 %)");
+        assert_eq!(governing(&[]), "");
+    }
+
+    #[test]
+    fn verdicts_have_their_words() {
+        let words = [Verdict::Pass, Verdict::Fail, Verdict::Undecided].map(Verdict::word);
+        assert_eq!(words, ["pass", "fail", "undecided"]);
+    }
+
+    /// A recorded run is judged by what was recorded: here a flow that pushes the net with next to nothing, and one that is doubtful.
+    #[test]
+    fn a_run_ends_with_what_its_checks_and_doubts_say() {
+        let file = || read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap();
+        let seen = |doubts: Vec<String>| {
+            let observed = Observed { push_peak: 40e3, ..arriving(4.6, 10.6) };
+            Simulated { doubts, ..simulated(vec![observed; 5]) }
+        };
+        let run = restore(file(), Some(seen(Vec::new())), Vec::new(), Vec::new());
+        assert!(run.doubts.is_empty() && run.outcomes.iter().any(|outcome| outcome.id == "net_tension"));
+        let doubtful = restore(file(), Some(seen(vec!["it broke".into()])), Vec::new(), Vec::new());
+        assert_eq!((doubtful.verdict, doubtful.doubts.len()), (Verdict::Undecided, 1));
+        let slow = Simulated { starts: simulated(vec![arriving(1.0, 0.1); 5]).starts, ..seen(Vec::new()) };
+        assert_eq!(restore(file(), Some(slow), Vec::new(), Vec::new()).verdict, Verdict::Undecided);
     }
 }

@@ -26,7 +26,7 @@ use crate::scene::flow::packing::PackingError;
 use crate::starts::Spread;
 
 /// What the simulation shows: the first start in full, of every start what was observed.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Simulated {
     /// Chosen by the design, so it need not be recorded.
     #[serde(skip)]

@@ -2,6 +2,7 @@
 //! calculator's arithmetic from the equations named beside it, not with this program.
 
 use barrier_check::checks::check_all;
+use barrier_check::checks::detailing::{Bearing, Rule, rules};
 use barrier_check::checks::outcome::Outcome;
 use barrier_check::demand::from_histories::Observed;
 use barrier_check::demand::from_loads::{Guideline, guideline};
@@ -79,7 +80,7 @@ fn outcome<'a>(outcomes: &'a [Outcome], id: &str) -> &'a Outcome {
 
 #[track_caller]
 fn near(found: f64, by_hand: f64) {
-    assert!((found / by_hand - 1.0).abs() < 2e-3, "{found} instead of {by_hand}");
+    assert!((found - by_hand).abs() <= 2e-3 * by_hand.abs(), "{found} instead of {by_hand}");
 }
 
 /// H = 3 cos 25° = 2.7189 m; K ρ g' = 1.2 · 1800 · 9.2184 = 19.912 kN/m³; λ ρ v² = 24.3 kPa.
@@ -140,6 +141,65 @@ fn ropes_of_the_net() {
     near(bolts.demand.guideline.unwrap(), 85.030e3);
     // 200/1.25 · 90 %
     near(bolts.capacity.unwrap(), 144e3);
+}
+
+/// Rope 2 sags by 60.858 · 4²/(8 √(150² − 121.72²)) = 1.3887 m of 4 m; the flow of 7.2 m³/s is 5.937 times 0.1 · 20^0.833; a level deposit of
+/// 5 m² stands √(10/(cot 20° + tan 25°)) = 1.7640 m high, higher than the flow runs up; three quarters of the height hold 75.76 m³.
+#[test]
+fn rules_of_the_net() {
+    let design = design(NET);
+    let (guideline, _, _) = by_equations(&design);
+    let rules = rules(&design, &guideline);
+    let rule = |title: &str| -> &Rule { rules.iter().find(|rule| rule.title.starts_with(title)).expect("a rule") };
+    for (title, found, least, most, bearing) in [
+        ("Depth of the flow", 0.6, None, Some(2.0), Bearing::Pressures),
+        ("Velocity of the flow", 3.0, None, Some(10.0), Bearing::Pressures),
+        ("Density of the flow", 1800.0, Some(1600.0), Some(2200.0), Bearing::Advice),
+        ("Density of a debris flow", 1800.0, Some(1000.0), None, Bearing::Pressures),
+        ("Froude number", 1.27561, Some(2.31983), None, Bearing::Pressures),
+        ("Height of filling", 2.7189, None, Some(4.0), Bearing::Pressures),
+        ("Lean of the barrier", 5.0, None, Some(20.0), Bearing::Pressures),
+        ("Coefficient K", 1.2, Some(1.0), None, Bearing::Pressures),
+        ("Coefficient λ", 1.5, Some(0.7), None, Bearing::Pressures),
+        ("Largest sag", 0.3472, None, Some(0.3), Bearing::Ropes),
+        ("Height of the point load", 1.4, Some(0.906308), None, Bearing::Advice),
+        ("Freeboard", 2.7189 - 1.7640, Some(0.0), None, Bearing::Advice),
+        ("Discharge", 5.93710, Some(1.0 / 3.0), Some(3.0), Bearing::Flow),
+        ("Volume held against", 75.7565, Some(20.0), None, Bearing::Advice),
+        ("Volume held by one net", 75.7565, None, Some(2000.0), Bearing::Advice),
+        ("Angle between", 25.0, Some(5.0), None, Bearing::Advice),
+        ("Free span", 4.0, None, Some(15.0), Bearing::Advice),
+        ("Height", 2.7189, None, Some(4.0), Bearing::Pressures),
+    ] {
+        let rule = rule(title);
+        near(rule.found, found);
+        assert_eq!(rule.bearing, bearing, "{title}");
+        for (limit, by_hand) in [(rule.least, least), (rule.most, most)] {
+            assert_eq!(limit.is_some(), by_hand.is_some(), "{title}");
+            near(limit.unwrap_or(1.0), by_hand.unwrap_or(1.0));
+        }
+    }
+    assert_eq!(rules.iter().filter(|rule| !rule.holds()).count(), 3, "Froude number, sag, discharge");
+    // A point load where the lowest rope is free is no rule's, and a wall leans from plumb or from the bed's normal, whichever is less.
+    let free = NET.replace("bottom: {fixed: to_bed}", "bottom: {opening: 100 mm}");
+    let free = free.replace(
+        "anchors: {resistance: 400 kN, bed_bolt_spacing: 0.7 m, bed_bolt_resistance: 200 kN}",
+        "anchors: {resistance: 400 kN}",
+    );
+    let titles = |text: &str| {
+        let design = self::design(text);
+        let guideline = by_equations(&design).0;
+        rules_of(&design, &guideline)
+    };
+    assert!(titles(&free).iter().all(|(title, _)| !title.starts_with("Height of the point load")));
+    let lean = |text: &str| titles(text).into_iter().find(|(title, _)| title.starts_with("Lean")).expect("a rule").1;
+    near(lean(WALL), 3.0);
+    let normal = WALL.replace("tilt: -3 deg", "tilt: -23 deg").replace("base_slope: 5 deg", "base_slope: 21 deg");
+    near(lean(&normal), 2.0);
+}
+
+fn rules_of(design: &Design, guideline: &Guideline) -> Vec<(&'static str, f64)> {
+    rules(design, guideline).into_iter().map(|rule| (rule.title, rule.found)).collect()
 }
 
 /// What one packing of the flow without partial factors showed, times 1.35 where the response is proportional to it; strokes and shares

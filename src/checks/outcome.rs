@@ -314,4 +314,37 @@ mod tests {
         let least = |least| Outcome::at_least(CheckName::new("x", "x", "-", "x"), Demand::default(), least).verdict;
         assert_eq!((least(0.9), least(0.0)), (CheckVerdict::Open, CheckVerdict::Info));
     }
+
+    #[test]
+    fn verdicts_and_reasons_have_their_words() {
+        use CheckVerdict::{Fail, Info, Open, Pass, Warn};
+        assert_eq!([Pass, Warn, Fail, Open, Info].map(CheckVerdict::word), ["pass", "warn", "fail", "open", "info"]);
+        type Why = fn(String) -> Opening;
+        let reasons: [Why; 5] = [
+            Opening::NotGiven,
+            Opening::NeedsSimulation,
+            Opening::TooClose,
+            Opening::OutOfRange,
+            Opening::Contradicted,
+        ];
+        assert!(reasons.iter().all(|why| why("words".into()).words() == "words"));
+    }
+
+    #[test]
+    fn the_equations_govern_where_they_tell_no_less() {
+        let governed = |guideline: Option<f64>, simulation: Option<f64>| {
+            let demand = Demand { guideline, simulation, ..Demand::default() };
+            Outcome::informative(name(), demand).governed_by_equations()
+        };
+        assert!(governed(Some(2.0), Some(1.0)) && governed(Some(1.0), Some(1.0)) && governed(Some(1.0), None));
+        assert!(!governed(Some(1.0), Some(2.0)) && !governed(None, Some(1.0)) && !governed(None, None));
+    }
+
+    #[test]
+    fn where_nothing_may_be_missing_what_is_missing_is_beyond() {
+        let demand = Demand { simulation: Some(0.75), ..Demand::default() };
+        assert_eq!(Outcome::at_least(name(), demand, 1.0).utilisation, Some(1.25));
+        let full = Demand { simulation: Some(1.0), ..Demand::default() };
+        assert_eq!(Outcome::at_least(name(), full, 1.0).utilisation, Some(0.0));
+    }
 }

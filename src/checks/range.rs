@@ -166,4 +166,62 @@ mod tests {
         }
         assert_eq!(verdict(&design), CheckVerdict::Warn);
     }
+
+    /// Lateral ropes of 18 mm, a main rope between bolts of 22 mm: 13 % of EA is beyond what is known to be elastic.
+    #[test]
+    fn lateral_ropes_and_the_rope_between_bolts_that_stretch_stay_open() {
+        use crate::demand::Demand;
+        let mut design = design();
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        for rope in [&mut net.lateral_rope, &mut net.main_ropes.rope] {
+            rope.breaking_load = 1e12;
+        }
+        let (lateral, main) = (net.lateral_rope.axial_stiffness(), net.main_ropes.rope.axial_stiffness());
+        let guideline = guideline(&design);
+        for (id, axial) in [("lateral_tension", lateral), ("rope_1_tension", main)] {
+            let verdict = |strain: f64| {
+                let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+                let outcome = outcomes.iter_mut().find(|outcome| outcome.id == id).expect("a check");
+                outcome.demand = Demand { simulation: Some(strain * axial), ..Demand::default() };
+                (outcome.verdict, outcome.open) = (CheckVerdict::Pass, None);
+                leave_open_outside_range(&design, &guideline, &mut outcomes);
+                outcomes.iter().find(|outcome| outcome.id == id).expect("it").verdict
+            };
+            assert_eq!(verdict(0.09), CheckVerdict::Pass, "{id}");
+            assert_eq!(verdict(0.13), CheckVerdict::Open, "{id}");
+        }
+    }
+
+    /// What fails or is open already stays so; a simulated demand above that of the equations is theirs no longer, unless surges come until
+    /// the barrier is full.
+    #[test]
+    fn a_range_bears_on_what_holds_by_the_equations() {
+        let mut design = design();
+        design.factors.dynamic_pressure = 2.0;
+        if let crate::design::Arrival::Surge(surge) = &mut design.flow.arrival {
+            surge.velocity = 4.0;
+        }
+        let after = |design: &Design, change: &dyn Fn(&mut Outcome)| {
+            let guideline = guideline(design);
+            let mut outcomes = check_all(design, &Demands::by_equations(&guideline, &design.factors));
+            let outcome = outcomes.iter_mut().find(|outcome| outcome.id == "rope_3_tension").expect("a check");
+            change(outcome);
+            leave_open_outside_range(design, &guideline, &mut outcomes);
+            outcomes.into_iter().find(|outcome| outcome.id == "rope_3_tension").expect("it").verdict
+        };
+        assert_eq!(after(&design, &|_| ()), CheckVerdict::Open);
+        assert_eq!(after(&design, &|outcome| outcome.verdict = CheckVerdict::Fail), CheckVerdict::Fail);
+        assert_eq!(after(&design, &|outcome| outcome.utilisation = None), CheckVerdict::Pass);
+        let simulated = |outcome: &mut Outcome| {
+            outcome.demand.simulation = outcome.demand.guideline.map(|guideline| 1.1 * guideline);
+        };
+        assert_eq!(after(&design, &simulated), CheckVerdict::Open);
+        let alone = |outcome: &mut Outcome| {
+            simulated(outcome);
+            outcome.demand.guideline = None;
+        };
+        assert_eq!(after(&design, &alone), CheckVerdict::Pass);
+        design.loads.to_the_top = false;
+        assert_eq!(after(&design, &simulated), CheckVerdict::Pass);
+    }
 }

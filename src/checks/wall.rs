@@ -139,4 +139,37 @@ mod tests {
         let level = along / libm::cos(40_f64.to_radians());
         assert_relative_eq!(sliding.demand.guideline.unwrap(), level, max_relative = 1e-9);
     }
+
+    /// What is simulated is held against the same weight, its own pull and tilt added, as what the equations say.
+    #[test]
+    fn a_simulated_push_comes_beside_the_wall_s_own() {
+        let mut design = with_stability();
+        let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        let stability = wall.stability.as_mut().expect("stability");
+        (stability.base_slope, stability.bearing_resistance) = (0.1, Some(1e6));
+        let input = wall_of(&design).expect("a wall");
+        let simulated =
+            |value: f64| Demand { simulation: Some(value), characteristic: Some(0.5 * value), ..Demand::default() };
+        let demands = Demands {
+            wall_sliding: simulated(40e3),
+            wall_overturning: simulated(60e3),
+            wall_press: simulated(10e3),
+            ..Demands::default()
+        };
+        let outcomes = check(&design, &demands);
+        let of = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).expect("a check").demand;
+        let ([_, pull], [holds, tilt]) = (input.sliding(), input.overturning());
+        assert!(pull > 1e3 && tilt > 1e3);
+        assert_eq!(of("wall_sliding").simulation, Some(40e3 + pull));
+        assert_eq!(of("wall_sliding").characteristic, Some(20e3 + pull));
+        assert_eq!(of("wall_overturning").simulation, Some(60e3 + tilt));
+        let normal = input.weight() * libm::cos(0.1_f64);
+        let off = 1.0 - (holds - 60e3 - tilt) / normal;
+        assert_relative_eq!(of("wall_eccentricity").simulation.unwrap(), off, max_relative = 1e-12);
+        assert_relative_eq!(
+            of("wall_bearing").simulation.unwrap(),
+            (normal + 10e3) / (2.0 - 2.0 * off),
+            max_relative = 1e-12
+        );
+    }
 }

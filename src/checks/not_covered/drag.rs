@@ -85,4 +85,20 @@ mod tests {
         assert_eq!(verdict_of(1.2 * with), CheckVerdict::Pass);
         assert_eq!(verdict_of(0.5 * (with + without)), CheckVerdict::Open);
     }
+
+    #[test]
+    fn what_does_not_rest_on_pressures_or_is_simulated_alone_needs_no_drag() {
+        use crate::demand::Demand;
+        let mut design = small_net();
+        design.loads.overflow_depth = Some(0.05);
+        let guideline = guideline(&design);
+        let net_tension = Demand { simulation: Some(1.0), ..Demand::default() };
+        let demands = Demands { net_tension, ..Demands::by_equations(&guideline, &design.factors) };
+        let mut outcomes = check_all(&design, &demands);
+        leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
+        let verdict = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict;
+        assert_eq!(verdict("net_tension"), CheckVerdict::Pass);
+        assert_eq!(verdict("anchor_plateau"), CheckVerdict::Pass);
+        assert_eq!(verdict("rope_3_tension"), CheckVerdict::Open);
+    }
 }

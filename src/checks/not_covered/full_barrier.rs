@@ -162,4 +162,30 @@ mod tests {
         let verdict = capped.iter().find(|outcome| outcome.id == "rope_3_tension").map(|outcome| outcome.verdict);
         assert_eq!(verdict, Some(CheckVerdict::Pass));
     }
+
+    /// Half as much again as the first surge, of which the simulation shows half of what the part holds, and may show 60 % more.
+    #[test]
+    fn where_the_equations_tell_more_the_simulation_need_only_not_contradict_them_but_for_bolts() {
+        let design = small_net();
+        let guideline = guideline(&design);
+        let seen = FirstSurge { force_band: 0.6, stroke_band: 0.2, ..pushing(guideline.largest_force / 1.5) };
+        let after = |id: &str, share: f64, simulated: f64| {
+            let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+            let outcome = outcomes.iter_mut().find(|outcome| outcome.id == id).expect("a check");
+            let capacity = outcome.capacity.expect("a capacity");
+            outcome.demand.guideline = Some(share * capacity);
+            outcome.demand.simulation = Some(simulated * capacity);
+            outcome.verdict = CheckVerdict::Pass;
+            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            outcomes.iter().find(|outcome| outcome.id == id).expect("it").verdict
+        };
+        assert_eq!(after("rope_3_tension", 0.8, 0.5), CheckVerdict::Pass);
+        assert_eq!(after("rope_3_tension", 0.4, 0.5), CheckVerdict::Open);
+        assert_eq!(after("rope_3_tension", 0.8, 0.7), CheckVerdict::Open);
+        assert_eq!(after("bed_bolts", 0.8, 0.5), CheckVerdict::Open);
+        assert_eq!(after("bed_bolts", 0.8, 0.4), CheckVerdict::Pass);
+        // A stroke has a band of its own: 0.5 · 1.5 · 1.2.
+        assert_eq!(after("brake_3_stroke", 0.4, 0.5), CheckVerdict::Pass);
+        assert_eq!(after("brake_3_stroke", 0.4, 0.6), CheckVerdict::Open);
+    }
 }

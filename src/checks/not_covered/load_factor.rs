@@ -30,4 +30,12 @@ mod tests {
         design.factors.load_given = false;
         assert_eq!(verdict(&design, "rope_2_tension", first), CheckVerdict::Open);
     }
+
+    #[test]
+    fn what_has_no_resistance_or_no_utilisation_needs_no_factor() {
+        let mut design = small_net();
+        let first = guideline(&design).first_surge();
+        design.factors.load_given = false;
+        assert_eq!(verdict(&design, "brake_plateau", first), CheckVerdict::Pass);
+    }
 }

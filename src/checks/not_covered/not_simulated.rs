@@ -62,4 +62,35 @@ mod tests {
             assert_eq!(net_verdict(&design, 0.4 * net_holds(&design), first(&design)), CheckVerdict::Open);
         }
     }
+
+    #[test]
+    fn what_is_held_what_fails_and_what_the_equations_govern_is_left_as_it_is() {
+        use super::*;
+        use crate::checks::check_all;
+        use crate::demand::{Demand, Demands};
+        let mut design = small_net();
+        design.flow.event_volume = design.flow.volume() + 0.5;
+        let guideline = guideline(&design);
+        let simulated = |simulation: f64| Demand { simulation: Some(simulation), ..Demand::default() };
+        let mut demands = Demands::by_equations(&guideline, &design.factors);
+        (demands.retained, demands.net_tension) = (simulated(1.0), simulated(0.4 * net_holds(&design)));
+        demands.lateral_tension = simulated(1e9);
+        demands.rope_tension[2].simulation = Some(1.0);
+        demands.brake_force = simulated(1.0);
+        let before = check_all(&design, &demands);
+        let mut after = before.clone();
+        leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut after);
+        let changed: Vec<&str> = before
+            .iter()
+            .zip(&after)
+            .filter(|(before, after)| before.verdict != after.verdict)
+            .map(|(before, _)| before.id.as_str())
+            .collect();
+        assert_eq!(changed, ["net_tension"]);
+        // A tenth of a percent is rounding.
+        design.flow.event_volume = 1.0005 * design.flow.volume();
+        let mut same = before.clone();
+        leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut same);
+        assert_eq!(same, before);
+    }
 }
