@@ -161,11 +161,17 @@ enum SchemaOf {
 const STACK: usize = 16 << 20;
 
 fn main() {
+    // A fault of the program's own, in whatever thread, is told like any other error.
+    std::panic::set_hook(Box::new(|fault| {
+        terminal::warn(format_args!(
+            "error: the program has a fault of its own and cannot go on ({fault}); nothing that was written before is lost, and an interrupted run that is kept can be resumed. Please report this with the design file"
+        ));
+    }));
     let ran = std::thread::Builder::new().stack_size(STACK).spawn(run).map(std::thread::JoinHandle::join);
     process::exit(match ran {
         Ok(Ok(code)) => code,
-        // A panic has told of itself.
-        Ok(Err(_)) => 101,
+        // It has told of itself.
+        Ok(Err(_)) => 2,
         Err(error) => {
             terminal::warn(format_args!("error: no thread could be started: {error}"));
             2

@@ -216,6 +216,9 @@ fn factor_of(symbol: &str) -> Option<(Dimension, f64)> {
     UNITS.iter().find(|(known, _, _)| *known == symbol).map(|(_, dimension, factor)| (*dimension, *factor))
 }
 
+/// Signs that are typed or pasted for a minus.
+const DASHES: &str = "\u{2010}\u{2011}\u{2012}\u{2013}\u{2014}\u{2212}";
+
 /// Reads `text` as a quantity of the given dimension and returns its SI value.
 ///
 /// Accepts `15.2 m`, `15.2m`, `1.35e3 kg/m3`, `kg/m^3`, `kg/m³`. A unit is required.
@@ -227,7 +230,9 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
     }
     let (number, unit) = split(trimmed);
     let Ok(value) = number.parse::<f64>() else {
-        return fail(format!("`{trimmed}`, which does not start with a number"), None);
+        let plain: String = trimmed.chars().map(|letter| if DASHES.contains(letter) { '-' } else { letter }).collect();
+        let hint = (plain != trimmed).then(|| format!("a negative number has a plain minus sign: `{plain}`"));
+        return fail(format!("`{trimmed}`, which does not start with a number"), hint);
     };
     if let Some(run) = unit.strip_prefix(':').and_then(|run| run.trim().parse::<f64>().ok())
         && wanted == Dimension::Angle

@@ -6,6 +6,8 @@ use std::process::{Command, Output};
 
 const DESIGN: &str = include_str!("fixtures/tiny.yaml");
 
+const SNOW: &str = "\nloads:\n  snow_pressure: 1 kPa\n";
+
 /// A new folder with a design in it, in which a user works.
 fn workplace(name: &str) -> PathBuf {
     let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("folders").join(name);
@@ -130,11 +132,17 @@ fn of_two_runs_in_one_folder_one_is_told_to_wait() {
 #[test]
 fn what_an_earlier_run_drew_and_this_one_does_not_is_gone() {
     let place = workplace("stale");
+    std::fs::write(place.join("net.yaml"), DESIGN.to_string() + SNOW).expect("a design");
     run(&place, &["net.yaml", "--vtk", "--out", "out"]);
     assert!(place.join("out/vtk").is_dir() && place.join("out/histories.csv").is_file());
     std::fs::write(place.join("out/notes.txt"), "mine").expect("a file");
-    run(&place, &["loads", "net.yaml", "--out", "out"]);
-    assert!(!place.join("out/vtk").exists() && !place.join("out/histories.csv").exists());
+    // Without the snow that the first one had a picture of.
+    let first = std::fs::read_to_string(place.join("net.yaml")).expect("a design");
+    let snow = place.join("out/case_snow.svg");
+    assert!(snow.is_file());
+    std::fs::write(place.join("net.yaml"), first.replace(SNOW, "")).expect("a design");
+    run(&place, &["net.yaml", "--out", "out"]);
+    assert!(!place.join("out/vtk").exists() && !snow.exists());
     let page = std::fs::read_to_string(place.join("out/report.md")).expect("a report");
     for (path, _) in all_below(&place.join("out")) {
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
@@ -152,6 +160,25 @@ fn a_folder_that_cannot_be_written_is_told_before_the_run() {
     let refused = run(&place, &["net.yaml", "--out", "/proc/1/x"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(error(&refused).contains("the report could not be written to /proc/1/x"), "{}", error(&refused));
+}
+
+#[test]
+fn the_equations_alone_do_not_take_the_place_of_a_simulation() {
+    let place = workplace("simulated");
+    let recorded = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/recorded");
+    std::fs::create_dir(place.join("run")).expect("a folder");
+    std::fs::copy(recorded.with_extension("bin"), place.join("run/recording.bin")).expect("a recording");
+    assert_eq!(run(&place, &["report", "run"]).status.code(), Some(1));
+    let files = |place: &Path| {
+        let mut files = all_below(place);
+        files.retain(|(path, _)| !path.ends_with("manifest.json"));
+        files
+    };
+    let before = files(&place);
+    let refused = run(&place, &["loads", "net.yaml", "--out", "run"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(error(&refused).contains("holds the report of a simulated run"), "{}", error(&refused));
+    assert!(before == files(&place), "something was changed");
 }
 
 #[test]

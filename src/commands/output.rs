@@ -14,6 +14,9 @@ use crate::report::view::View;
 use crate::report::vtk;
 use crate::terminal;
 
+/// Time series of a simulation, in every report of one.
+pub const HISTORIES: &str = "histories.csv";
+
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &mut Folder, with_vtk: bool) -> ExitCode {
     match write_report(run, folder, with_vtk) {
@@ -64,7 +67,7 @@ fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Fail
         vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
     files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile::new(name, text)));
     if let Some(simulated) = &run.simulated {
-        files.push(ReportFile::new("histories.csv", series::csv(&simulated.histories)));
+        files.push(ReportFile::new(HISTORIES, series::csv(&simulated.histories)));
         files.push(ReportFile::new("histories.parquet", series::parquet(&simulated.histories)?));
     }
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {

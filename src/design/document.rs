@@ -15,6 +15,9 @@ const MOST_VALUES: usize = 20_000;
 /// Prefix by which an exhausted budget is recognised among parser messages.
 const TOO_MANY: &str = "more than 20000 values";
 
+/// Characters of a text that a message shows.
+const LONGEST_SHOWN: usize = 80;
+
 /// A value of the file as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
@@ -33,7 +36,10 @@ impl Node {
         match self {
             Self::Map(_) => "a group of keys".into(),
             Self::List(_) => "a list".into(),
-            Self::Text(text) => format!("`{text}`"),
+            Self::Text(text) => match text.char_indices().nth(LONGEST_SHOWN) {
+                Some((end, _)) => format!("`{}…`, a long text", &text[..end]),
+                None => format!("`{text}`"),
+            },
             Self::Number(number) => format!("`{number}`, a number without a unit"),
             Self::Flag(flag) => format!("`{flag}`"),
             Self::Nothing => "nothing".into(),

@@ -11,11 +11,12 @@ pub fn explain(message: &str, gave_up: Option<Position>, text: &str) -> Problem 
     let position = match began {
         Some(began) if started_before.iter().any(|known| said.contains(known)) => Some(began),
         _ if said.contains("more than one document") => second_document(text),
+        _ if said.contains("control characters") => control_character(text),
         _ => gave_up,
     };
     let line = position.and_then(|place| text.lines().nth(place.line - 1)).unwrap_or("");
-    let problem =
-        Problem::new("", format!("text that is not YAML: {said}"), "YAML: `key: value` lines, indented with spaces");
+    let [found, allowed] = found_and_allowed(said);
+    let problem = Problem::new("", found, allowed);
     match cause(said, line, position) {
         Some(hint) => problem.hint(hint),
         None => problem,
@@ -48,6 +49,9 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         _ if said.contains("expected key") && content.starts_with("- ") => {
             format!("a dash begins an item of a list; a key has none: `{}`", content.trim_start_matches("- "))
         }
+        _ if said.contains("expected key") && beyond_its_quotes(value) => {
+            format!("the whole value stands between the quotation marks: `{key}: \"{}\"`", value.replace('"', "'"))
+        }
         _ if said.contains("expected key") => {
             format!("the keys of a group begin in one column: `{key}` is indented otherwise than those above it")
         }
@@ -69,7 +73,60 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         _ if said.contains("more than one document") => {
             "a design file holds one design: leave out the line `---` and what follows it".to_string()
         }
+        _ if said.contains("unknown anchor") => {
+            format!(
+                "`*` repeats what was named with `&` further up, and nothing was: a text that begins with it needs quotes, `{key}: \"{value}\"`"
+            )
+        }
+        _ if said.contains("unknown escape") => {
+            format!(
+                "between double quotation marks a backslash begins a special character: use single ones, `{key}: '{}'`",
+                value.trim_matches('"')
+            )
+        }
+        _ if said.contains("invalid type: enum") => {
+            format!(
+                "a value that begins with `!` is a tag, which no key of a design takes: `{key}: {}`",
+                without_tag(value)
+            )
+        }
+        _ if said.contains("invalid type: integer") => "no number of a design has so many digits".to_string(),
+        _ if said.contains("control characters") => {
+            "the file holds a character that no text has: is it text, and saved as UTF-8?".to_string()
+        }
         _ => return None,
+    })
+}
+
+/// Whether a value begins with a quotation mark that is closed before its end.
+fn beyond_its_quotes(value: &str) -> bool {
+    let mark = value.chars().next().filter(|first| "\"'".contains(*first));
+    mark.is_some_and(|mark| value[1..].find(mark).is_some_and(|end| end + 2 < value.len()))
+}
+
+fn without_tag(value: &str) -> &str {
+    value.split_once(' ').map_or("", |(_, value)| value.trim())
+}
+
+/// What is found and what is allowed: of values that no design has in the words of the reader.
+fn found_and_allowed(said: &str) -> [String; 2] {
+    let found = match said {
+        _ if said.contains("invalid type: integer") => "a whole number that is too large",
+        _ if said.contains("invalid type: enum") => "a value with a tag",
+        _ => {
+            return [format!("text that is not YAML: {said}"), "YAML: `key: value` lines, indented with spaces".into()];
+        }
+    };
+    [found.into(), "a text, a number, a list or a group of keys".into()]
+}
+
+/// Where the first control character stands: the parser tells only how many bytes come before it.
+fn control_character(text: &str) -> Option<Position> {
+    let forbidden = |letter: char| letter.is_control() && !"\n\r\t\u{85}".contains(letter);
+    let mut lines = text.lines().enumerate();
+    lines.find_map(|(line, text)| {
+        let column = text.chars().position(forbidden)?;
+        Some(Position { line: line + 1, column: column + 1 })
     })
 }
 
@@ -118,6 +175,12 @@ mod tests {
             ("3 m", "\"3 m", 2, "the quotation mark that is opened here is not closed"),
             ("3 m", "[3 m", 2, "the bracket `[`"),
             ("none\n", "none\n---\na: 1\n", 5, "leave out the line `---`"),
+            ("none", "\"see\" this", 4, "between the quotation marks: `notes: \"'see' this\"`"),
+            ("3 m", "*wide", 2, "nothing was: a text that begins with it needs quotes, `width: \"*wide\"`"),
+            ("none", "\"C:\\qed\"", 4, "use single ones, `notes: 'C:\\qed'`"),
+            ("3 m", "!metres 3 m", 2, "which no key of a design takes: `width: 3 m`"),
+            ("3 m", "99999999999999999999999", 2, "so many digits"),
+            ("none", "n\u{0}ne", 4, "a character that no text has"),
         ] {
             let (at, said) = told(from, to);
             assert_eq!(at, Some(line), "{to}: {said}");

@@ -137,6 +137,11 @@ impl Folder {
         &self.path
     }
 
+    /// Whether a report here has a file of that name.
+    pub fn holds(&self, name: &str) -> bool {
+        self.manifest.names().any(|known| known == name)
+    }
+
     /// Reads the manifest, or tells that the folder is not the program's.
     fn whose(&mut self) -> Result<(), Refusal> {
         let place = self.path.join(manifest::FILE);

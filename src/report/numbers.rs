@@ -33,6 +33,8 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "m" if value.abs() < 0.1 => format!("{value:.3} m"),
         "" => figures(value),
         "count" => format!("{value:.0}"),
+        // What rounds to nothing has no sign.
+        "-" if value.abs() < 0.0005 => "0.0 %".to_string(),
         "-" => format!("{:.1} %", 100.0 * value),
         unit => format!("{} {unit}", figures(value)),
     }
