@@ -101,4 +101,15 @@ mod tests {
         assert_eq!(verdict(Some(f64::NAN)), CheckVerdict::Open);
         assert_eq!(verdict(None), CheckVerdict::Open);
     }
+
+    /// Three pieces broken are told as three, beyond what may break by all of them.
+    #[test]
+    fn every_broken_piece_counts() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.net_rope.breaks = true;
+        let broken_pieces = crate::demand::Demand { simulation: Some(3.0), ..Default::default() };
+        let outcomes = check_broken(&design, &Demands { broken_pieces, ..Demands::default() });
+        assert_eq!(outcomes[0].utilisation, Some(4.0));
+    }
 }

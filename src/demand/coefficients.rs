@@ -151,4 +151,78 @@ mod tests {
         assert_relative_eq!(told.dynamic_mean[10], 0.2, max_relative = 1e-12);
         assert_relative_eq!(told.force_dead[10], first, max_relative = 1e-12);
     }
+
+    fn whole(input: &GuidelineInput, change: impl Fn(&mut Histories)) -> Coefficients {
+        let count = 8;
+        let mut histories = Histories {
+            time: (0..count).map(|sample| sample as f64).collect(),
+            force: vec![Vec3::new(90e3, 0.0, 0.0); count],
+            pushes_by_state: vec![[20e3, 10e3]; count],
+            dead_depth: vec![1.5; count],
+            barrier_depth: vec![2.0; count],
+            incoming: vec![Gauge { velocity: 4.0, ..Gauge::default() }; count],
+            velocity: vec![[2.0, 0.0]; count],
+            ..Histories::default()
+        };
+        change(&mut histories);
+        coefficients(&histories, input, 3.0, 1, 0.1)
+    }
+
+    /// 30 kN/m, two thirds of them by grains at rest, 1.5 m deep under 0.5 m of moving ones: K ρ g' 1.5 · 1.25 and
+    /// ½ K ρ g' 0.25 + λ ρ 2² · 0.5 by the guideline.
+    #[test]
+    fn forces_are_split_by_who_pushes_and_set_beside_the_guideline_s() {
+        let input =
+            GuidelineInput { earth_pressure: 1.3, dynamic_pressure: 0.8, ..crate::loads::cases::tests::input() };
+        let told = whole(&input, |_| ());
+        assert!(told.is_whole());
+        let unit = 1.3 * input.density * input.gravity_normal;
+        for (found, by_hand) in [
+            (told.force_dead[3], 20e3),
+            (told.force_moving[3], 10e3),
+            (told.guideline_dead[3], unit * 1.5 * 1.25),
+            (told.guideline_moving[3], unit * 0.125 + 0.8 * input.density * 2.0),
+            (told.deposit[3], 1.5),
+            (told.moving[3], 0.5),
+            (told.velocity_upstream[3], 4.0),
+            (told.velocity_mean[3], 2.0),
+        ] {
+            assert_relative_eq!(found, by_hand, max_relative = 1e-12);
+        }
+        // Nothing touches: all of it is the moving flow's.
+        let untouched = whole(&input, |histories| histories.pushes_by_state.fill([0.0; 2]));
+        assert_eq!((untouched.force_dead[3], untouched.force_moving[3]), (0.0, 30e3));
+        assert!(!Coefficients { deposit: Vec::new(), ..told }.is_whole());
+    }
+
+    #[test]
+    fn what_is_thin_slow_or_stands_tells_no_coefficient() {
+        let input = crate::loads::cases::tests::input();
+        let lambda = |change: &dyn Fn(&mut Histories)| {
+            let told = whole(&input, change);
+            [told.dynamic_upstream[3], told.dynamic_mean[3], told.earth_pressure[3]].map(f64::is_finite)
+        };
+        assert_eq!(lambda(&|_| ()), [true, true, true]);
+        assert_eq!(lambda(&|histories| histories.barrier_depth.fill(1.55)), [false, false, true]);
+        assert_eq!(lambda(&|histories| histories.dead_depth.fill(0.05)), [true, true, false]);
+        // A fifth of the highest velocity is slow: 2 of 12 m/s, and 2.3 of 12 m/s just upstream.
+        let slow = |upstream: f64| {
+            move |histories: &mut Histories| {
+                histories.velocity[0] = [12.0, 0.0];
+                histories.incoming[3].velocity = upstream;
+            }
+        };
+        assert_eq!(lambda(&slow(2.5)), [true, false, true]);
+        assert_eq!(lambda(&slow(2.3)), [false, false, true]);
+        assert_eq!(lambda(&|histories| histories.incoming[3].at_rest = 0.02), [false, true, true]);
+        assert_eq!(lambda(&|histories| histories.incoming[3].at_rest = 0.01), [true, true, true]);
+    }
+
+    #[test]
+    fn a_coefficient_is_read_where_the_force_is_largest() {
+        let force = [1.0, 5.0, 9.0, 2.0];
+        assert_eq!(Coefficients::peak_of(&force), 2);
+        assert_eq!(Coefficients::at_peak_of(&[0.1, 0.2, 0.3, 0.4], &force), Some(0.3));
+        assert_eq!(Coefficients::at_peak_of(&[0.1, 0.2, f64::NAN, 0.4], &force), None);
+    }
 }

@@ -332,18 +332,24 @@ mod tests {
             lost: vec![[0.0; 4], [0.0; 4], [0.04, 0.03, 0.02, 0.01]],
             stopped_upstream: 0.1,
             incoming: vec![gauge; 3],
-            approaching: vec![Gauge::default(); 3],
+            approaching: [0.3, 0.4, 0.5].map(|depth| Gauge { depth, ..Gauge::default() }).to_vec(),
+            gauges: [8.0, 2.0],
             barrier_depth: vec![0.0, 0.5, 0.7],
             dead_depth: vec![0.0; 3],
             pushes_by_state: vec![[0.0; 2]; 3],
             dead: vec![0.0; 3],
             moving: vec![0.0; 3],
-            front: vec![0.0; 3],
+            front: vec![-8.0, -5.0, -2.0],
             ..Histories::default()
         };
         let seen = Observed::read(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
         assert_eq!((seen.force_peak, seen.force_peak_time, seen.force_residual), (90.0, 2.0, 60.0));
         assert_eq!((seen.push_peak, seen.velocity_peak, seen.velocity_peak_time), (90.0, 5.0, 1.0));
+        assert_eq!((seen.force_peak_sampled, &seen.force), (90.0, &vec![30.0, 90.0, 60.0]));
+        assert_eq!((seen.stopped_upstream, seen.lost), (0.1, [0.04, 0.03, 0.02, 0.01]));
+        assert_eq!((seen.net_tension_residual, seen.incoming_at_peak.depth), (13.0, 0.4));
+        // From 8 m to 2 m before the barrier in the two seconds between samples.
+        assert_eq!(seen.front_velocity, Some(3.0));
         assert_eq!(seen.rope_mean_peak, [1.0, 2.0, 3.0]);
         assert_eq!(seen.rope_mean_residual, [0.25, 0.5, 0.75]);
         assert_eq!(seen.rope_tension_peak, [4.0, 5.0, 6.0]);
@@ -384,5 +390,112 @@ mod tests {
         seen.measure_coefficients(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
         assert_relative_eq!(seen.k_effective.unwrap(), 1.5, max_relative = 1e-9);
         assert_relative_eq!(seen.lambda_effective.unwrap(), 0.8, max_relative = 1e-9);
+    }
+
+    /// A wall of two segments, 15.2 m wide: forces and moment are told per metre.
+    #[test]
+    fn what_a_wall_takes_is_told_per_metre() {
+        let text =
+            include_str!("../../designs/rigid_wall.yaml").replace("    # segments:", "    segments: [2 m, 3.5 m] #");
+        let design = read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
+        let guideline = crate::demand::from_loads::guideline(&design);
+        let row = |peak: f64| vec![0.0, 15.2 * peak, 7.6 * peak];
+        let histories = Histories {
+            time: vec![1.0, 2.0, 3.0],
+            force: vec![crate::dem::Vec3::zeros(); 3],
+            segments: vec![row(40.0), row(30.0)],
+            moment: row(50.0),
+            velocity: vec![[0.0; 2]; 3],
+            lost: vec![[0.0; 4]; 3],
+            incoming: vec![Gauge::default(); 3],
+            barrier_depth: vec![0.0; 3],
+            dead_depth: vec![0.0; 3],
+            pushes_by_state: vec![[0.0; 2]; 3],
+            ..Histories::default()
+        };
+        let seen = Observed::read(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
+        for (found, by_hand) in [
+            (&seen.segment_peak, [40.0, 30.0]),
+            (&seen.segment_residual, [20.0, 15.0]),
+            (&vec![seen.moment_peak; 2], [50.0; 2]),
+        ] {
+            for (found, by_hand) in found.iter().zip(by_hand) {
+                assert_relative_eq!(*found, by_hand, max_relative = 1e-12);
+            }
+        }
+        assert_eq!((seen.front_velocity, seen.residual_height), (None, 1.0));
+        assert!(seen.fits(&design));
+    }
+
+    /// What was forged: a number too few of a rope, of a segment, of a coefficient.
+    #[test]
+    fn what_has_not_a_number_for_each_part_does_not_fit() {
+        let net = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let whole = Observed {
+            rope_mean_peak: vec![0.0; 3],
+            rope_mean_residual: vec![0.0; 3],
+            extension: vec![0.0; 3],
+            brake_stroke_mean: vec![0.0; 3],
+            ..Observed::of_ropes(3)
+        };
+        assert!(whole.fits(&net));
+        assert!(!Observed { extension: vec![0.0; 2], ..whole.clone() }.fits(&net));
+        assert!(!Observed { segment_peak: vec![0.0], ..whole.clone() }.fits(&net));
+        let coefficients = Coefficients { time: vec![0.0], ..Coefficients::default() };
+        assert!(!Observed { coefficients, ..whole }.fits(&net));
+    }
+
+    /// Timed from the far gauge, or from where the front starts nearer than that; not where it never came, or was there at once.
+    #[test]
+    fn the_front_is_timed_between_its_gauges() {
+        let timed = |front: &[f64]| {
+            let time = (0..front.len()).map(|sample| 0.5 * sample as f64).collect();
+            front_velocity(&Histories { time, front: front.to_vec(), gauges: [10.0, 1.0], ..Histories::default() })
+        };
+        assert_eq!(timed(&[-12.0, -10.0, -5.0, -1.0, 0.0]), Some(9.0));
+        assert_eq!(timed(&[-5.0, -3.0, -1.0]), Some(4.0));
+        assert_eq!(timed(&[-12.0, -10.0, -5.0]), None);
+        assert_eq!(timed(&[-0.5, 0.0]), None);
+    }
+
+    #[test]
+    fn a_net_without_a_first_height_has_lost_none() {
+        let left =
+            |heights: &[f64]| residual_height(&Histories { top_rope_height: heights.to_vec(), ..Histories::default() });
+        assert_eq!((left(&[2.0, 1.0]), left(&[0.0, 1.0]), left(&[])), (0.5, 1.0, 1.0));
+    }
+
+    /// Grains of 450 mm: a deposit or a flow thinner than two of them, or than one for the flow, has no depth; neither has a flow of which
+    /// more than a hundredth rests. K of a deposit of 6.5 m behind 4.213 m of wall: 2 F/(ρ g' t (2 d − t)).
+    #[test]
+    fn k_and_lambda_are_told_where_there_is_a_depth() {
+        let design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let guideline = crate::demand::from_loads::guideline(&design);
+        let (unit, width) = (guideline.input.density * guideline.input.gravity_normal, design.channel.width);
+        let grain = design.flow.sizes.quantile(0.5);
+        let read = |deposit_depth: f64, gauge: Gauge| {
+            let histories = Histories {
+                time: vec![0.0, 1.0, 2.0],
+                force: [0.0, 500e3, 300e3].map(|along| crate::dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
+                barrier_depth: vec![0.0; 3],
+                incoming: vec![gauge, Gauge::default(), Gauge { flux: 99.0, depth: 2.0, velocity: 9.0, ..gauge }],
+                ..Histories::default()
+            };
+            let mut seen = Observed { deposit_depth, ..Observed::default() };
+            seen.measure_coefficients(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
+            (seen.k_effective, seen.lambda_effective)
+        };
+        let flow = Gauge { depth: 1.0, velocity: 5.0, flux: 25.0, ..Gauge::default() };
+        let top = guideline.input.barrier_height;
+        let (k, lambda) = read(6.5, flow);
+        assert_relative_eq!(k.unwrap(), 2.0 * 300e3 / (unit * top * (13.0 - top)), max_relative = 1e-9);
+        assert_relative_eq!(lambda.unwrap(), 500e3 / (guideline.input.density * 25.0), max_relative = 1e-9);
+        assert_eq!(read(1.9 * grain, flow).0, None);
+        assert!(read(2.1 * grain, flow).0.is_some());
+        assert_eq!(read(0.0, Gauge { depth: 0.9 * grain, ..flow }).1, None);
+        assert!(read(0.0, Gauge { depth: 1.1 * grain, ..flow }).1.is_some());
+        assert_eq!(read(0.0, Gauge { at_rest: 0.02, ..flow }).1, None);
+        assert!(read(0.0, Gauge { at_rest: 0.01, ..flow }).1.is_some());
+        assert_eq!(read(0.0, Gauge { flux: 0.0, ..flow }).1, None);
     }
 }

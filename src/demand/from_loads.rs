@@ -398,4 +398,48 @@ mod tests {
         design.channel.base_friction = 2.0;
         assert_eq!(earth_pressure_by_weight(&design, &guideline), Some(0.0));
     }
+
+    /// The first surge alone, on 3 m: (½ K ρ g' h² + λ ρ v² h) b. Its bolts are no load of a free rope, and a boulder is on one bolt alone.
+    #[test]
+    fn the_lowest_rope_hands_its_load_to_the_bed_where_the_bed_holds_it() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let held = guideline(&design);
+        let input = held.input;
+        let first = 0.5 * input.unit_pressure() * 0.36 + input.impact_pressure() * 0.6;
+        assert_relative_eq!(held.first_surge(), 3.0 * first, max_relative = 1e-9);
+        let spaces = bolt_spaces(&design).expect("bolts");
+        assert_relative_eq!(held.bolt_force.unwrap(), held.bed_force.unwrap() / spaces, max_relative = 1e-12);
+        assert_relative_eq!(held.bed_force.unwrap(), 3.0 * held.ropes[0].load, max_relative = 1e-12);
+        // 9 kN at 0.2 m, between the ropes at 0 and 0.816 m above the bed: 75.5 % of it on the lowest, pressed normal to the leaning net.
+        design.loads.point_load = Some((9e3, 0.2));
+        let hit = guideline(&design);
+        let second = held.ropes[1].strip[0] * 2.0;
+        let point = 9e3 * (1.0 - 0.2 / second) / libm::cos(design.channel.slope) * design.factors.load;
+        assert_relative_eq!(hit.ropes[0].point, point, max_relative = 1e-9);
+        assert_relative_eq!(hit.bed_force.unwrap() - held.bed_force.unwrap(), 2.0 * point, max_relative = 1e-6);
+        assert_relative_eq!(hit.bolt_force.unwrap() - held.bolt_force.unwrap(), point, max_relative = 1e-6);
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.bottom = Bottom::Opening(0.1);
+        let free = guideline(&design);
+        assert_eq!((free.bed_force, free.bolt_force), (None, None));
+    }
+
+    #[test]
+    fn one_event_fills_as_high_as_it_can_and_no_higher_than_the_barrier() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        design.loads.to_the_top = false;
+        let one = input(&design);
+        let fill = event_fill(&design, &one);
+        assert!(!fill.several);
+        assert_eq!(one.fill_height, one.barrier_height.min(fill.height().max(one.depth)));
+        design.flow.event_volume = 1.0005 * design.flow.volume();
+        assert!(!event_fill(&design, &one).several);
+        design.flow.event_volume = 1.002 * design.flow.volume();
+        assert!(event_fill(&design, &one).several);
+        // A small event in a wide gully stays below the top.
+        design.flow.event_volume = 0.01;
+        let little = input(&design);
+        assert!(little.fill_height < little.barrier_height);
+        assert_eq!(little.fill_height, event_fill(&design, &little).height().max(little.depth));
+    }
 }

@@ -49,4 +49,11 @@ mod tests {
         let slope = libm::atan(1_f64);
         assert_relative_eq!(manning_strickler(1.0, slope, 0.1), 10.0, max_relative = 1e-12);
     }
+
+    #[test]
+    fn manning_and_strickler_grow_with_depth_and_slope() {
+        // 8^⅔ = 4, √tan 45° = 1; 0.05: 80 m/s of a flow no one would wade. At tan = ¼ half of it.
+        assert_relative_eq!(manning_strickler(8.0, libm::atan(1.0), 0.05), 80.0, max_relative = 1e-12);
+        assert_relative_eq!(manning_strickler(8.0, libm::atan(0.25), 0.05), 40.0, max_relative = 1e-12);
+    }
 }

@@ -93,4 +93,17 @@ mod tests {
         assert_relative_eq!(held.length, 29.5, max_relative = 2e-3);
         assert_relative_eq!(held.surges, 2.0, max_relative = 1e-3);
     }
+
+    /// A surface that falls by 60° and a bed of 20° meet behind a face that leans by 30°, not behind one that leans downstream by 15°.
+    #[test]
+    fn a_heap_needs_a_face_that_leans_less_than_its_surface_is_steep() {
+        let height = |lean: f64| deposit_height(2.0, 20_f64.to_radians(), 60_f64.to_radians(), lean.to_radians());
+        let by_hand = (4.0 / (1.0 / 5.671_282 + 0.577_350_f64)).sqrt();
+        assert_relative_eq!(height(30.0), by_hand, max_relative = 1e-6);
+        assert_eq!(height(-15.0), f64::INFINITY);
+        // Beyond the plumb of the bed's normal the surface overhangs.
+        let steep = deposit_height(2.0, 40_f64.to_radians(), 60_f64.to_radians(), 20_f64.to_radians());
+        assert_relative_eq!(steep, (4.0 / (-0.176_327 + 0.363_970_f64)).sqrt(), max_relative = 1e-5);
+        assert_eq!(deposit_height(2.0, 40_f64.to_radians(), 60_f64.to_radians(), 5_f64.to_radians()), f64::INFINITY);
+    }
 }

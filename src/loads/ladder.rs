@@ -223,4 +223,52 @@ mod tests {
             assert_relative_eq!(model.force(&input)[0] / momentum(&input), alpha, max_relative = 6e-3);
         }
     }
+
+    /// ρ 1700, h 0.5, v 3, g' 9: ρ v² h = 7650 N/m, ρ g' h²/2 = 1912.5 N/m; K = 1.2.
+    #[test]
+    fn each_model_gives_its_formula() {
+        let input = GuidelineInput {
+            density: 1700.0,
+            depth: 0.5,
+            velocity: 3.0,
+            gravity_normal: 9.0,
+            earth_pressure: 1.2,
+            ..crate::loads::cases::tests::input()
+        };
+        let froude = 3.0 / 4.5_f64.sqrt();
+        let bore = reflected_bore(&input)[0];
+        for (name, by_hand) in [
+            ("Volkwein", [2295.0 + 5355.0, 2295.0 + 15300.0]),
+            ("Watanabe", [15300.0; 2]),
+            ("Zhang", [22950.0, 38250.0]),
+            ("Bugnion", [3060.0, 6120.0]),
+            ("Ng", [7650.0; 2]),
+            ("Cui", [5.3 / froude.powf(1.5) * 7650.0; 2]),
+            ("Hungr", [11475.0; 2]),
+            ("Lo", [22950.0; 2]),
+            ("Kwan", [15300.0, 19125.0]),
+            ("Hübl", [5.0 * 1700.0 * 4.5_f64.powf(0.6) * 3.0_f64.powf(0.8) * 0.5; 2]),
+            ("Arattano", [9562.5; 2]),
+            ("Armanini", [0.5 * 1700.0 * 9.0 * bore * bore; 2]),
+            ("NILIM", [7650.0; 2]),
+            ("Chinese", [7650.0, 11245.5]),
+        ] {
+            let model = MODELS.iter().find(|model| model.name.starts_with(name)).expect(name);
+            for (found, by_hand) in model.force(&input).iter().zip(by_hand) {
+                assert_relative_eq!(*found, by_hand, max_relative = 1e-9);
+            }
+        }
+        // The bore holds its two balances: mass (v + c) h = c h_r, and momentum.
+        let [reflected, celerity] = reflected_bore(&input);
+        assert_relative_eq!((3.0 + celerity) * 0.5, celerity * reflected, max_relative = 1e-9);
+        assert_relative_eq!(4.5 * (reflected * reflected - 0.25), 1.5 * (3.0 + celerity), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn a_model_is_in_range_where_its_froude_numbers_are() {
+        let bore = MODELS.iter().find(|model| model.name.starts_with("Armanini")).expect("a model");
+        let at = |velocity: f64| GuidelineInput { velocity, depth: 1.0, gravity_normal: 9.0, ..input() };
+        assert!(bore.in_range(&at(2.9)) && !bore.in_range(&at(3.1)));
+        assert!(MODELS[0].in_range(&at(30.0)));
+    }
 }

@@ -92,4 +92,14 @@ mod tests {
         assert_relative_eq!(diagram.force(0.5, 3.0), force, max_relative = 1e-5);
         assert_relative_eq!(diagram.moment(0.5, 3.0), moment, max_relative = 1e-5);
     }
+
+    /// Up to its top, which is loaded; a surface above it leaves a trapezium.
+    #[test]
+    fn a_diagram_ends_at_the_top_of_the_barrier() {
+        let diagram = Diagram { unit: 10.0, surface: 3.0, top: 2.0, block: 5.0, block_from: 1.0, block_to: 2.0 };
+        assert_eq!([0.5, 1.5, 2.0, 2.1].map(|height| diagram.at(height)), [25.0, 20.0, 15.0, 0.0]);
+        assert_relative_eq!(diagram.force(0.0, 9.0), 10.0 * (0.5 * 9.0 - 0.5) + 5.0, max_relative = 1e-12);
+        // ∫ 10 (3 − z) z dz + 5 · 1.5
+        assert_relative_eq!(diagram.moment(0.0, 9.0), 10.0 * (6.0 - 8.0 / 3.0) + 7.5, max_relative = 1e-12);
+    }
 }

@@ -270,4 +270,33 @@ pub mod tests {
             }
         }
     }
+
+    /// h 1 m on a deposit of 3 m, ρ g' = 18.4368 kPa/m: 73.747 kPa at the bed, and what drags on the top has the barrier's height as lever.
+    #[test]
+    fn a_case_tells_its_pressure_at_the_bed_and_the_moment_of_its_drag() {
+        assert_relative_eq!(later_surge::last(&input()).pressure_static(), 73.747e3, max_relative = 1e-4);
+        let given = Extras { overflow_drag: Some([0.5, 2.0]), ..Extras::default() };
+        let case = overtopped::case(&input(), &given).unwrap();
+        assert!(case.shear > 0.0);
+        let moment = case.diagram.moment(0.0, 4.0) + 4.0 * case.shear;
+        assert_relative_eq!(case.moment_per_width(), moment, max_relative = 1e-12);
+        // The strip that ends at the top has the drag, one that begins there has none.
+        assert_relative_eq!(
+            case.strip_force(3.0, 4.0),
+            case.diagram.force(3.0, 4.0) + case.shear,
+            max_relative = 1e-12
+        );
+        assert_eq!(case.strip_force(4.0, 5.0), case.diagram.force(4.0, 5.0));
+    }
+
+    /// 90 kN at 2 m on a wall of 12 m: 15 kN m/m over all of it, 45 kN m/m over the 4 m to which it spreads; on 3 m there is no more to it.
+    #[test]
+    fn a_boulder_bends_the_metres_it_spreads_to() {
+        let point = PointLoad { force: 90e3, height: 2.0 };
+        let case = LoadCase { point: Some(point), ..full::case(&input()) };
+        let flow = full::case(&input()).face_moment(12.0, 0.0);
+        assert_relative_eq!(case.face_moment(12.0, 0.0) - flow, 15e3, max_relative = 1e-9);
+        assert_relative_eq!(case.foot_moment(12.0, 0.0) - flow, 45e3, max_relative = 1e-9);
+        assert_relative_eq!(case.foot_moment(3.0, 0.0) - flow, 60e3, max_relative = 1e-9);
+    }
 }
