@@ -131,6 +131,13 @@ fn ropes_of_the_net() {
         near(anchor.capacity.unwrap(), 288e3);
         near(outcome(&outcomes, &format!("brake_{rope}_stroke")).capacity.unwrap(), 0.85);
     }
+    // √(150² − (60.858 · 4/2)²) along the span, and 12 kN · (1.8126 − 1.4)/0.9063 and (1.4 − 0.9063)/0.9063, over cos 25° and by 1.35.
+    near(guideline.ropes[1].anchor[0], 87.66e3);
+    near(guideline.ropes[1].anchor[1], 121.716e3);
+    near(guideline.ropes[1].point, 8.138e3);
+    near(guideline.ropes[2].point, 9.737e3);
+    assert_eq!((guideline.ropes[0].point, guideline.ropes[3].point, guideline.ropes[0].strip[0]), (0.0, 0.0, 0.0));
+    near(guideline.ropes[0].strip[1], 0.45315);
     near(demands.brake_force.guideline.unwrap(), 150e3);
     near(outcome(&outcomes, "anchor_plateau").demand.guideline.unwrap(), 180e3);
     // The lowest strip, 37.530 kN/m, on 4 m, over six spaces between bolts; T = (P² EA/24)^⅓ = 84.10 kN, the end bolt √(T² + (P/2)²).
@@ -141,6 +148,16 @@ fn ropes_of_the_net() {
     near(bolts.demand.guideline.unwrap(), 85.030e3);
     // 200/1.25 · 90 %
     near(bolts.capacity.unwrap(), 144e3);
+}
+
+/// Of a net of 5 kPa 15 kN/m hang on the top rope, plumb, beside the 14.405 kN/m that press on it normal to the net, which leans by 5°.
+#[test]
+fn the_top_rope_carries_the_weight_of_the_net() {
+    let heavy = by_equations(&design(&NET.replace("self_weight: 150 Pa", "self_weight: 5 kPa"))).0;
+    let light = by_equations(&design(NET)).0;
+    // 1.35 √(14.405² + 15² − 2 · 14.405 · 15 sin 5°)
+    near(heavy.ropes[3].load, 26.826e3);
+    near(heavy.ropes[2].load, light.ropes[2].load);
 }
 
 /// Rope 2 sags by 60.858 · 4²/(8 √(150² − 121.72²)) = 1.3887 m of 4 m; the flow of 7.2 m³/s is 5.937 times 0.1 · 20^0.833; a level deposit of

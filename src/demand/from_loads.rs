@@ -442,4 +442,18 @@ mod tests {
         assert!(little.fill_height < little.barrier_height);
         assert_eq!(little.fill_height, event_fill(&design, &little).height().max(little.depth));
     }
+
+    /// A long, low block slides further than its front runs: 2 · 9.81 sin 40° · (5 + 10); its depth is 4/9 of its height unless given.
+    #[test]
+    fn a_long_block_arrives_as_it_slides() {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        (design.channel.slope, design.channel.base_friction) = (40_f64.to_radians(), 0.0);
+        let block =
+            DamBreak { length: 20.0, height: 0.1, distance: 5.0, depth_at_barrier: None, velocity_at_barrier: None };
+        assert_relative_eq!(front_velocity(&design, &block), 13.753_996, max_relative = 1e-4);
+        design.flow.arrival = Arrival::DamBreak(block);
+        let (depth, velocity) = incoming(&design);
+        assert_relative_eq!(depth, 0.4 / 9.0, max_relative = 1e-12);
+        assert_relative_eq!(velocity, 13.753_996, max_relative = 1e-4);
+    }
 }

@@ -106,4 +106,50 @@ mod tests {
         assert_eq!(state.stroke, 0.2);
         assert!(state.tension > 250e3);
     }
+
+    /// Length of a parabola by adding up short chords.
+    fn length(span: f64, sag: f64) -> f64 {
+        let count = 20_000;
+        let height = |at: f64| 4.0 * sag * at * (1.0 - at);
+        let point = |index: i32| f64::from(index) / f64::from(count);
+        let rise = |index: i32| height(point(index + 1)) - height(point(index));
+        (0..count).map(|index| libm::hypot(span / f64::from(count), rise(index))).sum()
+    }
+
+    /// Any rope is in balance, q L²/8 = H f and T² = H² + (q L/2)², and as long as its stretch and strokes make it.
+    #[test]
+    fn a_rope_is_in_balance_and_as_long_as_it_is_stretched() {
+        let elastic = RopeInput { span: 12.0, axial_stiffness: 8e6, dissipator: None };
+        let used_up = RopeInput { dissipator: Some([100e3, 0.3]), ..elastic };
+        // So much stroke that it hangs deeper than it spans.
+        let deep = RopeInput { span: 2.0, axial_stiffness: 8e6, dissipator: Some([1e3, 5.0]) };
+        for (rope, load, stroke) in
+            [(elastic, 15e3, 0.0), (elastic, 200.0, 0.0), (used_up, 40e3, 0.3), (deep, 10e3, 5.0)]
+        {
+            let RopeState { sag, tension, stroke: used } = rope.under(load);
+            assert_eq!(used, stroke);
+            let (across, horizontal) = (0.5 * load * rope.span, load * rope.span * rope.span / (8.0 * sag));
+            assert_relative_eq!(tension, libm::hypot(across, horizontal), max_relative = 1e-9);
+            let stretched = rope.span * (1.0 + tension / rope.axial_stiffness) + 2.0 * stroke;
+            assert_relative_eq!(length(rope.span, sag), stretched, max_relative = 1e-7);
+        }
+        assert!(deep.under(10e3).sag > deep.span);
+    }
+
+    /// Below its plateau a dissipator holds; EA of 10 MN and 5 kN/m on 10 m.
+    #[test]
+    fn a_dissipator_below_its_plateau_is_as_if_it_were_not_there() {
+        let free = RopeInput { span: 10.0, axial_stiffness: 1e7, dissipator: None };
+        let held = RopeInput { dissipator: Some([1e9, 1.0]), ..free };
+        assert_eq!(held.under(5e3), free.under(5e3));
+        assert!(free.under(5e3).tension < 1e9);
+    }
+
+    #[test]
+    fn an_almost_straight_rope_is_longer_by_two_thirds_of_its_slope_squared() {
+        let rope = RopeInput { span: 10.0, axial_stiffness: 1e7, dissipator: None };
+        // A slope of 4e-7 at its ends: 16e-14/6.
+        assert!((rope.arc(1e-6) / 10.0 - 1.0 - 16e-14 / 6.0).abs() < 1e-15);
+        assert_relative_eq!(rope.arc(1e-3), length(10.0, 1e-3), max_relative = 1e-12);
+    }
 }
