@@ -381,6 +381,14 @@ mod tests {
         assert_relative_eq!(shares[0], 0.0);
         assert_relative_eq!(shares[1], 15.0);
         assert_relative_eq!(shares[2], 5.0);
+        // Three quarters on the rope at 1 m, a quarter on the one at 3 m; what hits the top rope is all its own.
+        let uneven = |height: f64| {
+            let case = crate::loads::cases::point_load::case(&input, PointLoad { force: 100.0, height });
+            [0, 1, 2].map(|rope| point_on_rope(&case, &[0.0, 1.0, 3.0], rope, 10.0))
+        };
+        assert_eq!(uneven(1.5), [0.0, 15.0, 5.0]);
+        assert_eq!(uneven(3.0), [0.0, 0.0, 20.0]);
+        assert_eq!(uneven(0.25), [15.0, 5.0, 0.0]);
     }
 
     /// On a bed of 45° with a friction of 20° a deposit of V presses with K = 2 V (tan 45° − tan 20°)/(b H²).

@@ -187,4 +187,31 @@ mod tests {
         assert_eq!(worse(-0.02, 0.01), -0.02);
         assert!(worse(0.01, f64::NAN).is_nan() && worse(f64::NAN, 0.01).is_nan());
     }
+
+    /// Twenty samples are two stretches of ten, not of eleven; what went on before them is past, and what came to rest or was lost in the
+    /// first of them no longer counts.
+    #[test]
+    fn the_last_two_stretches_tell_and_nothing_before_them() {
+        let count = 40;
+        let long = |change: &dyn Fn(&mut Histories)| {
+            let mut histories = Histories {
+                time: (0..count).map(f64::from).collect(),
+                force: vec![crate::dem::Vec3::new(100.0, 0.0, 0.0); count as usize],
+                moving: vec![0.01; count as usize],
+                dead: vec![0.9; count as usize],
+                lost: vec![[0.01, 0.0, 0.0, 0.0]; count as usize],
+                ..Histories::default()
+            };
+            change(&mut histories);
+            histories
+        };
+        let quiet = long(&|_| ());
+        assert!(steady(&quiet, 10) && steady(&quiet, 20) && !steady(&quiet, 21));
+        assert!(steady(&long(&|histories| histories.force[..20].fill(crate::dem::Vec3::zeros())), 10));
+        assert!(!steady(&long(&|histories| histories.force[..21].fill(crate::dem::Vec3::zeros())), 10));
+        assert!(steady(&long(&|histories| histories.dead[..30].fill(0.1)), 10));
+        assert!(steady(&long(&|histories| histories.lost[..30].fill([0.0; 4])), 10));
+        // The mean force of a stretch by a hundredth.
+        assert!(steady(&long(&|histories| histories.force[30..].fill(crate::dem::Vec3::new(101.0, 0.0, 0.0))), 10));
+    }
 }

@@ -188,4 +188,21 @@ mod tests {
         assert_eq!(after("brake_3_stroke", 0.4, 0.5), CheckVerdict::Pass);
         assert_eq!(after("brake_3_stroke", 0.4, 0.6), CheckVerdict::Open);
     }
+
+    #[test]
+    fn a_surge_that_does_not_push_says_nothing_of_the_full_barrier() {
+        let design = small_net();
+        let guideline = guideline(&design);
+        let why = |push: f64| {
+            let net_tension =
+                crate::demand::Demand { simulation: Some(0.9 * net_holds(&design)), ..Default::default() };
+            let demands = Demands { net_tension, ..Demands::by_equations(&guideline, &design.factors) };
+            let mut outcomes = check_all(&design, &demands);
+            leave_open(Known { design: &design, guideline: &guideline, seen: Some(pushing(push)) }, &mut outcomes);
+            let net = outcomes.into_iter().find(|outcome| outcome.id == "net_tension").expect("a check");
+            net.open.expect("a reason").words().to_string()
+        };
+        assert!(why(0.0).starts_with("the simulated first surge does not push the barrier"));
+        assert!(why(guideline.largest_force / 3.0).contains("3.0 times as much presses on the full barrier"));
+    }
 }
