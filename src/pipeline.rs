@@ -213,12 +213,18 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
     // Where the deposit is too thin to show its K, and the barrier fills later, its weight tells.
     let by_weight = design.loads.to_the_top.then(|| earth_pressure_by_weight(design, guideline)).flatten();
     let band = rung.band;
-    let short_peaks =
-        simulated.starts.iter().map(|start| start.observed.force_peak_sampled / start.observed.force_peak);
+    let short_peaks = |of: fn(&Observed) -> [f64; 2]| {
+        let ratios =
+            simulated.starts.iter().map(|start| of(&start.observed)).map(|[sampled, smoothed]| sampled / smoothed);
+        ratios.fold(1.0, larger)
+    };
     let at_rest: Vec<f64> = simulated.starts.iter().filter_map(|start| start.observed.k_effective).collect();
     FirstSurge {
         push: simulated.spread(|seen| seen.push_peak).mean,
-        sampled_over_smoothed: short_peaks.fold(1.0, larger),
+        moment: simulated.spread(|seen| seen.moment_peak).mean,
+        sampled_over_smoothed: short_peaks(|seen| [seen.force_peak_sampled, seen.force_peak]),
+        moment_sampled_over_smoothed: short_peaks(|seen| [seen.moment_peak_sampled, seen.moment_peak]),
+        depth: simulated.spread(|seen| seen.incoming.depth).mean,
         velocity: simulated.spread(|seen| seen.incoming.velocity).mean,
         earth_pressure: (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean).or(by_weight),
         force_band: band.force,
@@ -324,7 +330,6 @@ mod tests {
         }
     }
 
-    use crate::dem::recorders::histories::Gauge;
     use crate::demand::from_loads::guideline as guideline_of;
     use crate::design::read::read_design;
     use crate::fidelity::ladder::RUNGS;
@@ -342,8 +347,9 @@ mod tests {
 
     /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
     fn arriving(velocity: f64, flux: f64) -> Observed {
-        let incoming = Gauge { velocity, flux, depth: 0.4, ..Gauge::default() };
-        Observed { incoming, ..Observed::of_ropes(3) }
+        let mut seen = Observed::of_ropes(3);
+        (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
+        seen
     }
 
     /// `small_net` is hit 0.6 m deep with 4.6 m/s: 12.7 m³/s².

@@ -3,7 +3,7 @@
 
 use crate::checks::outcome::{CheckName, Outcome, Resistance};
 use crate::demand::from_loads::wall_of;
-use crate::demand::{Demand, Demands};
+use crate::demand::{Demand, Demands, larger};
 use crate::design::{BarrierDesign, Design, Stability};
 use crate::sources::WALL_BALANCE;
 
@@ -32,7 +32,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     // The resultant stands holds_up − demand over the weight's share normal to the base from the downstream edge; the lift, which makes
     // the weight less, is left out on the safe side.
     let normal = input.weight() * libm::cos(input.base_slope);
-    let off_centre = |demand: f64| 0.5 * input.base_width - (holds_up - demand) / normal;
+    // Of the wall without the flow as much of a third of its thickness may be used.
+    let at_rest = input.eccentricity_at_rest() * input.base_width / input.thickness;
+    let off_centre = |demand: f64| larger(0.5 * input.base_width - (holds_up - demand) / normal, at_rest);
     let tipped = with_own(moment, tips, tilt);
     let off = Demand {
         guideline: tipped.guideline.map(off_centre),
@@ -40,10 +42,12 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         ..Demand::default()
     };
     let press = demands.wall_press;
-    let bears = |off: Option<f64>, press: Option<f64>| Some(input.pressure(off?, press?));
+    let bears = |tips: Option<f64>, press: Option<f64>| {
+        Some(input.pressure(0.5 * input.base_width - (holds_up - tips?) / normal, press?))
+    };
     let bearing = Demand {
-        guideline: bears(off.guideline, press.guideline.map(|load| load * input.press_share())),
-        simulation: bears(off.simulation, press.simulation),
+        guideline: bears(tipped.guideline, press.guideline.map(|load| load * input.press_share())),
+        simulation: bears(tipped.simulation, press.simulation),
         ..Demand::default()
     };
     let under = CheckName::new(

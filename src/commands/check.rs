@@ -91,7 +91,8 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
             return ExitCode::Undecided;
         }
     };
-    let Some(claimed) = claimed else { return ExitCode::Undecided };
+    let Some(mut claimed) = claimed else { return ExitCode::Undecided };
+    claimed.go_on();
     if !(1..=MOST_STARTS).contains(&order.starts) {
         terminal::warn(format_args!("error: the run kept in {} asks for {} packings", kept.display(), order.starts));
         return ExitCode::Undecided;

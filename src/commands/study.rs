@@ -9,9 +9,9 @@ use sha2::Digest;
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, STOP, load};
 use crate::commands::input::{self, LONGEST_TEXT};
-use crate::commands::output::put;
+use crate::commands::output::{HISTORIES, put};
 use crate::design::read::DesignFile;
-use crate::report::folder::{Folder, Named, folder_name, inner};
+use crate::report::folder::{Folder, Named, create, folder_name, inner};
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
 use crate::scene::event::Watch;
@@ -44,7 +44,11 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let folder_of = |name: &str| {
         let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
         let folder = out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
-        Folder::claim(&folder, Some(path), named)
+        let claimed = Folder::claim(&folder, Some(path), named).map_err(Failure::from)?;
+        if claimed.holds(HISTORIES) {
+            return Err(format!("{} holds the report of a simulated run, which that of a study would replace: name another folder with --out", folder.display()).into());
+        }
+        Ok::<_, Failure>(claimed)
     };
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,
@@ -106,7 +110,8 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
         let text = serde_json::to_vec(&point).map_err(|error| error.to_string())?;
         // First beside it, so that nobody reads half a result.
         let half = file.with_extension("tmp");
-        std::fs::write(&half, text).and_then(|()| std::fs::rename(&half, &file)).map_err(|error| error.to_string())?;
+        let written = create(&half, &text).and_then(|()| std::fs::rename(&half, &file));
+        written.map_err(|error| format!("{}: {error}", half.display()))?;
         bar.inc(1);
         Ok(Some(point))
     });

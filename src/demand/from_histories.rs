@@ -67,6 +67,8 @@ pub struct Observed {
     pub segment_residual: Vec<f64>,
     /// Largest moment about the toe (N m/m).
     pub moment_peak: f64,
+    /// The same within one sampling interval.
+    pub moment_peak_sampled: f64,
     /// Of a wall that stands by its weight: largest force that slides it along its base, with what the lift takes of its friction (N/m),
     /// and largest moment about the upstream end of its base, with that of the lift (N m/m).
     pub wall_sliding_peak: f64,
@@ -180,6 +182,7 @@ impl Observed {
             segment_peak: histories.segments.iter().map(|row| peak(&smoothed(row, reading.window)).1 / width).collect(),
             segment_residual: histories.segments.iter().map(|row| tail_mean(row, reading.tail) / width).collect(),
             moment_peak: peak(&smoothed(&histories.moment, reading.window)).1 / width,
+            moment_peak_sampled: peak(&histories.moment).1 / width,
             incoming_at_peak: histories.approaching.get(at_peak).copied().unwrap_or_default(),
             deposit_depth: histories.barrier_depth.last().copied().unwrap_or(0.0),
             front_velocity: front_velocity(histories),

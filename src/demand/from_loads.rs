@@ -24,7 +24,8 @@ pub struct Guideline {
     /// Largest force normal to the face over the envelope (N), and its largest moment about the foot of the face, per width (N m/m).
     pub face_force: f64,
     pub face_moment: f64,
-    /// Largest moment about that foot that any metre of a wall takes (N m/m).
+    /// Largest force along the bed, and moment about that foot, that any metre of a wall takes (N/m, N m/m).
+    pub metre_force: f64,
     pub foot_moment: f64,
     /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
     pub ropes: Vec<RopeLoad>,
@@ -98,6 +99,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         lean: lean(design),
         face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger),
         face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger),
+        metre_force: stages.iter().map(|case| case.metre_force(width, input.barrier_height)).fold(0.0, larger),
         foot_moment: stages.iter().map(|case| case.foot_moment(width, lean(design))).fold(0.0, larger),
         ropes,
         dissipator: match &design.barrier {
@@ -216,7 +218,7 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
     let stability = wall.stability?;
     let (base_slope, bed_slope) = (stability.base_slope, design.channel.slope);
     Some(WallInput {
-        height: wall.height * libm::cos(wall.lean) / libm::cos(bed_slope - base_slope),
+        height: wall.height * libm::cos(wall.lean - bed_slope + base_slope),
         thickness: stability.thickness,
         base_width: stability.base_width,
         density: stability.density,

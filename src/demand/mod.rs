@@ -107,14 +107,12 @@ impl Demands {
         let meeting = Meeting { guideline, seen, governing, factor, overstrength: factors.overstrength };
         let simulated = |simulation: Option<f64>| Demand { simulation, ..Demand::default() };
         let worst = |quantity: Quantity| governing.iter().map(|seen| quantity(seen)).reduce(larger);
-        let per_width = 1.0 / guideline.width;
         let by_guideline = |value: f64| Some(factors.load * value);
         Self {
             total_force: meeting.force(by_guideline(guideline.face_force), &|seen| seen.force_peak),
-            wall_sliding: meeting
-                .force(by_guideline(guideline.largest_force * per_width), &|seen| seen.wall_sliding_peak),
-            wall_overturning: meeting.force(by_guideline(guideline.face_moment), &|seen| seen.wall_overturning_peak),
-            wall_press: meeting.force(by_guideline(guideline.largest_force * per_width), &|seen| seen.wall_press_peak),
+            wall_sliding: meeting.force(by_guideline(guideline.metre_force), &|seen| seen.wall_sliding_peak),
+            wall_overturning: meeting.force(by_guideline(guideline.foot_moment), &|seen| seen.wall_overturning_peak),
+            wall_press: meeting.force(by_guideline(guideline.metre_force), &|seen| seen.wall_press_peak),
             wall_moment: meeting.force(by_guideline(guideline.foot_moment), &|seen| seen.moment_peak),
             rope_tension: meeting.by_rope(&RopeQuantity {
                 guideline: |rope| rope.state.tension,

@@ -54,6 +54,16 @@ pub struct Document {
     pub root: Node,
 }
 
+/// The first character that YAML takes for a line break and others do not: a value and its remark would be told of the wrong line.
+fn odd_line_break(text: &str) -> Option<Position> {
+    let mut lines = text.split('\n').enumerate();
+    lines.find_map(|(line, text)| {
+        let text = text.strip_suffix('\r').unwrap_or(text);
+        let column = text.chars().position(|letter| "\r\u{85}\u{2028}\u{2029}".contains(letter))?;
+        Some(Position { line: line + 1, column: column + 1 })
+    })
+}
+
 /// Whether a line that says something is indented with a tab.
 fn tab_indented(line: &str) -> bool {
     let content = line.trim_start();
@@ -94,6 +104,12 @@ impl Document {
                 .hint("save the file as UTF-8 text; is it a binary file?"));
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
+        if let Some(position) = odd_line_break(&text) {
+            let problem =
+                whole("a line break other than that of a text file", "line feeds, with or without a carriage return");
+            let hint = "a line or paragraph separator may have come with a pasted text, or the file is of an old Mac: retype the blank there";
+            return Err(problem.hint(hint).at(Some(position)));
+        }
         if let Some(line) = text.lines().position(tab_indented) {
             let position = Position { line: line + 1, column: 1 };
             let problem = whole("a tab in the indentation of the line", "spaces");

@@ -149,7 +149,9 @@ impl Reader<'_> {
             if !keys.iter().any(|key| key.name == name) {
                 let mut problem =
                     Problem::new(&here, format!("the unknown key `{name}`"), format!("the keys {}", names(keys)));
-                if let Some(near) = nearest(name, keys.iter().map(|key| key.name)) {
+                if name.starts_with(|first: char| first.is_ascii_digit()) {
+                    problem = problem.hint("between braces a comma begins another key: is this the end of a number? Write it without commas, as `1200 kN` or `1.8 m`");
+                } else if let Some(near) = nearest(name, keys.iter().map(|key| key.name)) {
                     problem = problem.hint(format!("did you mean `{near}`?"));
                 }
                 self.problems.push(problem);

@@ -167,7 +167,7 @@ const RIGID_WALL: &[Key] = &[
     Key::optional(
         "moment_resistance",
         quantity(D::MomentPerWidth, 1.0, 1e12),
-        "characteristic resistance to bending at the foot of the wall, per metre of width; over the same partial factor",
+        "characteristic resistance of the wall and its foundation to the moment at its foot, per metre of width; over the same partial factor",
     ),
     Key::optional(
         "stability",

@@ -181,6 +181,9 @@ mod tests {
             ("3 m", "!metres 3 m", 2, "which no key of a design takes: `width: 3 m`"),
             ("3 m", "99999999999999999999999", 2, "so many digits"),
             ("none", "n\u{0}ne", 4, "a character that no text has"),
+            ("3 m", "3 m # wide\u{2028}", 2, "retype the blank there"),
+            ("25 deg", "25 deg\u{85}", 3, "retype the blank there"),
+            ("3 m", "3 m # as\rmeasured", 2, "retype the blank there"),
         ] {
             let (at, said) = told(from, to);
             assert_eq!(at, Some(line), "{to}: {said}");

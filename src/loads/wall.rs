@@ -1,19 +1,21 @@
-//! A wall that stands by its weight on a base of slope β, per metre of width: sliding along the base and overturning about its
-//! downstream edge, under a load R along a bed of slope α.
+//! A wall that stands by its weight on a base of slope β, per metre of width: sliding along the base, overturning about its downstream
+//! edge, and the pressure under it, under a load R along a bed of slope α.
 //!
-//! Its weight W = ρ g t H presses N = W cos β on the base and pulls T = W sin β down it. Its face leans upstream by θ from the bed's
-//! normal; the flow pushes normal to the face, R along the bed and R tan θ off it. With δ = α − β that is R (cos δ + tan θ sin δ)
-//! along the base, and a lift L = R (tan θ cos δ − sin δ) off it where that is positive; where it is negative it presses the wall down,
-//! which is left out. Sliding: R (cos δ + tan θ sin δ) + T ≤ (N − L) tan φ. Overturning: M_R + L b + T H/2 ≤ N (b − t/2), with b the
-//! width of the base from the wall's upstream face and M_R the moment of the load about the upstream end of the base. Under the base
-//! (N − L)/(b − 2 e) presses, e being the eccentricity of the resultant; there what the flow presses down with counts. The weight of the
-//! flow and its friction on the wall are left out, which is on the safe side.
+//! Its weight W = ρ g t H presses N = W cos β on the base and pulls T = W sin β down it; H is its height normal to the base, t its thickness
+//! along it. Its face leans upstream by θ from the bed's normal, and so by ε = θ − δ from the base's, δ = α − β: its weight acts
+//! a = t/2 − H tan ε/2 from the upstream end of the base. The flow pushes normal to the face, R along the bed and R tan θ off it. That is
+//! R (cos δ + tan θ sin δ) along the base, and a lift L = R (tan θ cos δ − sin δ) off it where that is positive; where it is negative it
+//! presses the wall down, which is left out. Sliding: R (cos δ + tan θ sin δ) + T ≤ (N − L) tan φ. Overturning: M_R + L b + T H/2 ≤ N (b − a),
+//! with b the width of the base from the wall's upstream face and M_R the moment of the load about the upstream end of the base. Under the
+//! base (N − L)/(b − 2 e) presses, e being the eccentricity of the resultant; there what the flow presses down with counts. The wall must
+//! stand without the flow as well. The weight of the flow and its friction on the wall are left out, which is on the safe side.
 
-/// A gravity wall, SI; it stands upright on its base.
+/// A gravity wall of even thickness, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallInput {
-    /// Along the wall (m): its height normal to the bed over cos(α − β).
+    /// Normal to its base (m).
     pub height: f64,
+    /// Along its base (m).
     pub thickness: f64,
     pub base_width: f64,
     pub density: f64,
@@ -58,13 +60,25 @@ impl WallInput {
         self.lift(-along, -off)
     }
 
-    /// Mean pressure on the part of the base, b − 2 e, that is centred under the resultant (Meyerhof), with e its eccentricity towards
-    /// the downstream edge (m) and the load that presses beside the weight (N/m). Unloaded, the weight stands on a strip as wide as the
-    /// wall is thick: no more of the base is taken to bear.
+    /// How far its centre of weight lies upstream of the middle of its foot (m).
+    fn hangs_upstream(&self) -> f64 {
+        0.5 * self.height * libm::tan(self.face_lean - self.difference())
+    }
+
+    /// Eccentricity of its weight alone in its own thickness, towards the upstream edge (m): the wall stands without the flow as well.
+    pub fn eccentricity_at_rest(&self) -> f64 {
+        self.hangs_upstream() - 0.5 * self.height * libm::tan(self.base_slope)
+    }
+
+    /// Mean pressure (Pa) on the part of the base, b − 2 e, that is centred under the resultant (Meyerhof), with e its eccentricity towards
+    /// the downstream edge (m) and the load that presses beside the weight (N/m); no more of the base bears than under the weight alone.
+    /// Infinite where the resultant lies beyond an edge.
     pub fn pressure(&self, eccentricity: f64, press: f64) -> f64 {
-        let bears = self.base_width - 2.0 * eccentricity;
+        let from_upstream = 0.5 * self.thickness - self.eccentricity_at_rest();
+        let at_rest = 2.0 * from_upstream.min(self.base_width - from_upstream);
+        let loaded = self.base_width - 2.0 * eccentricity;
         // Asked so that what is not a number stays so.
-        let bears = if bears > self.thickness { self.thickness } else { bears };
+        let bears = if loaded > at_rest { at_rest } else { loaded };
         let load = self.weight() * libm::cos(self.base_slope) + press;
         if bears <= 0.0 { f64::INFINITY } else { load / bears }
     }
@@ -91,7 +105,7 @@ impl WallInput {
 
     /// Moments about the downstream edge (N m/m): what holds, and what the wall's own pull adds to the load.
     pub fn overturning(&self) -> [f64; 2] {
-        let arm = self.base_width - 0.5 * self.thickness;
+        let arm = self.base_width - 0.5 * self.thickness + self.hangs_upstream();
         [
             self.weight() * libm::cos(self.base_slope) * arm,
             self.weight() * libm::sin(self.base_slope) * 0.5 * self.height,
@@ -163,6 +177,30 @@ mod tests {
         assert!(plumb.lift(f64::NAN, 1.0).is_nan());
     }
 
+    /// 2 m high and leaning downstream by tan ε = 0.1: the weight acts 0.1 m downstream of the middle of a foot of 1 m, 0.4 m from its edge, and
+    /// bears on 0.8 m of it at rest; leaning upstream likewise, 0.6 m from the edge.
+    #[test]
+    fn a_leaning_wall_s_weight_acts_where_its_centre_is() {
+        let wall = |lean: f64| WallInput {
+            height: 2.0,
+            thickness: 1.0,
+            base_width: 1.0,
+            density: 2400.0,
+            base_friction: 0.7,
+            base_slope: 0.0,
+            bed_slope: 0.4,
+            face_lean: 0.4 + lean,
+        };
+        let lean = libm::atan(0.1_f64);
+        for (lean, arm) in [(-lean, 0.4), (0.0, 0.5), (lean, 0.6)] {
+            let wall = wall(lean);
+            assert_relative_eq!(wall.overturning()[0], arm * wall.weight(), max_relative = 1e-12);
+            assert_relative_eq!(wall.eccentricity_at_rest(), arm - 0.5, max_relative = 1e-9, epsilon = 1e-12);
+            let bears = 2.0 * f64::min(arm, 1.0 - arm);
+            assert_relative_eq!(wall.pressure(-1.0, 0.0), wall.weight() / bears, max_relative = 1e-12);
+        }
+    }
+
     /// 2.4 t/m³, 2 m high and 1 m thick: 47.07 kN/m, at rest on no more than the metre below it, and off its centre by 0.2 m on 0.6 m.
     #[test]
     fn the_pressure_under_a_wall_is_its_weight_over_what_bears() {
@@ -174,7 +212,7 @@ mod tests {
             base_friction: 0.7,
             base_slope: 0.0,
             bed_slope: 0.4,
-            face_lean: 0.0,
+            face_lean: 0.4,
         };
         let weight = wall(1.0).weight();
         assert_relative_eq!(wall(1.0).pressure(0.2, 0.0), weight / 0.6, max_relative = 1e-12);
@@ -182,6 +220,7 @@ mod tests {
         assert_relative_eq!(wall(3.0).pressure(-1.0, 0.0), weight, max_relative = 1e-12);
         assert_eq!(wall(1.0).pressure(0.5, 0.0), f64::INFINITY);
         assert!(wall(1.0).pressure(f64::NAN, 0.0).is_nan() && wall(1.0).pressure(0.0, f64::NAN).is_nan());
+        let wall = |base_width: f64| WallInput { face_lean: 0.0, ..wall(base_width) };
         // On a level base below a bed of 0.4 rad a force of 1 along it presses with sin 0.4, one off it lifts.
         assert_relative_eq!(wall(1.0).press_share(), 0.389_418_342, max_relative = 1e-9);
         assert_relative_eq!(wall(1.0).press(1.0, 0.1), 0.389_418_342 - 0.1 * 0.921_060_994, max_relative = 1e-8);

@@ -108,12 +108,18 @@ impl Folder {
         folder.remove_leftovers();
         // Another's report stays another's until this one is written.
         folder.manifest.source = folder.manifest.source.take().or(place.clone());
+        folder.manifest.coming = place.clone().or(folder.manifest.coming.take());
         folder.source = place;
         if folder.manifest.program.is_empty() {
             folder.manifest.program = PROGRAM.to_string();
         }
         folder.put_manifest().map_err(unwritable)?;
         Ok(folder)
+    }
+
+    /// What is written will be the report that was on its way when a run was interrupted.
+    pub fn go_on(&mut self) {
+        self.source = self.manifest.coming.clone();
     }
 
     /// Takes a folder for what is made from no single design: a comparison, a validation.
@@ -210,6 +216,7 @@ impl Folder {
         if placed.is_ok() {
             self.manifest.replaced.clear();
             self.manifest.source = self.source.clone().or(self.manifest.source.take());
+            self.manifest.coming = None;
             self.remove_leftovers();
         }
         self.put_manifest()?;
@@ -339,7 +346,8 @@ pub fn folder_name(name: &str) -> String {
 }
 
 /// A file that did not exist, synced. Never through a link that somebody has put there.
-fn create(place: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Makes a new file, in the place of what stands there, be it a link.
+pub fn create(place: &Path, bytes: &[u8]) -> io::Result<()> {
     let _ = fs::remove_file(place);
     let mut file = File::create_new(place)?;
     file.write_all(bytes)?;

@@ -262,7 +262,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row(
             "Holds against overturning",
             with_unit(right, "N m/m"),
-            "W cos β (b − t/2) about the downstream edge, without partial factor",
+            "W cos β (b − a) about the downstream edge, a being where the weight acts, without partial factor",
         ),
         row(
             "Demand for overturning",
@@ -274,7 +274,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
             "–".into(),
             "that the load presses the wall down; the weight of the deposit; friction of the deposit on the wall",
         ),
-        row("Not checked", "–".into(), "pressure under the base, uplift by water, the ground, the wall's own strength"),
+        row("Not checked", "–".into(), "uplift by water under the base, and the ground but for its bearing resistance"),
     ]
 }
 

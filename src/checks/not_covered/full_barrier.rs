@@ -4,18 +4,22 @@
 
 use super::{FirstSurge, Known};
 use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::demand::larger;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
     let more = known.guideline.largest_force / seen.push;
-    if more <= 1.0 {
-        return;
-    }
+    // What stands higher has a longer lever as well.
+    let more_moment = larger(more, known.guideline.face_moment / seen.moment);
     let (when, instead) = match known.design.loads.to_the_top {
         true => ("the full barrier", "simulate a larger flow, or say loads.filling: one_event"),
         false => ("the barrier", "give it more resistance"),
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        let more = if outcome.unit == "N m/m" { more_moment } else { more };
+        if more <= 1.0 {
+            continue;
+        }
         let Some([used, may_be]) = used_when_full(outcome, more, seen) else { continue };
         let full = if seen.push > 0.0 {
             format!(

@@ -14,6 +14,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let given = guideline.input;
     let harder = GuidelineInput {
         velocity: seen.velocity.max(given.velocity),
+        depth: seen.depth.max(given.depth),
         earth_pressure: seen.earth_pressure.unwrap_or(0.0).max(given.earth_pressure),
         ..given
     };
@@ -27,6 +28,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let found = [
         (harder.velocity > given.velocity)
             .then(|| format!("arrives with {:.2} m/s (given: {:.2} m/s)", harder.velocity, given.velocity)),
+        (harder.depth > given.depth)
+            .then(|| format!("arrives {:.2} m deep (given: {:.2} m)", harder.depth, given.depth)),
         (harder.earth_pressure > given.earth_pressure).then(|| {
             format!("presses at rest with K = {:.2} (given: {:.2})", harder.earth_pressure, given.earth_pressure)
         }),
@@ -91,6 +94,14 @@ mod tests {
         assert!(fast.contains("arrives with 9.20 m/s (given: 4.60 m/s); with what"), "{fast}");
         let heavy = told(given.velocity, Some(20.0)).expect("words");
         assert!(heavy.contains("the simulated flow presses at rest with K = 20.00 (given: "), "{heavy}");
+        let deep = {
+            let seen = FirstSurge { depth: 5.0 * given.depth, ..FirstSurge::default() };
+            let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            let opened = outcomes.into_iter().filter_map(|outcome| outcome.open);
+            opened.map(|open| open.words().to_string()).find(|words| words.contains("arrives")).expect("words")
+        };
+        assert!(deep.contains("the simulated flow arrives 3.00 m deep (given: 0.60 m)"), "{deep}");
         let both = told(2.0 * given.velocity, Some(20.0)).expect("words");
         assert!(both.contains("m/s) and presses at rest"), "{both}");
         assert_eq!(told(given.velocity, Some(given.earth_pressure)), None);

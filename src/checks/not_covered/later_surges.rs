@@ -12,7 +12,9 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let ratio = seen.push / known.guideline.first_surge();
     // Written so that a NaN counts as not alike.
     let alike = ratio <= LIKE_FIRST_SURGES;
-    if alike || !known.design.loads.to_the_top {
+    let flow = &known.design.flow;
+    let several = known.design.loads.to_the_top || flow.event_volume > 1.001 * flow.volume();
+    if alike || !several {
         return;
     }
     let of_surges = |outcome: &&mut Outcome| {
@@ -23,7 +25,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     };
     for outcome in outcomes.iter_mut().filter(of_surges) {
         outcome.leave_open(Opening::Contradicted(format!(
-            "the simulated first surge pushes {ratio:.2} times as hard as the guideline's, so that its later surges over a deposit are too low (raise factors.dynamic_lambda until they agree within {:.0} %, or say loads.filling: one_event)",
+            "the simulated first surge pushes {ratio:.2} times as hard as the guideline's, so that its later surges over a deposit are too low (raise factors.dynamic_lambda until they agree within {:.0} %, or give an event of a single surge, loads.filling: one_event)",
             100.0 * (LIKE_FIRST_SURGES - 1.0)
         )));
     }
@@ -31,7 +33,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 
 #[cfg(test)]
 mod tests {
-    use crate::checks::not_covered::tests::{small_net, verdict};
+    use super::leave_open;
+    use crate::checks::not_covered::tests::{pushing, small_net, verdict, verdict_after};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::from_loads::guideline;
 
@@ -42,7 +45,11 @@ mod tests {
         assert_eq!(verdict(&design, "rope_2_tension", 1.2 * first), CheckVerdict::Pass);
         assert_eq!(verdict(&design, "rope_2_tension", 1.3 * first), CheckVerdict::Open);
         assert_eq!(verdict(&design, "rope_2_tension", f64::NAN), CheckVerdict::Open);
+        // One event of several surges has later ones too.
         design.loads.to_the_top = false;
+        design.flow.event_volume = 2.0 * design.flow.volume();
+        assert_eq!(verdict_after(leave_open, &design, "rope_2_tension", pushing(1.3 * first)), CheckVerdict::Open);
+        design.flow.event_volume = design.flow.volume();
         assert_eq!(verdict(&design, "rope_2_tension", 1.3 * first), CheckVerdict::Pass);
     }
 }

@@ -19,10 +19,15 @@ use crate::design::Design;
 pub struct FirstSurge {
     /// Its largest force along the bed (N).
     pub push: f64,
-    /// Largest force of one sample over the largest of the smoothed signal, which is judged.
+    /// Its largest moment about the foot of a wall, per width (N m/m).
+    pub moment: f64,
+    /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged.
     pub sampled_over_smoothed: f64,
+    pub moment_sampled_over_smoothed: f64,
     /// The velocity with which it arrives (m/s).
     pub velocity: f64,
+    /// Its depth then, at bulk density (m).
+    pub depth: f64,
     /// K that the deposit shows at rest, where there is one.
     pub earth_pressure: Option<f64>,
     /// By how much a finer model, or other packings, may show larger forces and strokes (over these, less one) and smaller shares.
@@ -73,7 +78,7 @@ pub mod tests {
 
     /// A first surge that pushes with a force (N), seen without error.
     pub fn pushing(push: f64) -> FirstSurge {
-        FirstSurge { push, sampled_over_smoothed: 1.0, ..FirstSurge::default() }
+        FirstSurge { push, sampled_over_smoothed: 1.0, moment_sampled_over_smoothed: 1.0, ..FirstSurge::default() }
     }
 
     /// Verdict of a check by the equations, with what the simulation of the first surge shows.

@@ -1,22 +1,25 @@
-//! Short peaks of the force on a wall. What is judged is a mean over a window; a boulder that hits is shorter than that. Whether a wall
-//! follows so short a force is not known here, and a design that names the hit of its largest boulder has it in the equations.
+//! Short peaks of the force on a wall, and of its moment. What is judged is a mean over a window; a boulder that hits is shorter than that.
+//! Whether a wall follows so short a force is not known here: it holds it, or the check is open.
 
 use super::Known;
 use crate::checks::outcome::{Kind, Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
-    if known.design.loads.point_load.is_some() {
-        return;
-    }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
         let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
-        let at_most = simulated * seen.sampled_over_smoothed;
+        let over = if outcome.unit == "N" { seen.sampled_over_smoothed } else { seen.moment_sampled_over_smoothed };
+        let at_most = simulated * over;
         // Written so that a NaN counts as not within.
-        let within = at_most <= capacity;
-        if !within {
+        let within = |value: f64| value <= capacity;
+        if within(at_most) && !within(at_most * (1.0 + seen.force_band)) {
+            outcome.leave_open(Opening::TooClose(format!(
+                "the largest single sample is {:.0} % of what the wall holds, and other packings may show larger ones (run with --seeds 5 or simulation.fidelity: auto)",
+                100.0 * at_most / capacity
+            )));
+        } else if !within(at_most) {
             outcome.leave_open(Opening::NotGiven(format!(
-                "what is judged is a mean over a short time, and the largest single sample is {:.0} % of what the wall holds (give loads.point_load, the hit of the largest boulder, or more resistance)",
+                "what is judged is a mean over a short time, and the largest single sample is {:.0} % of what the wall holds (give it more resistance)",
                 100.0 * at_most / capacity
             )));
         }
@@ -34,19 +37,32 @@ mod tests {
 
     /// A wall that holds 10 MN and 2 MN m/m, under 4 MN and 0.8 MN m/m by the smoothed signal.
     #[test]
-    fn a_wall_is_open_where_a_single_sample_is_more_than_it_holds_and_no_boulder_is_named() {
+    fn a_wall_is_open_where_a_single_sample_is_more_than_it_holds() {
         let mut design = read_design("x", include_bytes!("../../../designs/rigid_wall.yaml")).unwrap().design;
         let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
         (wall.resistance, wall.moment_resistance, wall.resistance_factor) = (Some(10e6), Some(2e6), 1.0);
         let observed = Observed { force_peak: 4e6, moment_peak: 0.8e6, ..Observed::of_ropes(0) };
-        let verdicts = |design: &crate::design::Design, sampled_over_smoothed: f64| {
-            let seen = FirstSurge { sampled_over_smoothed, ..pushing(1e9) };
+        let verdicts = |design: &crate::design::Design, force: f64, moment: f64| {
+            let seen = FirstSurge {
+                sampled_over_smoothed: force,
+                moment_sampled_over_smoothed: moment,
+                moment: 1e12,
+                ..pushing(1e9)
+            };
             ["total_force", "wall_moment"].map(|id| simulated_verdict(design, id, &observed, seen))
         };
-        assert_eq!(verdicts(&design, 2.4), [CheckVerdict::Pass; 2]);
-        assert_eq!(verdicts(&design, 2.6), [CheckVerdict::Open; 2]);
-        assert_eq!(verdicts(&design, f64::NAN), [CheckVerdict::Open; 2]);
-        design.loads.point_load = Some((1e3, 1.0));
-        assert_ne!(verdicts(&design, 2.6)[0], CheckVerdict::Fail);
+        use CheckVerdict::{Open, Pass};
+        assert_eq!(verdicts(&design, 2.4, 2.4), [Pass, Pass]);
+        assert_eq!(verdicts(&design, 2.6, 2.4), [Open, Pass]);
+        assert_eq!(verdicts(&design, 2.4, 2.6), [Pass, Open]);
+        assert_eq!(verdicts(&design, f64::NAN, f64::NAN), [Open, Open]);
+        // One packing may be the mildest.
+        let seen = FirstSurge { sampled_over_smoothed: 2.0, force_band: 0.3, moment: 1e12, ..pushing(1e9) };
+        assert_eq!(simulated_verdict(&design, "total_force", &observed, seen), Open);
+        let seen = FirstSurge { force_band: 0.2, ..seen };
+        assert_eq!(simulated_verdict(&design, "total_force", &observed, seen), Pass);
+        // A boulder that is named is no excuse: the equations may have it smaller than what was seen.
+        design.loads.point_load = Some((1.0, 0.1));
+        assert_eq!(verdicts(&design, 2.6, 2.4)[0], Open);
     }
 }

@@ -107,6 +107,13 @@ impl LoadCase {
         self.mean_moment(width) + self.diagram.moment(0.0, f64::INFINITY) * libm::tan(lean).powi(2)
     }
 
+    /// The largest force along the bed that any metre of a wall takes (N/m): a point load spreads at 45° over twice its height, over the
+    /// height of the wall at the least, and over all of it at the most.
+    pub fn metre_force(&self, width: f64, height: f64) -> f64 {
+        let spread = |point: PointLoad| point.force / width.min(height.max(2.0 * point.height));
+        self.force_per_width() + self.point.map_or(0.0, spread)
+    }
+
     /// The largest moment about the foot of the face that any metre of a wall takes (N m/m): a point load spreads at 45° on its way down to
     /// the foot, over twice its height, if the wall is that wide.
     pub fn foot_moment(&self, width: f64, lean: f64) -> f64 {
