@@ -218,6 +218,32 @@ fn blocks_and_surges() {
     speaks(WALL, "a gate", &[normal, (distance, "distance: 0.28 m ")], &[normal, (distance, "distance: 0.29 m ")]);
 }
 
+/// A rope breaks at no more than 2 GPa over the circle of its diameter: 307.9, 760.3 and 508.9 kN of 14, 22 and 18 mm.
+#[test]
+fn ropes() {
+    for (load, beyond, within) in
+        [("150 kN ", "309 kN ", "307 kN "), ("337 kN ", "762 kN ", "759 kN "), ("249 kN ", "510 kN ", "508 kN ")]
+    {
+        let of = |load: &str| format!("breaking_load: {load}");
+        at(NET, "error", &of(load), &of(beyond), &of(within));
+    }
+}
+
+/// The share below which nothing is given of a curve; and a cut that leaves as many grains as run in minutes, and hardly fewer.
+#[test]
+fn what_of_a_curve_is_given_and_cut() {
+    let read =
+        |text: &str| read_design("x.yaml", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
+    assert_eq!(read(NET).flow.known_from, 0.1);
+    assert_eq!(read(&NET.replacen("      d10: 170 mm\n", "", 1)).flow.known_from, 0.3);
+    assert_eq!(read(WALL).flow.known_from, 0.0);
+    let fine = NET.replacen("d10: 170 mm", "d10: 10 mm", 1).replacen("d30: 220 mm", "d30: 40 mm", 1);
+    let cut = read(&fine.replacen("fidelity: standard ", "coarsen: auto\n  fidelity: standard ", 1));
+    let count = cut.flow.sizes.count(5.0 * 1400.0 / 2650.0);
+    assert!((19_000.0..=20_000.0).contains(&count), "{count}");
+    assert!(cut.flow.cut.is_some() && read(NET).flow.cut.is_none());
+}
+
 #[test]
 fn loads() {
     // 1.8 m · cos 25°, 0.1 m more above a gap; 5.5 m · cos 40°, or all of it where the wall is normal to the bed.
@@ -230,6 +256,11 @@ fn loads() {
     at(WALL, above, "loads:\n", &hit("4.22 m"), &hit("4.21 m"));
     let normal = ("tilt: 0 deg ", "# ");
     speaks(WALL, above, &[normal, ("loads:\n", &hit("5.51 m"))], &[normal, ("loads:\n", &hit("5.49 m"))]);
+    // 1.8 m · cos 35°, and 5.5 m · cos 30°.
+    let leaning = ("tilt: 0 deg ", "tilt: 10 deg ");
+    speaks(NET, above, &[leaning, ("limits:", &boulder("1.48 m"))], &[leaning, ("limits:", &boulder("1.47 m"))]);
+    let leaning = ("tilt: 0 deg ", "tilt: -10 deg ");
+    speaks(WALL, above, &[leaning, ("loads:\n", &hit("4.77 m"))], &[leaning, ("loads:\n", &hit("4.76 m"))]);
     at(WALL, "the weight of a rigid wall", "loads:\n", "loads:\n  self_weight: 100 Pa\n", "loads:\n");
     assert_eq!(said(NET, &[("limits:", "loads: {self_weight: 100 Pa}\n\nlimits:")]), "");
     let drag = |keys: &str| format!("loads: {{overflow_depth: 0.1 m, {keys}}}\n\nlimits:");
@@ -263,6 +294,8 @@ fn leaning_barriers_and_walls() {
     );
     // 0.1 rad.
     at(WALL, "a face upright on its base", section, &wall("base_slope: 5.8 deg"), &wall("base_slope: 5.7 deg"));
+    let upright = ("tilt: 0 deg ", "tilt: -8 deg ");
+    assert!(!said(WALL, &[upright, (section, &wall("base_slope: 8 deg"))]).contains("a face upright on its base"));
     let leaning = ("tilt: 0 deg ", "tilt: 5.8 deg ");
     speaks(
         WALL,

@@ -57,7 +57,7 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
         terminal::warn(format_args!(
             "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
             vault.folder().display(),
-            place.display()
+            as_typed(&place)
         ));
     }
     run_kept(file, folder, wishes, &vault)
@@ -125,13 +125,21 @@ fn run_kept(file: DesignFile, mut folder: Folder, wishes: Wishes, vault: &Vault)
             if vault.can_be_resumed() {
                 terminal::warn(format_args!(
                     "note: `barrier-check resume {}` goes on where the run was kept last",
-                    folder.path().display()
+                    as_typed(folder.path())
                 ));
             }
             tell_of_earlier_run(folder.path());
             ExitCode::Undecided
         }
     }
+}
+
+/// A path as it is typed after a command: quoted where a shell would take it apart, and never like an option.
+fn as_typed(path: &Path) -> String {
+    let text = path.display().to_string();
+    let text = if text.starts_with('-') { format!("./{text}") } else { text };
+    let plain = |letter: char| letter.is_alphanumeric() || "/._-+,=@:".contains(letter);
+    if text.chars().all(plain) { text } else { format!("'{}'", text.replace('\'', "'\\''")) }
 }
 
 /// Tells what a run of the design would take, without running it.
@@ -297,4 +305,18 @@ pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Resu
     });
     progress.end();
     result.map_err(|error: RunError| error.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_told_as_a_shell_takes_it() {
+        let typed = |path: &str| as_typed(Path::new(path));
+        assert_eq!(typed("out/net_2"), "out/net_2");
+        assert_eq!(typed("out/my net"), "'out/my net'");
+        assert_eq!(typed("out/Smith's"), "'out/Smith'\\''s'");
+        assert_eq!(typed("-o"), "./-o");
+    }
 }

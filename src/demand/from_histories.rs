@@ -496,9 +496,20 @@ mod tests {
         assert_eq!(read(1.9 * grain, flow).0, None);
         assert!(read(2.1 * grain, flow).0.is_some());
         assert_eq!(read(0.0, Gauge { depth: 0.9 * grain, ..flow }).1, None);
-        assert!(read(0.0, Gauge { depth: 1.1 * grain, ..flow }).1.is_some());
+        assert!(read(0.0, Gauge { depth: 1.05 * grain, ..flow }).1.is_some());
         assert_eq!(read(0.0, Gauge { at_rest: 0.02, ..flow }).1, None);
         assert!(read(0.0, Gauge { at_rest: 0.01, ..flow }).1.is_some());
         assert_eq!(read(0.0, Gauge { flux: 0.0, ..flow }).1, None);
+        // What arrives in the very sample in which the force is largest counts.
+        let histories = Histories {
+            time: vec![0.0, 1.0],
+            force: [0.0, 500e3].map(|along| crate::dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
+            barrier_depth: vec![0.0; 2],
+            incoming: vec![Gauge::default(), flow],
+            ..Histories::default()
+        };
+        let mut seen = Observed::default();
+        seen.measure_coefficients(&histories, &design, &guideline, Reading { window: 1, tail: 1 });
+        assert_eq!(seen.incoming.velocity, 5.0);
     }
 }

@@ -371,6 +371,9 @@ mod tests {
         assert_relative_eq!(front_velocity(&design, &block(9.0)), expected, max_relative = 1e-3);
         design.channel.base_friction = 1.0;
         assert_relative_eq!(front_velocity(&design, &block(9.0)), 8.244_1, max_relative = 1e-3);
+        // a = 9.81 (½ − 0.3 · 0.8660): √(67.97 + 2 · 2.3563 · 9).
+        design.channel.base_friction = 0.3;
+        assert_relative_eq!(front_velocity(&design, &block(9.0)), 10.506, max_relative = 1e-3);
     }
 
     #[test]
@@ -432,6 +435,7 @@ mod tests {
         net.bottom = Bottom::Opening(0.1);
         let free = guideline(&design);
         assert_eq!((free.bed_force, free.bolt_force), (None, None));
+        assert!(held.ropes[0].state.tension == 0.0 && free.ropes[0].state.tension > 1e3);
     }
 
     #[test]

@@ -501,4 +501,14 @@ mod tests {
         assert_eq!((met.rope_tension[2].guideline, met.brake_stroke[2].guideline), (None, None));
         assert!(met.rope_tension[1].guideline.is_some());
     }
+
+    #[test]
+    fn what_broke_or_drew_out_is_that_of_the_worst_packing() {
+        let design = small_net();
+        let seen = |broken_pieces: f64, drawn_out: f64| Observed { broken_pieces, drawn_out, ..Observed::of_ropes(3) };
+        let [one, other] = [seen(2.0, 0.1), seen(0.0, 0.3)];
+        let both = Seen { characteristic: vec![&one, &other], factored: Vec::new() };
+        let met = Demands::meet(&guideline(&design), &both, &design.factors);
+        assert_eq!((met.broken_pieces.simulation, met.drawn_out.simulation), (Some(2.0), Some(0.3)));
+    }
 }

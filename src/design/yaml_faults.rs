@@ -39,7 +39,7 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
             },
         },
         _ if said.contains("mapping values are not allowed") && value.contains(": ") => {
-            format!("a value that holds a colon needs quotes: `{key}: \"{}\"`", value.replace('"', "'"))
+            format!("a value that holds a colon needs quotes: `{key}: {}`", quoted(value))
         }
         _ if said.contains("mapping values are not allowed") => {
             format!(
@@ -57,7 +57,7 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         }
         _ if said.contains("cannot start any token") || said.contains("alphabetic or numeric character") => {
             let first = value.chars().next().unwrap_or(' ');
-            format!("a text that begins with `{first}` needs quotes: `{key}: \"{}\"`", value.replace('"', "'"))
+            format!("a text that begins with `{first}` needs quotes: `{key}: {}`", quoted(value))
         }
         _ if said.contains("expected ',' or") => {
             let open =
@@ -96,6 +96,15 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// A value between quotation marks that leave it as it is: a backslash means something between double ones.
+fn quoted(value: &str) -> String {
+    if value.contains('\\') {
+        format!("'{}'", value.replace('\'', "''"))
+    } else {
+        format!("\"{}\"", value.replace('"', "'"))
+    }
 }
 
 /// Whether a value begins with a quotation mark that is closed before its end.
@@ -170,6 +179,7 @@ mod tests {
             ("  slope", "  \tslope", 3, "indent with spaces"),
             ("  slope", "- slope", 3, "a key has none: `slope: 25 deg`"),
             ("none", "see: this", 4, "needs quotes: `notes: \"see: this\"`"),
+            ("none", "see: C:\\temp", 4, "needs quotes: `notes: 'see: C:\\temp'`"),
             ("none", "@home", 4, "begins with `@` needs quotes: `notes: \"@home\"`"),
             ("none", "*bold*", 4, "begins with `*` needs quotes"),
             ("3 m", "\"3 m", 2, "the quotation mark that is opened here is not closed"),

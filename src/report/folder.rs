@@ -48,9 +48,11 @@ pub enum Refusal {
     )]
     Changed(String, String),
     #[error(
-        "{0} holds a report of something else, as of another design file of the same name: name another folder with --out (a report of another design is overwritten with `--out {0}`)"
+        "{0} holds a report of something else, as of another design file of the same name: name another folder with --out, or this one if a report of another design there may be replaced"
     )]
     OtherDesign(String),
+    #[error("{0} holds a report of something else: name another folder with --out")]
+    OtherReport(String),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
     Taken(String),
     #[error("the report could not be written to {0}: {1}")]
@@ -126,7 +128,7 @@ impl Folder {
     pub fn claim_for(path: &Path, what: &str) -> Result<Self, Refusal> {
         let mut folder = Self::claim(path, None, Named::Explicitly)?;
         if folder.manifest.source.as_ref().is_some_and(|source| source != what) && !folder.manifest.files.is_empty() {
-            return Err(Refusal::OtherDesign(path.display().to_string()));
+            return Err(Refusal::OtherReport(path.display().to_string()));
         }
         folder.source = Some(what.to_string());
         Ok(folder)

@@ -52,4 +52,26 @@ mod tests {
         design.flow.event_volume = design.flow.volume();
         assert_eq!(verdict(&design, "rope_2_tension", 1.3 * first), CheckVerdict::Pass);
     }
+
+    /// What fails, what has no utilisation and what does not hang on pressures stays as it is.
+    #[test]
+    fn only_what_holds_by_pressures_is_opened() {
+        use super::Known;
+        use crate::checks::check_all;
+        use crate::demand::{Demand, Demands};
+        let design = small_net();
+        let guideline = guideline(&design);
+        let mut demands = Demands::by_equations(&guideline, &design.factors);
+        let simulated = |value: f64| Demand { simulation: Some(value), ..Demand::default() };
+        (demands.net_tension, demands.brake_force) =
+            (simulated(1.0), Demand { guideline: Some(1.0), ..simulated(1.0) });
+        demands.rope_tension[1].guideline = Some(1e9);
+        let mut outcomes = check_all(&design, &demands);
+        let seen = Some(pushing(2.0 * guideline.first_surge()));
+        leave_open(Known { design: &design, guideline: &guideline, seen }, &mut outcomes);
+        let verdict = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict;
+        let ids = ["rope_2_tension", "net_tension", "brake_plateau", "anchor_plateau", "rope_3_tension"];
+        use CheckVerdict::{Fail, Open, Pass};
+        assert_eq!(ids.map(verdict), [Fail, Pass, Pass, Pass, Open]);
+    }
 }
