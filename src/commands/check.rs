@@ -8,7 +8,7 @@ use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, Order, Vault};
 use crate::commands::ExitCode;
 use crate::commands::input::{self, LONGEST_TEXT};
-use crate::commands::output::{HISTORIES, exit_code, hand_over, summarise, write_report};
+use crate::commands::output::{exit_code, hand_over, spare_a_simulation, summarise, write_report};
 use crate::commands::progress::Progress;
 use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, Purpose, read_design, read_design_for};
@@ -206,11 +206,8 @@ pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
-    if folder.holds(HISTORIES) {
-        terminal::warn(format_args!(
-            "error: {} holds the report of a simulated run, which that of the equations alone would replace: name another folder with --out",
-            folder.path().display()
-        ));
+    if let Err(error) = spare_a_simulation(&folder) {
+        terminal::warn(format_args!("error: {error}"));
         return ExitCode::Undecided;
     }
     hand_over(&by_equations(file), &mut folder, false)

@@ -9,7 +9,7 @@ use sha2::Digest;
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, STOP, load};
 use crate::commands::input::{self, LONGEST_TEXT};
-use crate::commands::output::{HISTORIES, put};
+use crate::commands::output::{put, spare_a_simulation};
 use crate::design::read::DesignFile;
 use crate::report::folder::{Folder, Named, create, folder_name, inner};
 use crate::report::stability_map::files as map_files;
@@ -45,9 +45,7 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
         let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
         let folder = out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
         let claimed = Folder::claim(&folder, Some(path), named).map_err(Failure::from)?;
-        if claimed.holds(HISTORIES) {
-            return Err(format!("{} holds the report of a simulated run, which that of a study would replace: name another folder with --out", folder.display()).into());
-        }
+        spare_a_simulation(&claimed)?;
         Ok::<_, Failure>(claimed)
     };
     let plan = match study {

@@ -5,16 +5,16 @@ use super::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
-use crate::demand::Demands;
 use crate::demand::from_loads::guideline_for;
+use crate::demand::{Demands, larger};
 use crate::loads::input::GuidelineInput;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Known { design, guideline, seen: Some(seen) } = known else { return };
     let given = guideline.input;
     let harder = GuidelineInput {
-        velocity: seen.velocity.max(given.velocity),
-        depth: seen.depth.max(given.depth),
+        velocity: larger(seen.velocity, given.velocity),
+        depth: larger(seen.depth, given.depth),
         earth_pressure: seen.earth_pressure.unwrap_or(0.0).max(given.earth_pressure),
         ..given
     };
@@ -129,5 +129,29 @@ mod tests {
         assert_eq!(verdict(&design), CheckVerdict::Open);
         design.loads.to_the_top = false;
         assert_eq!(verdict(&design), CheckVerdict::Pass);
+    }
+
+    /// One event that fills no higher than its own depth of 0.6 m: one that arrives 1.5 m deep loads the wall as high as that, with more than twice
+    /// the force that it was designed for.
+    #[test]
+    fn a_flow_deeper_than_the_fill_loads_the_barrier_as_high_as_it_is() {
+        let text = include_str!("../../../tests/fixtures/tiny_wall.yaml");
+        let mut design = crate::design::read::read_design("x", text.as_bytes()).unwrap().design;
+        design.loads.to_the_top = false;
+        // Deeper, its Froude number is lower: that alone is not to open the check.
+        design.limits.outside_range = crate::design::OutsideRange::Warn;
+        let mut guideline = guideline(&design);
+        guideline.input.fill_height = guideline.input.depth;
+        let guideline = guideline_for(&design, guideline.input);
+        let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        wall.resistance = Some(2.0 * design.factors.load * guideline.face_force * wall.resistance_factor);
+        let verdict = |depth: f64| {
+            let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+            let seen = FirstSurge { depth, ..FirstSurge::default() };
+            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            outcomes.iter().find(|outcome| outcome.id == "total_force").expect("a check").verdict
+        };
+        assert_eq!(verdict(guideline.input.depth), CheckVerdict::Pass);
+        assert_eq!(verdict(2.5 * guideline.input.depth), CheckVerdict::Open);
     }
 }
