@@ -300,29 +300,29 @@ fn the_wall() {
     let force = outcome(&outcomes, "total_force");
     near(force.demand.guideline.unwrap(), 1125.66e3);
     near(force.capacity.unwrap(), 692.31e3);
-    // (243.912 + 20 (0.5 − 1.5/6)) by 1.35: the boulder's moment spreads over twice its height, not over the whole width.
+    // (243.912 + 20 (1 − 1.5/6)) by 1.35: at the end of the wall the boulder's moment spreads over its height, not over the whole width.
     let moment = outcome(&outcomes, "wall_moment");
-    near(moment.demand.guideline.unwrap(), 336.031e3);
+    near(moment.demand.guideline.unwrap(), 349.531e3);
     near(moment.capacity.unwrap(), 192.308e3);
     let sliding = outcome(&outcomes, "wall_sliding");
-    // The boulder's 20 kN on 3 m, twice their height: R = 132.184 kN/m.
-    near(sliding.demand.guideline.unwrap(), 205.772e3);
+    // The boulder's 20 kN on 1.5 m, their height: R = 138.851 kN/m.
+    near(sliding.demand.guideline.unwrap(), 215.681e3);
     // 105.88 cos 5° tan 32°/1.2
     near(sliding.capacity.unwrap(), 54.926e3);
     let overturning = outcome(&outcomes, "wall_overturning");
-    near(overturning.demand.guideline.unwrap(), 363.299e3);
+    near(overturning.demand.guideline.unwrap(), 377.472e3);
     // 105.88 cos 5° (2 − 0.75 + 2.9982 tan 2°/2)/1.4
     near(overturning.capacity.unwrap(), 98.123e3);
-    // The base, 2 m wide, cannot hold that: 1 m − (105.48 · 1.3023 − 363.30)/105.48 is far beyond its edge; a third is allowed.
+    // The base, 2 m wide, cannot hold that: 1 m − (105.48 · 1.3023 − 377.47)/105.48 is far beyond its edge; a third is allowed.
     let eccentricity = outcome(&outcomes, "wall_eccentricity");
-    near(eccentricity.demand.guideline.unwrap(), 3.1419);
+    near(eccentricity.demand.guideline.unwrap(), 3.2775);
     near(eccentricity.capacity.unwrap(), 2.0 / 3.0);
     // Nothing of it bears then.
     assert_eq!(outcome(&outcomes, "wall_bearing").demand.guideline, Some(f64::INFINITY));
 }
 
 /// The same wall leaning downstream, 4 m thick on a base of 4.5 m: H = 3 cos 17° = 2.8689 m, the last surge pushes 132.955 kN/m with a
-/// moment of 241.768 kN m/m, both by 1.35; the boulder spreads over 3 m. It
+/// moment of 241.768 kN m/m, both by 1.35; the boulder spreads over 1.5 m. It
 /// stands 3 cos 3° = 2.9959 m high on its base and weighs 282.14 kN/m, N = 281.067, 2.9959 tan 3°/2 = 0.0785 m nearer to its edge; its own tilt
 /// has a moment of 24.590 · 2.9959/2.
 #[test]
@@ -331,18 +331,31 @@ fn a_broad_wall_presses_on_the_ground() {
     let text = text.replace("thickness: 1.5 m, base_width: 2 m", "thickness: 4 m, base_width: 4.5 m");
     let (guideline, _, outcomes) = by_equations(&design(&text));
     near(guideline.face_moment, 241.768e3);
-    // 1.35 · 136.288 (cos 20° + tan 17° sin 20°) + 24.590; it is pressed down, so that nothing is lifted.
-    near(outcome(&outcomes, "wall_sliding").demand.guideline.unwrap(), 216.722e3);
-    // 1.35 · (241.768 + 20 (0.5 − 1.5/6)) + 24.590 · 2.9959/2
-    near(outcome(&outcomes, "wall_overturning").demand.guideline.unwrap(), 369.972e3);
+    // 1.35 · 142.955 (cos 20° + tan 17° sin 20°) + 24.590; it is pressed down, so that nothing is lifted.
+    near(outcome(&outcomes, "wall_sliding").demand.guideline.unwrap(), 226.121e3);
+    // 1.35 · (241.768 + 20 (1 − 1.5/6)) + 24.590 · 2.9959/2
+    near(outcome(&outcomes, "wall_overturning").demand.guideline.unwrap(), 383.472e3);
     // 281.067 · (2.5 − 0.0785)/1.4
     near(outcome(&outcomes, "wall_overturning").capacity.unwrap(), 486.145e3);
-    // 2.25 − (281.067 · 2.4215 − 369.972)/281.067
-    near(outcome(&outcomes, "wall_eccentricity").demand.guideline.unwrap(), 1.14482);
-    // (281.067 + 1.35 · 136.288 (sin 20° − tan 17° cos 20°))/(4.5 − 2 · 1.14482)
+    // 2.25 − (281.067 · 2.4215 − 383.472)/281.067
+    near(outcome(&outcomes, "wall_eccentricity").demand.guideline.unwrap(), 1.19284);
+    // (281.067 + 1.35 · 142.955 (sin 20° − tan 17° cos 20°))/(4.5 − 2 · 1.19284)
     let bearing = outcome(&outcomes, "wall_bearing");
-    near(bearing.demand.guideline.unwrap(), 131.714e3);
+    near(bearing.demand.guideline.unwrap(), 137.931e3);
     near(bearing.capacity.unwrap(), 250e3);
+}
+
+/// Water with a head of 3 m under that wall: U = 9.81 · 3 · 4.5/2 = 66.218 kN/m, tan 32° of it against sliding, 3 m from the edge.
+#[test]
+fn water_under_a_broad_wall_lifts_it() {
+    let text = WALL.replace("tilt: -3 deg", "tilt: -8 deg");
+    let text = text.replace("thickness: 1.5 m, base_width: 2 m", "water_head: 3 m, thickness: 4 m, base_width: 4.5 m");
+    let (_, _, outcomes) = by_equations(&design(&text));
+    near(outcome(&outcomes, "wall_sliding").demand.guideline.unwrap(), 267.498e3);
+    near(outcome(&outcomes, "wall_sliding").capacity.unwrap(), 146.358e3);
+    near(outcome(&outcomes, "wall_overturning").demand.guideline.unwrap(), 582.125e3);
+    // 2.25 − (281.067 · 2.4215 − 582.125)/(281.067 − 66.218)
+    near(outcome(&outcomes, "wall_eccentricity").demand.guideline.unwrap(), 1.7916);
 }
 
 /// A wall 9 m high and 0.88 m thick that leans upstream by 5.7°: its weight acts 4.4777 · tan 5.7° = 0.447 m upstream of the middle of its foot,

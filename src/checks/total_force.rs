@@ -57,6 +57,7 @@ mod tests {
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
+            water_head: 0.0,
         });
         let total_force = Demand { guideline: Some(100e3), ..Demand::default() };
         check(&design, &Demands { total_force, ..Demands::default() })[0].verdict

@@ -29,9 +29,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         "m",
         "EN 1997-1, 6.5.4, from memory: beyond a third of the base special precautions are needed",
     );
-    // The resultant stands holds_up − demand over the weight's share normal to the base from the downstream edge; the lift, which makes
-    // the weight less, is left out on the safe side.
-    let normal = input.weight() * libm::cos(input.base_slope);
+    // The resultant stands holds_up − demand over what bears from the downstream edge; the lift of the load, which makes that less, is left
+    // out on the safe side.
+    let normal = input.bears();
     // Of the wall without the flow as much of a third of its thickness may be used.
     let at_rest = input.eccentricity_at_rest() * input.base_width / input.thickness;
     let off_centre = |demand: f64| larger(0.5 * input.base_width - (holds_up - demand) / normal, at_rest);
@@ -113,6 +113,7 @@ mod tests {
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
+            water_head: 0.0,
         });
         design
     }

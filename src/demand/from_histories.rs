@@ -291,6 +291,7 @@ mod tests {
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
+            water_head: 0.0,
         });
         let width = design.channel.width;
         let samples = 5;

@@ -226,6 +226,7 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
         base_slope,
         bed_slope,
         face_lean: wall.lean,
+        water_head: stability.water_head,
     })
 }
 

@@ -173,6 +173,8 @@ pub struct Stability {
     /// Of the ground under the base (Pa), if known, and the partial factor on it.
     pub bearing_resistance: Option<f64>,
     pub bearing_factor: f64,
+    /// Head of the water under the upstream edge of the base (m).
+    pub water_head: f64,
 }
 
 /// A net of wire ropes on horizontal main ropes.

@@ -138,6 +138,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             overturning_factor: value("overturning_factor")?,
             bearing_resistance: value("bearing_resistance"),
             bearing_factor: value("bearing_factor")?,
+            water_head: value("water_head").unwrap_or(0.0),
         })
     });
     let slope = e.number("channel.slope")?;

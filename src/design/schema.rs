@@ -207,6 +207,11 @@ const STABILITY: &[Key] = &[
         "1.4",
         "partial factor on the bearing resistance (1.4: EN 1997-1, design approach 2)",
     ),
+    Key::optional(
+        "water_head",
+        quantity(D::Length, 0.0, 50.0),
+        "head of the water under the upstream edge of the base, which falls evenly to none at its downstream edge; a design value, no factor is applied to it",
+    ),
 ];
 
 const FLEXIBLE_NET: &[Key] = &[

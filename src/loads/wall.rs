@@ -8,7 +8,9 @@
 //! presses the wall down, which is left out. Sliding: R (cos δ + tan θ sin δ) + T ≤ (N − L) tan φ. Overturning: M_R + L b + T H/2 ≤ N (b − a),
 //! with b the width of the base from the wall's upstream face and M_R the moment of the load about the upstream end of the base. Under the
 //! base (N − L)/(b − 2 e) presses, e being the eccentricity of the resultant; there what the flow presses down with counts. The wall must
-//! stand without the flow as well. The weight of the flow and its friction on the wall are left out, which is on the safe side.
+//! stand without the flow as well. Water under the base, with a head h at its upstream edge and none at its downstream edge, lifts with
+//! U = ρ_w g h b/2 at 2 b/3 from the downstream edge: U tan φ and 2 U b/3 come beside the load, and N − U bears. The weight of the flow and
+//! its friction on the wall are left out, which is on the safe side.
 
 /// A gravity wall of even thickness, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,12 +27,27 @@ pub struct WallInput {
     pub bed_slope: f64,
     /// Of the face, upstream from the bed's normal (rad).
     pub face_lean: f64,
+    /// Of the water under the upstream edge of the base (m).
+    pub water_head: f64,
 }
+
+/// kg/m³
+const WATER: f64 = 1000.0;
 
 impl WallInput {
     /// N/m
     pub fn weight(&self) -> f64 {
         self.density * crate::units::GRAVITY * self.thickness * self.height
+    }
+
+    /// Uplift of the water under the base (N/m).
+    pub fn uplift(&self) -> f64 {
+        0.5 * WATER * crate::units::GRAVITY * self.water_head * self.base_width
+    }
+
+    /// What of the weight presses on the ground, the uplift taken off (N/m); 0 for a wall that floats.
+    pub fn bears(&self) -> f64 {
+        (self.weight() * libm::cos(self.base_slope) - self.uplift()).max(0.0)
     }
 
     fn difference(&self) -> f64 {
@@ -97,18 +114,22 @@ impl WallInput {
         if lift <= 0.0 { 0.0 } else { lift }
     }
 
-    /// Force per width that friction can hold beyond the wall's own pull down the slope, without partial factor on it (N/m):
-    /// N tan φ, and T.
+    /// Per width, without partial factor (N/m): N tan φ, which friction holds, and T + U tan φ, which the wall's own pull down the slope and
+    /// the uplift add to the load.
     pub fn sliding(&self) -> [f64; 2] {
-        [self.weight() * libm::cos(self.base_slope) * self.base_friction, self.weight() * libm::sin(self.base_slope)]
+        [
+            self.weight() * libm::cos(self.base_slope) * self.base_friction,
+            self.weight() * libm::sin(self.base_slope) + self.base_friction * self.uplift(),
+        ]
     }
 
-    /// Moments about the downstream edge (N m/m): what holds, and what the wall's own pull adds to the load.
+    /// Moments about the downstream edge (N m/m): what holds, and what the wall's own pull and the uplift add to the load.
     pub fn overturning(&self) -> [f64; 2] {
         let arm = self.base_width - 0.5 * self.thickness + self.hangs_upstream();
         [
             self.weight() * libm::cos(self.base_slope) * arm,
-            self.weight() * libm::sin(self.base_slope) * 0.5 * self.height,
+            self.weight() * libm::sin(self.base_slope) * 0.5 * self.height
+                + self.uplift() * self.base_width * 2.0 / 3.0,
         ]
     }
 }
@@ -129,6 +150,7 @@ mod tests {
             base_slope: 0.0,
             bed_slope: 0.0,
             face_lean: 0.0,
+            water_head: 0.0,
         };
         assert_relative_eq!(wall.weight(), 2400.0 * 9.81 * 2.0, max_relative = 1e-4);
         assert_eq!(wall.sliding(), [0.5 * wall.weight(), 0.0]);
@@ -147,6 +169,7 @@ mod tests {
             base_slope: slope,
             bed_slope: slope,
             face_lean: 0.0,
+            water_head: 0.0,
         };
         let [hold, pull] = wall.sliding();
         assert_relative_eq!(hold, pull, max_relative = 1e-12);
@@ -163,6 +186,7 @@ mod tests {
             base_slope: 0.0,
             bed_slope: 0.7,
             face_lean,
+            water_head: 0.0,
         };
         // Plumb on a level base: a force R along the bed is R / cos α, level, and lifts nothing.
         let plumb = wall(0.7);
@@ -190,6 +214,7 @@ mod tests {
             base_slope: 0.0,
             bed_slope: 0.4,
             face_lean: 0.4 + lean,
+            water_head: 0.0,
         };
         let lean = libm::atan(0.1_f64);
         for (lean, arm) in [(-lean, 0.4), (0.0, 0.5), (lean, 0.6)] {
@@ -213,6 +238,7 @@ mod tests {
             base_slope: 0.0,
             bed_slope: 0.4,
             face_lean: 0.4,
+            water_head: 0.0,
         };
         let weight = wall(1.0).weight();
         assert_relative_eq!(wall(1.0).pressure(0.2, 0.0), weight / 0.6, max_relative = 1e-12);
@@ -225,5 +251,28 @@ mod tests {
         assert_relative_eq!(wall(1.0).press_share(), 0.389_418_342, max_relative = 1e-9);
         assert_relative_eq!(wall(1.0).press(1.0, 0.1), 0.389_418_342 - 0.1 * 0.921_060_994, max_relative = 1e-8);
         assert_eq!(wall(1.0).press(0.0, 1.0), 0.0);
+    }
+
+    /// A head of 2 m lifts a base of 3 m with 1000 · 9.81 · 2 · 3/2 = 29.43 kN/m, 2 m from its downstream edge.
+    #[test]
+    fn water_under_the_base_lifts_the_wall() {
+        let dry = WallInput {
+            height: 2.0,
+            thickness: 1.0,
+            base_width: 3.0,
+            density: 2400.0,
+            base_friction: 0.5,
+            base_slope: 0.0,
+            bed_slope: 0.0,
+            face_lean: 0.0,
+            water_head: 0.0,
+        };
+        let wet = WallInput { water_head: 2.0, ..dry };
+        assert_relative_eq!(wet.uplift(), 29.43e3, max_relative = 1e-4);
+        assert_relative_eq!(wet.bears(), dry.bears() - 29.43e3, max_relative = 1e-3);
+        assert_relative_eq!(wet.sliding()[1], 14.715e3, max_relative = 1e-4);
+        assert_relative_eq!(wet.overturning()[1], 58.86e3, max_relative = 1e-4);
+        assert_eq!((wet.sliding()[0], wet.overturning()[0]), (dry.sliding()[0], dry.overturning()[0]));
+        assert_eq!(WallInput { water_head: 9.0, ..dry }.bears(), 0.0);
     }
 }

@@ -257,7 +257,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row(
             "Demand for sliding",
             format!("R · {:.3} + {}", wall.sliding_share(), with_unit(pull, "N/m")),
-            "R (cos δ + tan θ sin δ + tan φ · lift share) + W sin β, δ = α − β, θ the lean of the face from the bed's normal; R with the partial factor on loads. By the simulation the parts of the force vector along and off the base stand for R",
+            "R (cos δ + tan θ sin δ + tan φ · lift share) + W sin β + U tan φ, δ = α − β, θ the lean of the face from the bed's normal; R with the partial factor on loads. By the simulation the parts of the force vector along and off the base stand for R",
         ),
         row(
             "Holds against overturning",
@@ -267,14 +267,19 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row(
             "Demand for overturning",
             format!("M + R · {:.3} + {}", wall.lift_share() * wall.base_width, with_unit(tilt, "N m/m")),
-            "M of the load about the upstream end of the base + lift × width of the base + W sin β H/2",
+            "M of the load about the upstream end of the base + lift × width of the base + W sin β H/2 + 2 U b/3",
         ),
         row(
             "Left out, on the safe side",
             "–".into(),
             "that the load presses the wall down; the weight of the deposit; friction of the deposit on the wall",
         ),
-        row("Not checked", "–".into(), "uplift by water under the base, and the ground but for its bearing resistance"),
+        row(
+            "Uplift by water under the base",
+            with_unit(wall.uplift(), "N/m"),
+            "ρ_w g h b/2, h being the head at the upstream edge (barrier.rigid_wall.stability.water_head, none by default); its share tan φ is in the demand for sliding, its moment at 2 b/3 in that for overturning",
+        ),
+        row("Not checked", "–".into(), "the ground but for its bearing resistance, and scour"),
     ]
 }
 

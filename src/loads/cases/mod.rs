@@ -107,17 +107,17 @@ impl LoadCase {
         self.mean_moment(width) + self.diagram.moment(0.0, f64::INFINITY) * libm::tan(lean).powi(2)
     }
 
-    /// The largest force along the bed that any metre of a wall takes (N/m): a point load spreads at 45° over twice its height, over the
-    /// height of the wall at the least, and over all of it at the most.
+    /// The largest force along the bed that any metre of a wall takes (N/m): a point load at the end of the wall, its worst place, spreads
+    /// at 45° to one side, over its height, over half the height of the wall at the least, and over the whole width at the most.
     pub fn metre_force(&self, width: f64, height: f64) -> f64 {
-        let spread = |point: PointLoad| point.force / width.min(height.max(2.0 * point.height));
+        let spread = |point: PointLoad| point.force / width.min(point.height.max(0.5 * height));
         self.force_per_width() + self.point.map_or(0.0, spread)
     }
 
-    /// The largest moment about the foot of the face that any metre of a wall takes (N m/m): a point load spreads at 45° on its way down to
-    /// the foot, over twice its height, if the wall is that wide.
+    /// The largest moment about the foot of the face that any metre of a wall takes (N m/m): a point load at the end of the wall spreads at
+    /// 45° to one side on its way down to the foot, over its height, if the wall is that wide.
     pub fn foot_moment(&self, width: f64, lean: f64) -> f64 {
-        let spread = |point: PointLoad| point.force * (0.5 - point.height / width).max(0.0);
+        let spread = |point: PointLoad| point.force * (1.0 - point.height / width).max(0.0);
         self.face_moment(width, lean) + self.point.map_or(0.0, spread)
     }
 
@@ -296,14 +296,19 @@ pub mod tests {
         assert_eq!(case.strip_force(4.0, 5.0), case.diagram.force(4.0, 5.0));
     }
 
-    /// 90 kN at 2 m on a wall of 12 m: 15 kN m/m over all of it, 45 kN m/m over the 4 m to which it spreads; on 3 m there is no more to it.
+    /// 90 kN at 2 m on a wall of 12 m: 15 kN m/m over all of it, 90 kN m/m over the 2 m at its end to which it spreads; on 1 m of wall it is
+    /// all over it.
     #[test]
     fn a_boulder_bends_the_metres_it_spreads_to() {
         let point = PointLoad { force: 90e3, height: 2.0 };
         let case = LoadCase { point: Some(point), ..full::case(&input()) };
         let flow = full::case(&input()).face_moment(12.0, 0.0);
         assert_relative_eq!(case.face_moment(12.0, 0.0) - flow, 15e3, max_relative = 1e-9);
-        assert_relative_eq!(case.foot_moment(12.0, 0.0) - flow, 45e3, max_relative = 1e-9);
-        assert_relative_eq!(case.foot_moment(3.0, 0.0) - flow, 60e3, max_relative = 1e-9);
+        assert_relative_eq!(case.foot_moment(12.0, 0.0) - flow, 90e3, max_relative = 1e-9);
+        assert_relative_eq!(case.foot_moment(1.0, 0.0) - flow, 180e3, max_relative = 1e-9);
+        let flow = case.force_per_width();
+        assert_relative_eq!(case.metre_force(12.0, 3.0) - flow, 45e3, max_relative = 1e-9);
+        assert_relative_eq!(case.metre_force(12.0, 5.0) - flow, 36e3, max_relative = 1e-9);
+        assert_relative_eq!(case.metre_force(1.0, 5.0) - flow, 90e3, max_relative = 1e-9);
     }
 }
