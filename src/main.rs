@@ -141,11 +141,8 @@ struct ValidateArguments {
     /// Suites (contact, bulk, wall, rope, dissipator, net, full-scale) or cases (A1, C5, ...) [default: all]
     names: Vec<String>,
     /// Only the cases that take seconds
-    #[arg(long, conflicts_with = "full")]
-    quick: bool,
-    /// All cases, long ones too [the default]
     #[arg(long)]
-    full: bool,
+    quick: bool,
     /// Folder for the report
     #[arg(long, value_name = "DIR", default_value = "out/validation")]
     out: PathBuf,
@@ -167,6 +164,9 @@ fn main() {
             "error: the program has a fault of its own and cannot go on ({fault}); nothing that was written before is lost, and an interrupted run that is kept can be resumed. Please report this with the design file"
         ));
     }));
+    // A file that grows beyond what the shell allows is an error like a full disk, not the end of the program.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
     let ran = std::thread::Builder::new().stack_size(STACK).spawn(run).map(std::thread::JoinHandle::join);
     process::exit(match ran {
         Ok(Ok(code)) => code,
@@ -181,7 +181,15 @@ fn main() {
 
 /// The command that was given; its exit code.
 fn run() -> i32 {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        // Help and version are what was asked for, the rest is an error.
+        Err(told) if told.use_stderr() => {
+            terminal::warn(told.render().to_string().trim_end());
+            return 2;
+        }
+        Err(told) => return if terminal::say(told.render().to_string().trim_end()) { 0 } else { 2 },
+    };
     match arguments.command {
         Some(Command::Schema { of }) => {
             let schema = match of {
@@ -202,7 +210,7 @@ fn run() -> i32 {
             resume(&folder, threads.map(usize::from), keep.every()) as i32
         }
         Some(Command::Study { file, out }) => study(&file, out.as_deref()) as i32,
-        Some(Command::Validate(ValidateArguments { names, quick, full: _, out })) => {
+        Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {

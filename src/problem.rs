@@ -50,6 +50,7 @@ pub fn harmless(text: &str) -> String {
     let steers = |letter: char| {
         letter.is_control() && !"\n\t".contains(letter)
             || "\u{2028}\u{2029}".contains(letter)
+            || "\u{061c}\u{200e}\u{200f}".contains(letter)
             || ('\u{202a}'..='\u{202e}').contains(&letter)
             || ('\u{2066}'..='\u{2069}').contains(&letter)
     };

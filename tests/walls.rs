@@ -46,7 +46,10 @@ const WALLS: &[(&str, &[&str])] = &[
         "validation",
         &["dem", "demand", "design", "fidelity", "loads", "pipeline", "scene", "simulated", "starts", "units"],
     ),
-    ("studies", &["checks", "dem", "demand", "design", "fidelity", "scene", "simulated", "starts", "validation"]),
+    (
+        "studies",
+        &["checks", "dem", "demand", "design", "fidelity", "problem", "scene", "simulated", "starts", "validation"],
+    ),
     (
         "report",
         &[

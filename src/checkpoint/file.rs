@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -67,6 +67,9 @@ pub fn write<T: Serialize>(path: &Path, kind: Kind, design: Option<[u8; 32]>, co
         return Err(io::Error::other("it is a link; a folder is wanted"));
     }
     fs::create_dir_all(folder)?;
+    if let Some(other) = [path, &previous(path)].into_iter().find(|path| path.exists() && !is_ours(path)) {
+        return Err(io::Error::other(format!("{} was not written by this program", other.display())));
+    }
     let temporary = path.with_extension("tmp");
     let _ = fs::remove_file(&temporary);
     let mut file = File::create_new(&temporary)?;
@@ -122,7 +125,7 @@ pub fn clear(folder: &Path) {
         return;
     }
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        if is_ours(&entry.file_name().to_string_lossy()) {
+        if is_ours(&entry.path()) {
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -133,26 +136,30 @@ pub fn clear(folder: &Path) {
 pub fn clear_others(folder: &Path, names: &BTreeSet<String>) {
     for name in simulations(folder).into_iter().filter(|name| !names.contains(name)) {
         let path = folder.join(name);
-        let _ = fs::remove_file(previous(&path));
-        let _ = fs::remove_file(path);
+        for path in [previous(&path), path].iter().filter(|path| is_ours(path)) {
+            let _ = fs::remove_file(path);
+        }
     }
 }
 
 /// Names of the files of simulations in a vault's folder.
 pub fn simulations(folder: &Path) -> Vec<String> {
-    let names = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| is_ours(name) && name.ends_with(".bin") && !name.starts_with("order")).collect()
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().filter(|entry| is_ours(&entry.path()));
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.ends_with(".bin") && !name.starts_with("order")).collect()
 }
 
-/// Whether a file's name is one that the program gives: `order`, or sixteen hexadecimal digits, with one of three endings.
-fn is_ours(name: &str) -> bool {
+/// Whether a file is the program's: named `order` or by sixteen hexadecimal digits, with one of three endings, and beginning as all of
+/// them do. One that was cut short while it was written may lack its beginning.
+fn is_ours(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
     let Some((stem, end)) = name.rsplit_once('.') else { return false };
     let hexadecimal = stem.len() == 16 && stem.bytes().all(|letter| letter.is_ascii_hexdigit());
-    ["bin", "before", "tmp"].contains(&end) && (stem == "order" || hexadecimal)
+    let named = ["bin", "before", "tmp"].contains(&end) && (stem == "order" || hexadecimal);
+    let mut head = Vec::new();
+    let regular = named && fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
+    let read = regular && File::open(path).and_then(|file| file.take(NAME.len() as u64).read_to_end(&mut head)).is_ok();
+    read && if end == "tmp" { NAME.starts_with(&head) } else { head == NAME }
 }
 
 #[cfg(test)]
@@ -202,6 +209,23 @@ mod tests {
         newer[NAME.len()] = 9;
         assert!(told(&newer, [1; 32]).is_some_and(|told| told.contains("format is 9")));
         clear(path.parent().expect("a folder"));
+    }
+
+    #[test]
+    fn a_file_of_the_user_s_stays_whatever_it_is_called() {
+        let path = place("theirs");
+        let folder = path.parent().expect("a folder");
+        fs::create_dir_all(folder).expect("a folder");
+        let theirs = ["order.before", "0123456789abcdef.bin", "fedcba9876543210.tmp"].map(|name| folder.join(name));
+        theirs.iter().for_each(|path| fs::write(path, "mine").expect("a file"));
+        assert!(write(&path, Kind::Simulation, Some([1; 32]), &1_u8).is_err());
+        assert!(write(&folder.join("00112233445566aa.bin"), Kind::Simulation, Some([1; 32]), &1_u8).is_ok());
+        assert_eq!(simulations(folder), ["00112233445566aa.bin"]);
+        clear_others(folder, &BTreeSet::new());
+        clear(folder);
+        assert!(theirs.iter().all(|path| fs::read(path).expect("a file") == b"mine"));
+        assert_eq!(fs::read_dir(folder).expect("a folder").count(), theirs.len());
+        fs::remove_dir_all(folder).expect("removed");
     }
 
     #[test]

@@ -12,8 +12,8 @@ use crate::report::compare::{Variant, files};
 use crate::report::folder::{Folder, folder_name};
 use crate::terminal;
 
-/// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report and the page
-/// that holds them side by side below `out`. Ends by the worst verdict.
+/// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report below `out` as soon as it is
+/// there, so that one that is cut short keeps those before it, and the page that holds them side by side. Ends by the worst verdict.
 pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     let mut variants = Vec::new();
     let mut folders = BTreeSet::new();
@@ -43,9 +43,15 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
             return ExitCode::Undecided;
         }
     };
-    for ((path, source), folder) in paths.iter().zip(sources).zip(names) {
+    for (((path, source), folder), report) in paths.iter().zip(sources).zip(names).zip(&mut reports) {
         terminal::warn(format_args!("{}", path.display()));
-        match source.run(wishes) {
+        // A page of before does not stand beside reports that are not its own.
+        let withdrawn = put(&mut page, &[]);
+        let ran = withdrawn.and_then(|()| source.run(wishes)).and_then(|run| {
+            write_report(&run, report, wishes.vtk)?;
+            Ok(run)
+        });
+        match ran {
             Ok(run) => variants.push(Variant { folder, run }),
             Err(error) => {
                 terminal::warn(format_args!("error: {error}"));
@@ -53,8 +59,8 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
             }
         }
     }
-    let written = write(&variants, &mut page, &mut reports, wishes.vtk);
-    if let Err(error) = written {
+    let page_files = files(&variants).map_err(|error| Failure::from(error.to_string()));
+    if let Err(error) = page_files.and_then(|files| put(&mut page, &files)) {
         terminal::warn(format_args!("error: the comparison could not be written to {}: {error}", out.display()));
         return ExitCode::Undecided;
     }
@@ -92,13 +98,6 @@ impl Source {
             Self::Recorded(run) => Ok(*run),
         }
     }
-}
-
-fn write(variants: &[Variant], page: &mut Folder, reports: &mut [Folder], with_vtk: bool) -> Result<(), Failure> {
-    for (variant, folder) in variants.iter().zip(reports) {
-        write_report(&variant.run, folder, with_vtk)?;
-    }
-    put(page, &files(variants).map_err(|error| error.to_string())?)
 }
 
 /// A name for the folder of a design's report, with a number behind it if it is taken.

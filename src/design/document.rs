@@ -233,12 +233,8 @@ impl<'de> Visitor<'de> for NodeSeed {
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Node, A::Error> {
         let mut map = Vec::new();
         while let Some(key) = entries.next_key_seed(NodeSeed)? {
-            let name = match key {
-                Node::Text(text) => text,
-                Node::Number(number) => number.to_string(),
-                Node::Flag(flag) => flag.to_string(),
-                other => return Err(A::Error::custom(format!("{} as a key", other.describe()))),
-            };
+            let described = key.describe();
+            let name = key_name(key).ok_or_else(|| A::Error::custom(format!("{described} as a key")))?;
             map.push((name, entries.next_value_seed(NodeSeed)?));
         }
         merge(&mut map);
@@ -323,35 +319,43 @@ impl<'de> Visitor<'de> for Locate<'_> {
             items.next_element::<IgnoredAny>()?;
         }
         items.next_element_seed(Locate { steps: rest })?;
-        Ok(())
+        Err(A::Error::custom("here"))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<(), A::Error> {
-        let Some((first, rest)) = self.steps.split_first() else {
-            return Err(A::Error::custom("here"));
-        };
-        while let Some(found) = entries.next_key_seed(KeySeed { wanted: first })? {
-            if found {
-                return entries.next_value_seed(Locate { steps: rest });
+        while !self.steps.is_empty()
+            && let Some(taken) = entries.next_key_seed(KeySeed { steps: self.steps })?
+        {
+            match taken {
+                Some(taken) => return entries.next_value_seed(Locate { steps: &self.steps[taken..] }),
+                None => drop(entries.next_value::<IgnoredAny>()?),
             }
-            entries.next_value::<IgnoredAny>()?;
         }
-        Ok(())
+        // The value sought, or the group that should hold it: it may come from another by way of `<<`.
+        Err(A::Error::custom("here"))
     }
 }
 
-/// Reads a key and tells whether it is the wanted one.
+/// Reads a key and tells how many of the steps it is: one, or more where it has dots in it.
 struct KeySeed<'a> {
-    wanted: &'a str,
+    steps: &'a [&'a str],
 }
 
 impl<'de> DeserializeSeed<'de> for KeySeed<'_> {
-    type Value = bool;
+    type Value = Option<usize>;
 
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<bool, D::Error> {
-        let Ok(Node::Text(name)) = NodeSeed.deserialize(deserializer) else {
-            return Ok(false);
-        };
-        Ok(name == self.wanted)
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Option<usize>, D::Error> {
+        let Some(name) = NodeSeed.deserialize(deserializer).ok().and_then(key_name) else { return Ok(None) };
+        Ok((1..=self.steps.len()).find(|&taken| self.steps[..taken].join(".") == name))
+    }
+}
+
+/// The text of a key.
+fn key_name(key: Node) -> Option<String> {
+    match key {
+        Node::Text(text) => Some(text),
+        Node::Number(number) => Some(number.to_string()),
+        Node::Flag(flag) => Some(flag.to_string()),
+        Node::Map(_) | Node::List(_) | Node::Nothing => None,
     }
 }

@@ -207,6 +207,7 @@ impl Folder {
     /// places and then renamed one by one, `result.json` last, so that a reader who finds that file finds the others complete. What is
     /// not the program's is moved aside; returned is what was moved, and to where.
     pub fn write(&mut self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
+        let mut moved = self.clear_the_way(files)?;
         if let Err(error) = self.lay_out(files) {
             files.iter().for_each(|file| drop(fs::remove_file(self.temporary(&file.name))));
             return Err(error);
@@ -222,7 +223,17 @@ impl Folder {
             self.remove_leftovers();
         }
         self.put_manifest()?;
-        placed
+        moved.extend(placed?);
+        Ok(moved)
+    }
+
+    /// Makes the folder where it was removed during the run, and moves aside what stands in the place of one below it.
+    fn clear_the_way(&self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
+        fs::create_dir_all(&self.path)?;
+        let below: BTreeSet<&Path> = files.iter().filter_map(|file| folder_of(&file.name)).collect();
+        let in_the_way = |below: &&Path| fs::symlink_metadata(self.path.join(below)).is_ok_and(|found| !found.is_dir());
+        let moved = below.into_iter().filter(in_the_way).map(|below| self.move_aside(&below.to_string_lossy()));
+        Ok(moved.collect::<io::Result<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
     /// Writes the files beside their places.
@@ -347,8 +358,7 @@ pub fn folder_name(name: &str) -> String {
     if named.is_empty() { "design".to_string() } else { named.to_string() }
 }
 
-/// A file that did not exist, synced. Never through a link that somebody has put there.
-/// Makes a new file, in the place of what stands there, be it a link.
+/// Makes a new file, synced, in the place of what stands there, be it a link.
 pub fn create(place: &Path, bytes: &[u8]) -> io::Result<()> {
     let _ = fs::remove_file(place);
     let mut file = File::create_new(place)?;
@@ -500,6 +510,22 @@ mod tests {
         let moved = folder.write(&files(&["report.md", "result.json"])).unwrap();
         assert_eq!(moved, [["report.md".to_string(), "report.md.1.kept".to_string()]]);
         assert_eq!(fs::read_to_string(path.join("report.md.1.kept")).unwrap(), "mine");
+        drop(folder);
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    #[test]
+    fn a_folder_that_was_removed_or_a_file_in_the_place_of_one_loses_no_run() {
+        let path = place("removed");
+        let mut folder = claim(&path).unwrap();
+        fs::remove_dir_all(&path).unwrap();
+        folder.write(&files(&["report.md", "result.json"])).unwrap();
+        assert_eq!(names(&path), ["manifest.json", "report.md", "result.json"]);
+        fs::write(path.join("vtk"), "mine").unwrap();
+        let moved = folder.write(&files(&["report.md", "vtk/1.vtu", "result.json"])).unwrap();
+        assert_eq!(moved, [["vtk".to_string(), "vtk.1.kept".to_string()]]);
+        assert_eq!(fs::read_to_string(path.join("vtk.1.kept")).unwrap(), "mine");
+        assert!(path.join("vtk/1.vtu").is_file());
         drop(folder);
         fs::remove_dir_all(path).unwrap();
     }

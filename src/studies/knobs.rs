@@ -26,6 +26,19 @@ pub enum Knob {
 }
 
 impl Knob {
+    /// As a study file names it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Step => "step",
+            Self::Stiffness => "stiffness",
+            Self::CoarseGraining => "coarse_graining",
+            Self::Aspect => "aspect",
+            Self::Skin => "skin",
+            Self::BarrierModel => "barrier_model",
+            Self::ElementLength => "element_length",
+        }
+    }
+
     pub fn title(self) -> &'static str {
         match self {
             Self::Step => "time step over critical",

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-use crate::design::document::brackets_are_too_deep;
+use crate::design::document::{Document, Node};
+use crate::problem::Problem;
 use crate::studies::knobs::Knob;
 
 /// What a study is of.
@@ -19,16 +20,43 @@ pub enum Study {
 impl Study {
     /// Reads the file's text; tells all that is wrong with it.
     pub fn read(text: &str) -> Result<Self, Vec<String>> {
-        if brackets_are_too_deep(text) {
-            return Err(vec!["brackets within brackets within brackets; at most a few levels are allowed".into()]);
+        let document = Document::parse(text.as_bytes()).map_err(|problem| vec![told(&problem)])?;
+        let at = |path: &str| document.position(path).map_or(String::new(), |place| format!("line {}, ", place.line));
+        let doubled = doubled("", &document.root);
+        if !doubled.is_empty() {
+            return Err(doubled.iter().map(|path| format!("{}{path}: given twice", at(path))).collect());
         }
         let study: Self = serde_yaml::from_str(text).map_err(|error| vec![error.to_string()])?;
         let wrong = match &study {
             Self::SpeedAccuracy(plan) => plan.wrong(),
             Self::Stability(plan) => plan.wrong(),
         };
-        if wrong.is_empty() { Ok(study) } else { Err(wrong) }
+        if wrong.is_empty() {
+            return Ok(study);
+        }
+        Err(wrong.into_iter().map(|[path, wrong]| format!("{}{path}: {wrong}", at(&path))).collect())
     }
+}
+
+/// A problem of the whole text in one line.
+fn told(problem: &Problem) -> String {
+    let place = problem.position.map_or(String::new(), |place| format!("line {}: ", place.line));
+    let hint = problem.hint.as_ref().map_or(String::new(), |hint| format!("; {hint}"));
+    format!("{place}found {}, allowed {}{hint}", problem.found, problem.allowed)
+}
+
+/// Paths of keys that stand twice in their group.
+fn doubled(path: &str, node: &Node) -> Vec<String> {
+    let Node::Map(entries) = node else { return Vec::new() };
+    let here = |name: &str| if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+    let mut list = Vec::new();
+    for (place, (name, value)) in entries.iter().enumerate() {
+        if entries[..place].iter().any(|(known, _)| known == name) {
+            list.push(here(name));
+        }
+        list.extend(doubled(&here(name), value));
+    }
+    list
 }
 
 /// The map of where steps break.
@@ -44,10 +72,10 @@ pub struct StabilityPlan {
 }
 
 impl StabilityPlan {
-    fn wrong(&self) -> Vec<String> {
+    fn wrong(&self) -> Vec<[String; 2]> {
         let mut wrong = wrong_name(&self.name);
         if !(100..=10_000_000).contains(&self.steps) {
-            wrong.push(format!("steps: found {}, allowed 100 to 10000000", self.steps));
+            wrong.push(["steps".into(), format!("found {}, allowed 100 to 10000000", self.steps)]);
         }
         let rising = self.shares.windows(2).all(|pair| pair[0] < pair[1]);
         if self.shares.is_empty()
@@ -55,7 +83,10 @@ impl StabilityPlan {
             || !rising
             || self.shares.iter().any(|share| !(0.01..=10.0).contains(share))
         {
-            wrong.push(format!("shares: found {:?}, allowed 1 to 50 rising values of 0.01 to 10", self.shares));
+            wrong.push([
+                "shares".into(),
+                format!("found {:?}, allowed 1 to 50 rising values of 0.01 to 10", self.shares),
+            ]);
         }
         wrong
     }
@@ -79,10 +110,14 @@ pub struct Plan {
 }
 
 /// The name becomes that of a folder.
-fn wrong_name(name: &str) -> Vec<String> {
+fn wrong_name(name: &str) -> Vec<[String; 2]> {
     let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
     let good = !name.is_empty() && name.len() <= 60 && name.chars().all(fits);
-    if good { Vec::new() } else { vec![format!("name: found {name:?}, allowed 1 to 60 letters, digits, _ and -")] }
+    if good {
+        Vec::new()
+    } else {
+        vec![["name".into(), format!("found {name:?}, allowed 1 to 60 letters, digits, _ and -")]]
+    }
 }
 
 /// Most starts and values, so that a slip of the hand does not run for days.
@@ -90,33 +125,38 @@ const MOST_STARTS: u32 = 100;
 const MOST_VALUES: usize = 20;
 
 impl Plan {
-    fn wrong(&self) -> Vec<String> {
+    fn wrong(&self) -> Vec<[String; 2]> {
         let plan = self;
         let mut wrong = wrong_name(&self.name);
         if plan.scenes.is_empty() {
-            wrong.push("scenes: one at least".to_string());
+            wrong.push(["scenes".into(), "found none, allowed one at least".into()]);
         }
         let names: Vec<_> = plan.scenes.iter().map(|scene| scene.file_stem()).collect();
         if (1..names.len()).any(|place| names[..place].contains(&names[place])) {
-            wrong.push("scenes: two have the same file name; their pictures could not be told apart".to_string());
+            wrong.push(["scenes".into(), "two have the same file name; their pictures could not be told apart".into()]);
         }
         for (key, starts) in [("starts", plan.starts), ("starts_of_knobs", plan.starts_of_knobs)] {
             if !(1..=MOST_STARTS).contains(&starts) {
-                wrong.push(format!("{key}: found {starts}, allowed 1 to {MOST_STARTS}"));
+                wrong.push([key.into(), format!("found {starts}, allowed 1 to {MOST_STARTS}")]);
             }
         }
         for (knob, values) in &plan.knobs {
             if values.is_empty() || values.len() > MOST_VALUES {
-                wrong.push(format!("knobs.{knob:?}: {} values, allowed 1 to {MOST_VALUES}", values.len()));
+                let found = format!("found {} values, allowed 1 to {MOST_VALUES}", values.len());
+                wrong.push([format!("knobs.{}", knob.key()), found]);
             }
         }
-        let values = plan.knobs.iter().flat_map(|(knob, values)| values.iter().map(move |value| (knob, value)));
-        for (knob, value) in values.chain(&plan.reference) {
-            if !knob.takes(*value) {
-                let [least, most] = knob.range();
-                wrong.push(format!("{}: found {value}, allowed {least} to {most}", knob.title()));
-            }
-        }
+        let values = |group: &'static str, knob: &Knob, values: &[f64]| {
+            let bad = values.iter().copied().filter(|value| !knob.takes(*value));
+            let [least, most] = knob.range();
+            let told = |value| {
+                let found = format!("found {value}, allowed {least} to {most} ({})", knob.title());
+                [format!("{group}.{}", knob.key()), found]
+            };
+            bad.map(told).collect::<Vec<_>>()
+        };
+        wrong.extend(plan.knobs.iter().flat_map(|(knob, list)| values("knobs", knob, list)));
+        wrong.extend(plan.reference.iter().flat_map(|(knob, value)| values("reference", knob, &[*value])));
         wrong
     }
 }
@@ -133,6 +173,11 @@ mod tests {
         assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
         assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
         assert!(Study::read(&"[".repeat(100_000)).is_err());
+        let wrong = Study::read(&text.replace("knobs:\n", "knobs:\n  step: [0.1]\n")).unwrap_err();
+        assert!(wrong[0].contains("knobs.step: given twice"), "{wrong:?}");
+        let line = 1 + text.lines().position(|line| line.trim().starts_with("step: [")).expect("a line");
+        let wrong = Study::read(&text.replacen("step: [", "step: [99, ", 1)).unwrap_err();
+        assert!(wrong[0].starts_with(&format!("line {line}, knobs.step: found 99, allowed 0.005 to 2")), "{wrong:?}");
         for (knob, value) in [
             (Knob::Aspect, 1e9),
             (Knob::CoarseGraining, 0.001),
@@ -145,7 +190,7 @@ mod tests {
                 Ok(Study::SpeedAccuracy(plan)) => plan,
                 other => panic!("{other:?}"),
             };
-            assert_eq!(plan.wrong(), Vec::<String>::new());
+            assert_eq!(plan.wrong(), Vec::<[String; 2]>::new());
             plan.knobs.insert(knob, vec![value]);
             assert_eq!(plan.wrong().len(), 1, "{knob:?} {value}");
         }

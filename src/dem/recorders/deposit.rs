@@ -5,6 +5,8 @@ use crate::dem::recorders::gauge::GaugeWindow;
 /// Length of a stretch in which a gap is sought, in grains, and depth below which it is one, in grains.
 const STRETCH: f64 = 2.0;
 const THIN: f64 = 0.25;
+/// Stretches that are told apart; what lies farther lies in the last.
+const FARTHEST: usize = 1 << 16;
 
 /// Mass (kg) beyond the first gap in the deposit: a stretch of two grains' length that is less than a quarter of a grain deep, at least
 /// `near` (m) upstream. `grains` gives how far upstream of the barrier each lies (m), and its mass (kg).
@@ -12,13 +14,13 @@ pub fn beyond_the_first_gap(grains: impl Iterator<Item = (f64, f64)>, window: &G
     let cell = STRETCH * window.mean_diameter;
     let mut cells: Vec<f64> = Vec::new();
     for (upstream, mass) in grains {
-        let place = (upstream / cell).max(0.0) as usize;
+        let place = ((upstream / cell).max(0.0) as usize).min(FARTHEST);
         cells.resize(cells.len().max(place + 1), 0.0);
         cells[place] += mass;
     }
     let thin = THIN * window.mean_diameter * window.bulk_density * window.width * cell;
     let first = (near / cell).ceil() as usize;
-    let gap = (first..cells.len()).find(|&place| cells[place] < thin).unwrap_or(cells.len());
+    let gap = (first.min(cells.len())..cells.len()).find(|&place| cells[place] < thin).unwrap_or(cells.len());
     cells[gap..].iter().fold(0.0, |sum, mass| sum + mass)
 }
 
