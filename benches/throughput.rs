@@ -19,15 +19,15 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use barrier_check::dem::Vec3;
-use barrier_check::dem::contact::law::LawConstants;
-use barrier_check::dem::crew::gather;
-use barrier_check::dem::neighbours::broad_phase::{Box3, BoxTree};
-use barrier_check::dem::net::pull_all;
-use barrier_check::dem::simulation::Simulation;
-use barrier_check::dem::tables::grains::GrainShape;
 use barrier_check::validation::barrier::stand::{cantilever, line, rope};
 use criterion::{Criterion, Throughput, criterion_group};
+use dem::Vec3;
+use dem::contact::law::LawConstants;
+use dem::crew::gather;
+use dem::neighbours::broad_phase::{Box3, BoxTree};
+use dem::net::pull_all;
+use dem::simulation::Simulation;
+use dem::tables::grains::GrainShape;
 use states::{Phase, RADIUS, SKIN, State};
 
 /// Steps before the clock starts.

@@ -65,7 +65,6 @@
 pub mod checkpoint;
 pub mod checks;
 pub mod commands;
-pub mod dem;
 pub mod demand;
 pub mod design;
 pub mod fidelity;

@@ -226,6 +226,8 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
         moment_sampled_over_smoothed: short_peaks(|seen| [seen.moment_peak_sampled, seen.moment_peak]),
         depth: simulated.spread(|seen| seen.incoming.depth).mean,
         velocity: simulated.spread(|seen| seen.incoming.velocity).mean,
+        flux_share: given_flux(&design.flow.arrival)
+            .map_or(1.0, |given| simulated.spread(|seen| seen.incoming.flux).mean / given),
         earth_pressure: (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean).or(by_weight),
         force_band: band.force,
         stroke_band: band.stroke,
@@ -263,6 +265,12 @@ fn given_arrival(arrival: &Arrival) -> Option<(Option<f64>, f64)> {
         Arrival::Surge(surge) => Some((Some(surge.depth), surge.velocity)),
         Arrival::DamBreak(block) => Some((block.depth_at_barrier, block.velocity_at_barrier?)),
     }
+}
+
+/// Momentum flux h v² (m³/s²) with which the design says that the flow arrives, where it gives depth and velocity.
+fn given_flux(arrival: &Arrival) -> Option<f64> {
+    let (depth, velocity) = given_arrival(arrival)?;
+    Some(depth? * velocity * velocity)
 }
 
 /// Whether a flow with a velocity (m/s) and a momentum flux h v² (m³/s²) is the one of a given depth and velocity, or more than it.

@@ -19,16 +19,29 @@ pub struct Problem {
     pub found: String,
     pub allowed: String,
     pub hint: Option<String>,
+    /// Whether it is the second of two keys of that path.
+    pub again: bool,
 }
 
 impl Problem {
     pub fn new(path: impl Into<String>, found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Self { path: path.into(), position: None, found: found.into(), allowed: allowed.into(), hint: None }
+        Self {
+            path: path.into(),
+            position: None,
+            found: found.into(),
+            allowed: allowed.into(),
+            hint: None,
+            again: false,
+        }
     }
 
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
+    }
+
+    pub fn again(self) -> Self {
+        Self { again: true, ..self }
     }
 
     pub fn at(mut self, position: Option<Position>) -> Self {
@@ -45,12 +58,18 @@ pub struct Problems {
     pub list: Vec<Problem>,
 }
 
+/// The same in one line.
+fn in_a_line(text: &str) -> String {
+    harmless(text).replace('\n', "\\n")
+}
+
 /// Text of a file as a terminal may show it: what would steer the terminal, or turn the text round, is made visible.
 pub fn harmless(text: &str) -> String {
     let steers = |letter: char| {
         letter.is_control() && !"\n\t".contains(letter)
             || "\u{2028}\u{2029}".contains(letter)
-            || "\u{061c}\u{200e}\u{200f}".contains(letter)
+            || "\u{061c}\u{200b}\u{200e}\u{200f}\u{feff}".contains(letter)
+            || ('\u{e0000}'..='\u{e007f}').contains(&letter)
             || ('\u{202a}'..='\u{202e}').contains(&letter)
             || ('\u{2066}'..='\u{2069}').contains(&letter)
     };
@@ -73,12 +92,12 @@ impl Problems {
                 write!(f, ":{line}:{column}")?;
             }
             if !problem.path.is_empty() {
-                write!(f, ": {}", problem.path)?;
+                write!(f, ": {}", in_a_line(&problem.path))?;
             }
-            writeln!(f, "\n  found:   {}", problem.found)?;
-            writeln!(f, "  allowed: {}", problem.allowed)?;
+            writeln!(f, "\n  found:   {}", in_a_line(&problem.found))?;
+            writeln!(f, "  allowed: {}", in_a_line(&problem.allowed))?;
             if let Some(hint) = &problem.hint {
-                writeln!(f, "  hint:    {hint}")?;
+                writeln!(f, "  hint:    {}", in_a_line(hint))?;
             }
         }
         let count = self.list.len();

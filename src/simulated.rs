@@ -7,12 +7,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::Shelf;
 use crate::checks::credibility::{Numerics, doubts};
-use crate::dem::crew;
-use crate::dem::ledger::Ledger;
-use crate::dem::recorders::histories::Histories;
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::Grain;
-use crate::dem::time::stable_step::StepRatio;
 use crate::demand::Seen;
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::Guideline;
@@ -24,6 +18,12 @@ use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
 use crate::scene::flow::packing::PackingError;
 use crate::starts::Spread;
+use dem::crew;
+use dem::ledger::Ledger;
+use dem::recorders::histories::Histories;
+use dem::simulation::Simulation;
+use dem::tables::grains::Grain;
+use dem::time::stable_step::StepRatio;
 
 /// What the simulation shows: the first start in full, of every start what was observed.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

@@ -271,6 +271,12 @@ pub fn separators(text: &str) -> Option<(String, String)> {
         _ => {}
     }
     let digits_of = |text: &str| text.chars().filter(|letter| !apart(*letter)).collect::<String>();
+    // A blank beside a point or a comma is a slip: the number is what is left without it.
+    if between.iter().any(|letter| BLANKS.contains(letter)) && between.iter().any(|letter| ".,".contains(*letter)) {
+        let joined = format!("{}{rest}", number.replace(BLANKS, ""));
+        let hint = separators(&joined).map_or_else(|| format!("write `{joined}`"), |(_, hint)| hint);
+        return Some((found_of(text), hint));
+    }
     let last = number.rfind(apart)?;
     let after = &number[last..].trim_start_matches(apart);
     let (whole, with_point) = (digits_of(number), format!("{}.{after}", digits_of(&number[..last])));
@@ -313,6 +319,18 @@ fn split(text: &str) -> (&str, &str) {
 fn example(number: &str, wanted: Dimension) -> String {
     let number = if number.is_empty() { "1" } else { number };
     format!("write for example `{number} {}`", wanted.display_symbol())
+}
+
+/// A number without a unit with one that brings it into a range (SI): the one that values of its kind are shown in, if it does.
+pub fn with_a_unit_in(text: &str, wanted: Dimension, low: f64, high: f64) -> Option<String> {
+    let value: f64 = text.trim().parse().ok()?;
+    let usual = wanted.display_symbol();
+    let units = UNITS.iter().filter(|(symbol, dimension, _)| *dimension == wanted && *symbol == usual);
+    let others = UNITS.iter().filter(|(symbol, dimension, _)| *dimension == wanted && *symbol != usual);
+    // Shares and pressures have hints of their own.
+    let plain = !matches!(wanted, Dimension::Share | Dimension::Pressure);
+    let fits = |(_, _, factor): &&(&str, Dimension, f64)| (low..=high).contains(&(value * factor));
+    units.chain(others).filter(|_| plain).find(fits).map(|(symbol, _, _)| format!("{} {symbol}", text.trim()))
 }
 
 /// What a number without a unit may have meant.
@@ -463,6 +481,15 @@ mod tests {
     fn says_what_it_took_a_wrong_text_for() {
         let error = |text, dimension| parse(text, dimension).unwrap_err();
         assert_eq!(error("15.2", Dimension::Length).hint.unwrap(), "write for example `15.2 m`");
+        for (text, hint) in [("4. 6 m/s", "write `4.6 m/s`"), ("1, 5 m", "`1.5 m`"), ("1 200.5 m", "write `1200.5 m`")]
+        {
+            let told = error(text, Dimension::Velocity).hint.unwrap();
+            assert!(told.contains(hint), "{text}: {told}");
+        }
+        let fitting = |text, low, high| with_a_unit_in(text, Dimension::Length, low, high);
+        assert_eq!(fitting("260", 1e-4, 10.0).unwrap(), "260 mm");
+        assert_eq!(fitting("2.5", 0.1, 20.0).unwrap(), "2.5 m");
+        assert_eq!(fitting("1e9", 0.1, 20.0), None);
         assert_eq!(error("25 t", Dimension::Force).found, "`25 t`, which is a mass");
         assert!(error("250 kn", Dimension::Force).hint.unwrap().contains("`250 kN`"));
         assert!(error("4,5 m", Dimension::Length).hint.is_some());

@@ -4,18 +4,18 @@
 #![allow(clippy::field_reassign_with_default)] // a barrier is put together part by part
 
 use approx::assert_relative_eq;
-use barrier_check::dem::Vec3;
-use barrier_check::dem::contact::law::Memory;
-use barrier_check::dem::elements::cylinder::{Cylinder, Section};
-use barrier_check::dem::elements::dissipator::Dissipator;
-use barrier_check::dem::elements::ring::RingSide;
-use barrier_check::dem::elements::sliding::Chain;
-use barrier_check::dem::elements::strength::Strength;
-use barrier_check::dem::model::Model;
-use barrier_check::dem::simulation::{Simulation, Unstable};
-use barrier_check::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
-use barrier_check::dem::tables::grains::GrainShape;
 use barrier_check::validation::scenes::{ball, free_model};
+use dem::Vec3;
+use dem::contact::law::Memory;
+use dem::elements::cylinder::{Cylinder, Section};
+use dem::elements::dissipator::Dissipator;
+use dem::elements::ring::RingSide;
+use dem::elements::sliding::Chain;
+use dem::elements::strength::Strength;
+use dem::model::Model;
+use dem::simulation::{Simulation, Unstable};
+use dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use dem::tables::grains::GrainShape;
 use nalgebra::UnitQuaternion;
 
 const AXIAL_STIFFNESS: f64 = 3.21699e6;

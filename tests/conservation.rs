@@ -1,14 +1,14 @@
 //! What a result must not depend on. (What must be conserved are validation cases.)
 
 use approx::assert_relative_eq;
-use barrier_check::dem::Vec3;
-use barrier_check::dem::contact::grain_pairs::Members;
-use barrier_check::dem::contact::pair_list::Separation;
-use barrier_check::dem::crew::gather;
-use barrier_check::dem::model::Model;
-use barrier_check::dem::simulation::{Simulation, Unstable};
-use barrier_check::dem::tables::grains::GrainShape;
 use barrier_check::validation::scenes::{ball, cloud, floor, free_model, material};
+use dem::Vec3;
+use dem::contact::grain_pairs::Members;
+use dem::contact::pair_list::Separation;
+use dem::crew::gather;
+use dem::model::Model;
+use dem::simulation::{Simulation, Unstable};
+use dem::tables::grains::GrainShape;
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {

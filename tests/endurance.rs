@@ -4,15 +4,15 @@
 #![allow(clippy::print_stdout, reason = "who runs it wants to see how far it drifts")]
 #![allow(clippy::field_reassign_with_default)] // a barrier is put together part by part
 
-use barrier_check::dem::Vec3;
-use barrier_check::dem::contact::law::Memory;
-use barrier_check::dem::elements::strength::Strength;
-use barrier_check::dem::ledger::Ledger;
-use barrier_check::dem::model::{Material, Model};
-use barrier_check::dem::simulation::Simulation;
-use barrier_check::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
-use barrier_check::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use barrier_check::validation::scenes::{floor, free_model};
+use dem::Vec3;
+use dem::contact::law::Memory;
+use dem::elements::strength::Strength;
+use dem::ledger::Ledger;
+use dem::model::{Material, Model};
+use dem::simulation::Simulation;
+use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
 
 const RADIUS: f64 = 0.05;
 /// Soft, so that a day takes 10⁸ steps.

@@ -3,9 +3,6 @@
 use std::sync::atomic::AtomicBool;
 
 use barrier_check::checks::credibility::{ENERGY_LIMIT, doubts};
-use barrier_check::dem::Vec3;
-use barrier_check::dem::recorders::recorder::Recorder;
-use barrier_check::dem::simulation::Simulation;
 use barrier_check::design::Design;
 use barrier_check::design::read::{DesignFile, read_design};
 use barrier_check::fidelity::choose;
@@ -13,6 +10,9 @@ use barrier_check::pipeline::{Verdict, run};
 use barrier_check::scene::build::{Scene, build};
 use barrier_check::scene::event::{Ending, Event, Ongoing, Watch};
 use barrier_check::simulated::numerics;
+use dem::Vec3;
+use dem::recorders::recorder::Recorder;
+use dem::simulation::Simulation;
 
 fn file() -> DesignFile {
     read_design("tiny.yaml", include_bytes!("fixtures/tiny.yaml")).expect("a design")

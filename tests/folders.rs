@@ -183,10 +183,10 @@ fn the_equations_alone_do_not_take_the_place_of_a_simulation() {
     };
     let refused = run(&place, &["loads", "net.yaml", "--out", "run"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(error(&refused).contains("holds the report of a simulated run"), "{}", error(&refused));
+    assert!(error(&refused).contains("holds the report of a simulated design"), "{}", error(&refused));
     std::fs::write(place.join("study.yaml"), "kind: stability\nname: x\nshares: [0.5]\nsteps: 100\n").expect("a study");
     let refused = run(&place, &["study", "study.yaml", "--out", "run"]);
-    assert!(error(&refused).contains("holds the report of a simulated run"), "{}", error(&refused));
+    assert!(error(&refused).contains("holds the report of a simulated design"), "{}", error(&refused));
     assert!(before == files(&place), "something was changed");
 }
 

@@ -1,14 +1,14 @@
 //! A barrier that lies on the bed: weight, sliding with friction, and the energy account.
 
 use approx::assert_relative_eq;
-use barrier_check::dem::Vec3;
-use barrier_check::dem::elements::ground::{Ground, Plane};
-use barrier_check::dem::elements::strength::Strength;
-use barrier_check::dem::model::Model;
-use barrier_check::dem::simulation::Simulation;
-use barrier_check::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
-use barrier_check::dem::tables::grains::GrainShape;
 use barrier_check::validation::scenes::free_model;
+use dem::Vec3;
+use dem::elements::ground::{Ground, Plane};
+use dem::elements::strength::Strength;
+use dem::model::Model;
+use dem::simulation::Simulation;
+use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::grains::GrainShape;
 
 const GRAVITY: f64 = 9.81;
 const RADIUS: f64 = 0.008;

@@ -1,12 +1,12 @@
 //! The partial factor on loads: a flow γ times as heavy on the barrier, and the barrier's mass, stiffness and plateau divided by γ
 //! under the flow as it is with forces multiplied by γ, are one and the same.
 
-use barrier_check::dem::tables::barrier::Barrier;
 use barrier_check::design::Design;
 use barrier_check::design::read::read_design;
 use barrier_check::fidelity::choose;
 use barrier_check::load_cases::factored;
 use barrier_check::scene::build::build;
+use dem::tables::barrier::Barrier;
 
 /// The barrier as a flow 1/γ times as heavy must meet it to move as it does under the factored flow.
 fn lighter(mut barrier: Barrier, factor: f64) -> Barrier {
@@ -50,7 +50,7 @@ fn course(design: &Design, scale: Option<f64>) -> (f64, Vec<f64>) {
     }
     let mut tensions = Vec::new();
     let mut stroke: f64 = 0.0;
-    barrier_check::dem::crew::gather(|| {
+    dem::crew::gather(|| {
         for number in 0..22_000 {
             scene.simulation.step().expect("stable");
             if number % 100 == 0 {

@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::Instant;
 
-use barrier_check::dem::recorders::film::Film;
-use barrier_check::dem::simulation::Simulation;
-use barrier_check::dem::tables::grains::GrainShape;
 use barrier_check::validation::scenes::{cloud, free_model};
+use dem::recorders::film::Film;
+use dem::simulation::Simulation;
+use dem::tables::grains::GrainShape;
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_barrier-check")).args(arguments).output().expect("the program starts")

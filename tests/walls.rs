@@ -1,19 +1,15 @@
-//! The walls between the parts of the program: which folder may name which.
+//! The walls between the parts of the program: which part may name which, and that no two files need each other.
+//!
+//! The engine is a crate of its own, so that the compiler keeps it from the rest. Within the main crate this test reads the sources as the
+//! compiler does: every path of the code, in `use` trees, expressions, types and macros, absolute or relative, is followed to the file of
+//! the module that it names.
 
-use std::path::{Path, PathBuf};
+mod uses;
 
-fn sources(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).expect("folder") {
-        let path = entry.expect("entry").path();
-        if path.is_dir() {
-            files.extend(sources(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    files
-}
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use uses::{Crate, Name};
 
 /// Every module at the top of `src`, and what it may name besides itself.
 const WALLS: &[(&str, &[&str])] = &[
@@ -27,7 +23,6 @@ const WALLS: &[(&str, &[&str])] = &[
     ("design", &["problem", "units"]),
     ("load_cases", &["design"]),
     ("loads", &["sources", "units"]),
-    ("dem", &[]),
     ("checkpoint", &["dem", "program", "sealed", "terminal"]),
     ("demand", &["dem", "design", "loads", "starts", "units"]),
     ("checks", &["demand", "design", "loads", "sources", "units"]),
@@ -97,53 +92,138 @@ const WALLS: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// The module at the top of `src` that a file belongs to.
-fn module_of(path: &Path) -> String {
-    let first = path.components().nth(1).expect("a file below src");
-    Path::new(first.as_os_str()).file_stem().expect("a name").to_string_lossy().into_owned()
+fn main_crate() -> Crate {
+    Crate::read(Path::new("src"))
 }
 
-/// The modules at the top that the code of a text names; its comments may point anywhere.
-fn named(text: &str) -> Vec<&str> {
-    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
-    let after = code.flat_map(|line| line.split("crate::").skip(1));
-    after.filter_map(|rest| rest.split(|letter: char| !(letter.is_alphanumeric() || letter == '_')).next()).collect()
+fn engine() -> Crate {
+    Crate::read(Path::new("crates/dem/src"))
+}
+
+/// What is wrong with what a crate names.
+fn breaches(of: &Crate) -> Vec<String> {
+    let mut list = Vec::new();
+    for (file, name) in of.names() {
+        let own = of.top(file);
+        if own == "lib" || own == "main" {
+            continue;
+        }
+        let Some((_, allowed)) = WALLS.iter().find(|(known, _)| *known == own) else {
+            list.push(format!("{own} has no line in WALLS"));
+            continue;
+        };
+        let other = match &name {
+            Name::Own(module) => module.first().cloned().unwrap_or_default(),
+            Name::Other(krate) if krate == "dem" => krate.clone(),
+            Name::Other(_) => continue,
+        };
+        let known = other == "dem" || WALLS.iter().any(|(known, _)| *known == other);
+        if known && other != own && !allowed.contains(&other.as_str()) {
+            list.push(format!("{file} names {other}"));
+        }
+    }
+    list.sort();
+    list.dedup();
+    list
 }
 
 #[test]
 fn each_part_knows_only_what_the_walls_allow() {
-    for path in sources(Path::new("src")) {
-        let module = module_of(&path);
-        if module == "lib" || module == "main" {
-            continue;
-        }
-        let allowed = WALLS.iter().find(|(name, _)| *name == module).map(|(_, allowed)| *allowed);
-        let allowed = allowed.unwrap_or_else(|| panic!("{module} has no line in WALLS"));
-        let text = std::fs::read_to_string(&path).expect("source");
-        for other in named(&text) {
-            let known = WALLS.iter().any(|(name, _)| *name == other);
-            let fine = !known || other == module || allowed.contains(&other);
-            assert!(fine, "{} names {other}", path.display());
-        }
+    assert_eq!(breaches(&main_crate()), Vec::<String>::new());
+}
+
+/// Each form in which a part could name another is seen.
+#[test]
+fn a_forbidden_import_is_seen_in_every_form() {
+    for planted in [
+        "use crate::report::view::View;",
+        "use crate::{design::Design, report::view::View};",
+        "use crate::report as other;",
+        "pub use crate::report::*;",
+        "use super::super::report::view;",
+        "use super::super::{loads::input, report};",
+        "use crate as root; use root::report::view::View;",
+        "fn f() { crate::report::render::render(); }",
+        "fn f() -> crate::report::view::View { loop {} }",
+        "fn f() { assert!(crate::report::view::good()); }",
+        "fn f() { use super::super::report; }",
+        "impl crate::report::view::Shown for i32 {}",
+        "#[cfg(test)] mod tests { use crate::report::view::View; }",
+        "mod inner { use super::super::super::report::view::View; }",
+        "use dem::simulation::Simulation;",
+        "use ::dem::simulation::Simulation;",
+        "extern crate dem;",
+        "extern crate dem as engine;",
+    ] {
+        let mut sources = main_crate();
+        sources.plant("src/checks/anchors.rs", planted);
+        assert_eq!(breaches(&sources).len(), 1, "{planted}: {:?}", breaches(&sources));
     }
 }
 
 #[test]
-fn only_one_file_names_rapier() {
-    let named: Vec<_> = sources(Path::new("src"))
-        .into_iter()
-        .filter(|path| std::fs::read_to_string(path).expect("source").contains("rapier3d"))
+fn no_two_files_need_each_other() {
+    for (name, sources) in [("engine", engine()), ("product", main_crate())] {
+        let circles = circles(&sources.graph());
+        assert!(circles.is_empty(), "{name}: {} circles\n{circles:#?}", circles.len());
+    }
+}
+
+#[test]
+fn a_circle_is_seen() {
+    let graph = |pairs: &[[&str; 2]]| {
+        let mut graph: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for [from, to] in pairs {
+            graph.entry((*from).to_string()).or_default().insert((*to).to_string());
+        }
+        circles(&graph).len()
+    };
+    assert_eq!(graph(&[["a", "b"], ["b", "c"], ["a", "c"]]), 0);
+    assert_eq!(graph(&[["a", "b"], ["b", "c"], ["c", "a"], ["c", "d"]]), 1);
+    let mut sources = engine();
+    sources.plant("crates/dem/src/geometry/point_segment.rs", "use crate::simulation::Simulation;");
+    assert!(!circles(&sources.graph()).is_empty());
+}
+
+/// Groups of files each of which leads to every other of its group.
+fn circles(graph: &BTreeMap<String, BTreeSet<String>>) -> Vec<BTreeSet<String>> {
+    let reach: BTreeMap<&String, BTreeSet<&String>> = graph.keys().map(|from| (from, reached(graph, from))).collect();
+    let meets = |a: &String, b: &String| reach[a].contains(b) && reach.get(b).is_some_and(|back| back.contains(a));
+    let mut groups: Vec<BTreeSet<String>> = graph
+        .keys()
+        .map(|from| graph.keys().filter(|other| *other != from && meets(from, other)).chain([from]).cloned().collect())
+        .filter(|group: &BTreeSet<String>| group.len() > 1)
         .collect();
-    assert_eq!(named, [Path::new("src/dem/neighbours/broad_phase.rs")]);
+    groups.sort();
+    groups.dedup();
+    groups
+}
+
+fn reached<'a>(graph: &'a BTreeMap<String, BTreeSet<String>>, from: &'a String) -> BTreeSet<&'a String> {
+    let mut found = BTreeSet::new();
+    let mut next = vec![from];
+    while let Some(file) = next.pop() {
+        next.extend(graph.get(file).into_iter().flatten().filter(|other| found.insert(*other)));
+    }
+    found
+}
+
+#[test]
+fn only_one_file_names_rapier() {
+    let named = |sources: &Crate| -> BTreeSet<String> {
+        let rapier = |name: &Name| matches!(name, Name::Other(krate) if krate.starts_with("rapier"));
+        sources.names().filter(|(_, name)| rapier(name)).map(|(file, _)| file.to_string()).collect()
+    };
+    assert_eq!(named(&main_crate()), BTreeSet::new());
+    assert_eq!(named(&engine()), BTreeSet::from(["crates/dem/src/neighbours/broad_phase.rs".to_string()]));
 }
 
 #[test]
 fn only_commands_and_writers_touch_files() {
-    for path in sources(Path::new("src")) {
-        let text = std::fs::read_to_string(&path).expect("source");
-        let writers = ["src/report/folder.rs", "src/report/lock.rs", "src/checkpoint/file.rs"];
-        let allowed = path.starts_with("src/commands") || writers.iter().any(|writer| path == Path::new(writer));
-        assert!(allowed || !text.contains("std::fs"), "{} touches files", path.display());
+    let writers = ["src/report/folder.rs", "src/report/lock.rs", "src/checkpoint/file.rs"];
+    for (file, text) in main_crate().texts().chain(engine().texts()) {
+        let allowed = file.starts_with("src/commands") || writers.contains(&file);
+        assert!(allowed || !text.contains("std::fs"), "{file} touches files");
     }
 }
 
@@ -152,10 +232,9 @@ fn only_commands_and_writers_touch_files() {
 fn unsafe_stands_only_where_the_map_says() {
     let allowed =
         ["crew.rs", "simd/x86.rs", "simd/widest.rs", "sweep.rs", "tables/grain_rows.rs", "tables/prefetch.rs"];
-    let allowed = allowed.map(|file| Path::new("src/dem").join(file));
-    for path in sources(Path::new("src")) {
-        let text = std::fs::read_to_string(&path).expect("source");
+    let allowed = allowed.map(|file| format!("crates/dem/src/{file}"));
+    for (file, text) in main_crate().texts().chain(engine().texts()) {
         let used = text.lines().any(|line| !line.trim_start().starts_with("//") && line.contains("unsafe "));
-        assert!(!used || allowed.contains(&path), "{} is unsafe", path.display());
+        assert!(!used || allowed.iter().any(|known| known == file), "{file} is unsafe");
     }
 }

@@ -1,7 +1,7 @@
 //! A cell list, to hold the tree of the broad phase against.
 
-use barrier_check::dem::Vec3;
-use barrier_check::dem::tables::grains::Grain;
+use dem::Vec3;
+use dem::tables::grains::Grain;
 
 /// Pairs of spheres whose centres are nearer than `reach` (m); cells have that edge.
 pub fn pairs(grains: &[Grain], reach: f64) -> Vec<[u32; 2]> {

@@ -8,12 +8,12 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use barrier_check::dem::Vec3;
-use barrier_check::dem::model::{Material, Model};
-use barrier_check::dem::simulation::Simulation;
-use barrier_check::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use barrier_check::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use barrier_check::scene::flow::packing::{PackingRoom, pack};
+use dem::Vec3;
+use dem::model::{Material, Model};
+use dem::simulation::Simulation;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 
 /// Radius of the spheres (m).
 pub const RADIUS: f64 = 0.007635;

@@ -3,7 +3,7 @@
 //! A vault is a folder with the order (the design and how to run it) and, for every simulation of the run, a file that is renewed
 //! now and then while it goes on and once it is done. To resume a run is to give the same order again with the same vault: what is
 //! done is taken from it, what was under way goes on, the rest is begun. A simulation is kept at its stops alone
-//! ([`crate::dem::simulation::Simulation::at_stop`]), where all that it depends on can be kept; so the result is that of a run that was
+//! ([`dem::simulation::Simulation::at_stop`]), where all that it depends on can be kept; so the result is that of a run that was
 //! never interrupted, bit for bit.
 
 pub mod file;

@@ -26,6 +26,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     by_load.chain(against_plateau(net, design, demands, capacity)).collect()
 }
 
+/// Factor on its plateau with which a dissipator may pull; a load factor that is as large covers it.
+const USUAL_OVERSTRENGTH: f64 = 1.15;
+
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
 fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capacity: Resistance) -> Option<Outcome> {
     let plateau = net.dissipators?.plateau;
@@ -47,7 +50,7 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capaci
             .only_by_simulation("the lateral ropes are tied to the anchors, and the equations do not know their load"),
         false => outcome,
     };
-    let known = design.factors.overstrength_given || design.factors.load > 1.0;
+    let known = design.factors.overstrength_given || design.factors.load >= USUAL_OVERSTRENGTH;
     if !known && matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
         outcome.leave_open(Opening::NotGiven(
             "how far above its plateau a dissipator may pull is not given (give factors.dissipator_overstrength from its tests; 1 if the plateau is the upper bound)".into(),

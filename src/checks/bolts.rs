@@ -2,8 +2,8 @@
 //!
 //! The load is not even along the rope: of the simulated examples the worst bolt takes two to three times the mean, and part of it
 //! lifts. So the equations, which spread the load evenly, can fail the bolts but never pass them. Between its bolts the rope sags: with the
-//! load P of the worst bolt on each space, a rope that lay straight is pulled with T = (P² EA/24)^⅓, and the bolts at its ends hold T beside
-//! half of P. The bolts are taken as unyielding, the load between them as even.
+//! load P of the worst bolt on each space, a rope that lay straight is pulled along its span with H = (P² EA/24)^⅓; at its bolts its tension
+//! is T = √(H² + (P/2)²), which the bolts at its ends hold. The bolts are taken as unyielding, the load between them as even.
 
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::checks::ropes::resistance;
@@ -54,15 +54,31 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         .collect()
 }
 
-/// Tension (N) of a rope with EA (N) that lay straight between two bolts and now carries a load (N), spread evenly. With the span s, the
-/// sag f = P s/(8 T) and the stretch 8 f²/(3 s²) = T/EA it is (P² EA/24)^⅓, whatever the span.
+/// Largest tension (N) of a rope with EA (N) that lay straight between two bolts and now carries a load (N), spread evenly. With the span s,
+/// the sag f = P s/(8 H) and the stretch 8 f²/(3 s²) = H/EA its part along the span is H = (P² EA/24)^⅓, whatever the span; at a bolt half of
+/// the load comes beside it.
 fn tension_between(load: f64, axial: f64) -> f64 {
-    libm::cbrt(load * load * axial / 24.0)
+    libm::hypot(libm::cbrt(load * load * axial / 24.0), 0.5 * load)
+}
+
+/// Tension (N) of that rope under `more` times the load under which it has the given one (N). NaN stays NaN.
+pub fn tension_under_more(tension: f64, more: f64, axial: f64) -> f64 {
+    // Half of the load is less than the tension.
+    let (mut low, mut high) = (0.0, 2.0 * tension);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if tension_between(middle, axial) < tension {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    tension_between(more * high, axial)
 }
 
 /// Load (N) of the bolt at an end of the rope, which no rope pulls from the other side, or of one along it if that is more.
 fn end_bolt(load: f64, axial: f64) -> f64 {
-    let end = libm::hypot(tension_between(load, axial), 0.5 * load);
+    let end = tension_between(load, axial);
     // Written so that a NaN stays one.
     if end <= load { load } else { end }
 }
@@ -85,11 +101,14 @@ mod tests {
     use crate::design::read::read_design;
     use approx::assert_relative_eq;
 
-    /// By hand: 40 kN on a space, EA of 12.57 MN: T³ = 1.6e9 · 12.57e6/24 = 8.38e14, T = 94.3 kN, sag over span 40/(8 · 94.3) = 5.3 %,
-    /// stretch 8/3 · 0.053² = 0.75 % = 94.3/12 570. With half of 40 kN the end bolt holds 96.4 kN.
+    /// By hand: 40 kN on a space, EA of 12.57 MN: H³ = 1.6e9 · 12.57e6/24 = 8.38e14, H = 94.3 kN, sag over span 40/(8 · 94.3) = 5.3 %,
+    /// stretch 8/3 · 0.053² = 0.75 % = 94.3/12 570. With half of 40 kN beside it the rope's tension is 96.4 kN, which the end bolt holds.
+    /// Under 80 kN H is 2^⅔ as much, 149.7 kN, and T 155.0 kN.
     #[test]
     fn a_rope_between_bolts_is_pulled_by_its_sag_and_the_bolts_at_its_ends_hold_it() {
-        assert_relative_eq!(tension_between(40e3, 12.57e6), 94.3e3, max_relative = 1e-3);
+        assert_relative_eq!(tension_between(40e3, 12.57e6), 96.4e3, max_relative = 1e-3);
+        assert_relative_eq!(tension_under_more(96.4e3, 2.0, 12.57e6), 155.0e3, max_relative = 1e-3);
+        assert!(tension_under_more(f64::NAN, 2.0, 12.57e6).is_nan());
         assert_relative_eq!(end_bolt(40e3, 12.57e6), 96.4e3, max_relative = 1e-3);
         // A soft rope sags so far that a bolt along it holds more.
         assert_eq!(end_bolt(40e3, 1e3), 40e3);

@@ -14,7 +14,6 @@ pub struct Usual {
 }
 
 impl Usual {
-    /// Written so that a NaN is outside.
     fn holds(&self) -> bool {
         self.found >= self.range[0] && self.found <= self.range[1]
     }
@@ -32,7 +31,8 @@ pub fn implausible(design: &Design) -> Vec<Usual> {
         BarrierDesign::RigidWall(wall) => all.extend(of_wall(wall, design.channel.width)),
         BarrierDesign::FlexibleNet(net) => all.extend(of_net(net)),
     }
-    all.into_iter().filter(|input| !input.holds()).collect()
+    // The equations alone need not be told of the grains.
+    all.into_iter().filter(|input| !input.found.is_nan() && !input.holds()).collect()
 }
 
 fn of_flow_and_channel(design: &Design) -> Vec<Usual> {

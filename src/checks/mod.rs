@@ -14,6 +14,7 @@ pub mod retained;
 pub mod ropes;
 pub mod total_force;
 pub mod wall;
+pub mod wall_local;
 pub mod wall_moment;
 pub mod wear;
 
@@ -26,6 +27,7 @@ type Check = fn(&Design, &Demands) -> Vec<Outcome>;
 /// All checks, in the order of the report.
 const CHECKS: &[Check] = &[
     total_force::check,
+    wall_local::check,
     wall_moment::check,
     wall::check,
     ropes::check_main,

@@ -51,13 +51,13 @@ mod tests {
             thickness: 2.0,
             density: 2400.0,
             base_width,
-            base_slope: 0.0,
+            base_slope: Some(0.0),
             base_friction: 0.7,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
-            water_head: 0.0,
+            water_head: Some(0.0),
         });
         let total_force = Demand { guideline: Some(100e3), ..Demand::default() };
         check(&design, &Demands { total_force, ..Demands::default() })[0].verdict

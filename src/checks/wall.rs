@@ -1,7 +1,7 @@
 //! A wall that stands by its weight: sliding along its base, overturning about the downstream edge, pressure under the base. Per metre of
 //! width.
 
-use crate::checks::outcome::{CheckName, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Opening, Outcome, Resistance};
 use crate::demand::from_loads::wall_of;
 use crate::demand::{Demand, Demands, larger};
 use crate::design::{BarrierDesign, Design, Stability};
@@ -56,7 +56,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         "Pa",
         "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
     );
-    vec![
+    let mut outcomes = vec![
         match stability.bearing_resistance {
             Some(characteristic) => {
                 Outcome::at_most(under, bearing, Resistance { characteristic, factor: stability.bearing_factor }, 1.0)
@@ -76,7 +76,29 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             Resistance { characteristic: holds_up, factor: stability.overturning_factor },
             1.0,
         ),
+    ];
+    leave_open_untold(&stability, &mut outcomes);
+    outcomes
+}
+
+/// A level and dry base is the mildest there is: what holds on one that nobody described stays open.
+fn leave_open_untold(stability: &Stability, outcomes: &mut [Outcome]) {
+    let untold: Vec<&str> = [
+        stability.base_slope.is_none().then_some("barrier.rigid_wall.stability.base_slope, 0 deg for a level base"),
+        stability.water_head.is_none().then_some("barrier.rigid_wall.stability.water_head, 0 m for a drained base"),
     ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if untold.is_empty() {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        outcome.leave_open(Opening::NotGiven(format!(
+            "it holds on the mildest base, and the design does not describe its own (give {})",
+            untold.join(", and ")
+        )));
+    }
 }
 
 fn stability_of(design: &Design) -> Option<Stability> {
@@ -107,13 +129,13 @@ mod tests {
             thickness: 2.0,
             density: 2400.0,
             base_width: 2.0,
-            base_slope: 0.0,
+            base_slope: Some(0.0),
             base_friction: 0.7,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
-            water_head: 0.0,
+            water_head: Some(0.0),
         });
         design
     }
@@ -151,7 +173,7 @@ mod tests {
         let mut design = with_stability();
         let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
         let stability = wall.stability.as_mut().expect("stability");
-        (stability.base_slope, stability.bearing_resistance) = (0.1, Some(1e6));
+        (stability.base_slope, stability.bearing_resistance) = (Some(0.1), Some(1e6));
         let input = wall_of(&design).expect("a wall");
         let simulated =
             |value: f64| Demand { simulation: Some(value), characteristic: Some(0.5 * value), ..Demand::default() };
@@ -176,5 +198,22 @@ mod tests {
             (normal + 10e3) / (2.0 - 2.0 * off),
             max_relative = 1e-12
         );
+    }
+
+    /// A block thick enough to hold, on a base that is described, or not in full.
+    #[test]
+    fn a_base_that_nobody_described_is_open() {
+        let verdicts = |base_slope: Option<f64>, water_head: Option<f64>| {
+            let mut design = with_stability();
+            let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+            let stability = wall.stability.as_mut().expect("stability");
+            (stability.thickness, stability.base_width, stability.bearing_resistance) = (40.0, 40.0, Some(1e6));
+            (stability.base_slope, stability.water_head) = (base_slope, water_head);
+            let demands = Demands::by_equations(&guideline(&design), &design.factors);
+            check(&design, &demands).into_iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
+        };
+        assert_eq!(verdicts(Some(0.0), Some(0.0)), [CheckVerdict::Pass; 4]);
+        assert_eq!(verdicts(None, Some(0.0)), [CheckVerdict::Open; 4]);
+        assert_eq!(verdicts(Some(0.0), None), [CheckVerdict::Open; 4]);
     }
 }

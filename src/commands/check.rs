@@ -8,7 +8,7 @@ use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, Order, Vault};
 use crate::commands::ExitCode;
 use crate::commands::input::{self, LONGEST_TEXT};
-use crate::commands::output::{exit_code, hand_over, spare_a_simulation, summarise, write_report};
+use crate::commands::output::{exit_code, hand_over, summarise, write_report};
 use crate::commands::progress::Progress;
 use crate::design::FidelityWish;
 use crate::design::read::{DesignFile, Purpose, read_design, read_design_for};
@@ -17,6 +17,7 @@ use crate::load_cases::{cases, factored};
 use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::report::folder::{Folder, Named, folder_name};
+use crate::report::kind::Kind;
 use crate::scene::estimate::{Estimate, estimate, slowness};
 use crate::scene::event::{ProgressReport, Watch};
 use crate::sensitivity::simulated::variants;
@@ -50,6 +51,7 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
         Err(code) => return code,
     };
     let place = folder.path().to_path_buf();
+    tell_what_auto_leaves_out(&file, wishes);
     let Wishes { starts, vary, vtk, .. } = wishes;
     let order = Order { name: file.name.clone(), design: file.text.clone(), starts, vary, vtk };
     let vault = open_vault(&place, order, &file, keep_every, true);
@@ -63,9 +65,23 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
     run_kept(file, folder, wishes, &vault)
 }
 
+/// The ladder chooses its packings itself, and what it settles without a simulation has none to vary.
+fn tell_what_auto_leaves_out(file: &DesignFile, wishes: Wishes) {
+    if file.design.simulation.fidelity != FidelityWish::Auto {
+        return;
+    }
+    let left_out = [
+        (wishes.starts > 1, "--seeds is not used: it chooses the number of packings itself"),
+        (wishes.vary, "--vary is used only where a simulation runs"),
+    ];
+    for (_, what) in left_out.into_iter().filter(|(asked, _)| *asked) {
+        terminal::warn(format_args!("note: the design asks for simulation.fidelity: auto, with which {what}"));
+    }
+}
+
 /// Goes on with a run that was interrupted, whose report was to go to `folder`.
 pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> ExitCode {
-    let claimed = match folder.is_dir().then(|| claim(folder, None, Named::Explicitly)).transpose() {
+    let claimed = match folder.is_dir().then(|| claim(folder, None, Named::Explicitly, Kind::Simulation)).transpose() {
         Ok(claimed) => claimed,
         Err(code) => return code,
     };
@@ -157,7 +173,9 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let seconds = seconds * slowness();
     let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let cases = cases(&file.design).len();
-    let starts = wishes.starts as usize * cases;
+    tell_what_auto_leaves_out(&file, wishes);
+    let auto = file.design.simulation.fidelity == FidelityWish::Auto;
+    let starts = if auto { 1 } else { wishes.starts as usize } * cases;
     let varied = if wishes.vary { 2 * variants(&file.design).len() } else { 0 };
     let runs = starts + varied;
     let say = |line: String| {
@@ -206,10 +224,6 @@ pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
-    if let Err(error) = spare_a_simulation(&folder) {
-        terminal::warn(format_args!("error: {error}"));
-        return ExitCode::Undecided;
-    }
     hand_over(&by_equations(file), &mut folder, false)
 }
 
@@ -217,15 +231,15 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// The design, and the folder its report goes to.
 fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignFile, Folder), ExitCode> {
-    let suffix = match purpose {
-        Purpose::Simulation => "",
-        Purpose::Equations => "_loads",
+    let (suffix, kind) = match purpose {
+        Purpose::Simulation => ("", Kind::Simulation),
+        Purpose::Equations => ("_loads", Kind::Equations),
     };
     let folder_of = |name: &str| out.map_or_else(|| Path::new("out").join(folder_name(name) + suffix), PathBuf::from);
     match load_for(purpose, path) {
         Ok(file) => {
             let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
-            let folder = claim(&folder_of(&file.name), Some(path), named)?;
+            let folder = claim(&folder_of(&file.name), Some(path), named, kind)?;
             Ok((file, folder))
         }
         Err(problems) => {
@@ -237,8 +251,8 @@ fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignF
 }
 
 /// Takes the folder of a report before the run, so that nobody waits for what cannot be kept.
-pub fn claim(folder: &Path, source: Option<&Path>, named: Named) -> Result<Folder, ExitCode> {
-    Folder::claim(folder, source, named).map_err(|refusal| {
+pub fn claim(folder: &Path, source: Option<&Path>, named: Named, kind: Kind) -> Result<Folder, ExitCode> {
+    Folder::claim(folder, source, named).and_then(|folder| folder.for_kind(kind)).map_err(|refusal| {
         terminal::warn(format_args!("error: {refusal}"));
         ExitCode::Undecided
     })

@@ -1,22 +1,23 @@
 //! `barrier-check compare A B ...`: several designs on one page.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, Wishes, load, simulate};
 use crate::commands::output::{exit_code, put, write_report};
-use crate::commands::report::read_recording;
+use crate::commands::report::{kind_of, read_recording};
 use crate::pipeline::Run;
-use crate::report::compare::{Variant, files};
-use crate::report::folder::{Folder, folder_name};
+use crate::report::compare::{PAGE_FILES, Variant, files};
+use crate::report::folder::{Folder, free_name};
+use crate::report::kind::Kind;
 use crate::terminal;
 
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report below `out` as soon as it is
 /// there, so that one that is cut short keeps those before it, and the page that holds them side by side. Ends by the worst verdict.
 pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     let mut variants = Vec::new();
-    let mut folders = BTreeSet::new();
+    // Names of files of the page are no names for folders.
+    let mut folders = PAGE_FILES.map(str::to_string).into();
     // All are read before the first runs, so that nobody waits for an error.
     let sources: Vec<_> = paths.iter().map(|path| Source::read(path)).collect();
     let mut refused = false;
@@ -32,8 +33,9 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     // Their folders too: no run whose report cannot be written.
     let sources: Vec<Source> = sources.into_iter().flatten().collect();
     let names: Vec<String> = sources.iter().map(|source| free_name(source.name(), &mut folders)).collect();
-    let claimed = Folder::claim_for(out, "comparison").and_then(|page| {
-        let reports = names.iter().map(|name| page.claim_inner(name)).collect::<Result<Vec<_>, _>>()?;
+    let claimed = Folder::claim_for(out, Kind::Comparison).and_then(|page| {
+        let inner = |(name, source): (&String, &Source)| page.claim_inner(name, source.kind());
+        let reports = names.iter().zip(&sources).map(inner).collect::<Result<Vec<_>, _>>()?;
         Ok((page, reports))
     });
     let (mut page, mut reports) = match claimed {
@@ -92,20 +94,17 @@ impl Source {
         }
     }
 
+    fn kind(&self) -> Kind {
+        match self {
+            Self::Design(_) => Kind::Simulation,
+            Self::Recorded(run) => kind_of(run),
+        }
+    }
+
     fn run(self, wishes: Wishes) -> Result<Run, Failure> {
         match self {
             Self::Design(file) => simulate(*file, wishes, None),
             Self::Recorded(run) => Ok(*run),
         }
     }
-}
-
-/// A name for the folder of a design's report, with a number behind it if it is taken.
-fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
-    let name = folder_name(name);
-    let numbered = (2..).map(|number| format!("{name}_{number}"));
-    let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
-    let free = free.unwrap_or_default();
-    taken.insert(free.clone());
-    free
 }

@@ -17,18 +17,6 @@ use crate::terminal;
 /// Time series of a simulation, in every report of one.
 const HISTORIES: &str = "histories.csv";
 
-/// Refuses a folder in which the report of a simulation would be replaced by what cost less to make.
-pub fn spare_a_simulation(folder: &Folder) -> Result<(), Failure> {
-    if folder.holds(HISTORIES) {
-        let place = folder.path().display();
-        return Err(format!(
-            "{place} holds the report of a simulated run, which would be replaced: name another folder with --out"
-        )
-        .into());
-    }
-    Ok(())
-}
-
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &mut Folder, with_vtk: bool) -> ExitCode {
     match write_report(run, folder, with_vtk) {

@@ -8,6 +8,7 @@ use crate::commands::input::{self, LONGEST_RECORDING};
 use crate::commands::output::hand_over;
 use crate::pipeline::Run;
 use crate::report::folder::Named;
+use crate::report::kind::Kind;
 use crate::report::recording::{self, decode};
 use crate::terminal;
 
@@ -18,11 +19,16 @@ pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
-        Ok(run) => match claim(folder, None, Named::Explicitly) {
+        Ok(run) => match claim(folder, None, Named::Explicitly, kind_of(&run)) {
             Ok(mut folder) => hand_over(&run, &mut folder, with_vtk),
             Err(code) => code,
         },
     }
+}
+
+/// The kind of report that a run makes.
+pub fn kind_of(run: &Run) -> Kind {
+    if run.simulated.is_some() { Kind::Simulation } else { Kind::Equations }
 }
 
 /// The run recorded in `folder`.

@@ -9,9 +9,10 @@ use sha2::Digest;
 use crate::commands::ExitCode;
 use crate::commands::check::{Failure, STOP, load};
 use crate::commands::input::{self, LONGEST_TEXT};
-use crate::commands::output::{put, spare_a_simulation};
+use crate::commands::output::put;
 use crate::design::read::DesignFile;
 use crate::report::folder::{Folder, Named, create, folder_name, inner};
+use crate::report::kind::Kind;
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
 use crate::scene::event::Watch;
@@ -44,9 +45,7 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let folder_of = |name: &str| {
         let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
         let folder = out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
-        let claimed = Folder::claim(&folder, Some(path), named).map_err(Failure::from)?;
-        spare_a_simulation(&claimed)?;
-        Ok::<_, Failure>(claimed)
+        Folder::claim(&folder, Some(path), named)?.for_kind(Kind::Study)
     };
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::output::put;
 use crate::report::folder::Folder;
+use crate::report::kind::Kind;
 use crate::report::validation::{Row, render, verdict_line};
 use crate::terminal;
 use crate::validation::CASES;
@@ -53,7 +54,7 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
         terminal::warn(format_args!("error: --quick leaves nothing of {}; run without it", selection.names.join(", ")));
         return ExitCode::Undecided;
     }
-    let mut folder = match Folder::claim_for(folder, "validation") {
+    let mut folder = match Folder::claim_for(folder, Kind::Validation) {
         Ok(folder) => folder,
         Err(refusal) => {
             terminal::warn(format_args!("error: {refusal}"));

@@ -6,9 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dem::recorders::histories::{Histories, peak, smoothed};
 use crate::demand::from_histories::STANDING;
 use crate::loads::input::GuidelineInput;
+use dem::recorders::histories::{Histories, peak, smoothed};
 
 /// Time series, one value for each sample; forces per width (N/m). A coefficient is NaN where its depth is less than a grain
 /// or its velocity too small to tell, and with the velocity upstream also where the window in which it is gauged holds grains at rest.
@@ -124,9 +124,9 @@ impl Coefficients {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::Vec3;
-    use crate::dem::recorders::histories::Gauge;
     use approx::assert_relative_eq;
+    use dem::Vec3;
+    use dem::recorders::histories::Gauge;
 
     #[test]
     fn a_barrier_loaded_by_the_guideline_shows_the_guideline_s_coefficients() {

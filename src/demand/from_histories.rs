@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
 use crate::demand::coefficients::{Coefficients, coefficients};
 use crate::demand::from_loads::{Guideline, wall_of};
 use crate::design::{BarrierDesign, Design};
+use dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
 
 /// Numbers read off the histories of one run, SI.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -285,18 +285,18 @@ mod tests {
             thickness: 2.0,
             density: 2400.0,
             base_width: 2.0,
-            base_slope: 0.0,
+            base_slope: Some(0.0),
             base_friction: 0.5,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
-            water_head: 0.0,
+            water_head: Some(0.0),
         });
         let width = design.channel.width;
         let samples = 5;
         let histories = Histories {
-            force: vec![crate::dem::Vec3::new(30e3, 0.0, 100e3) * width; samples],
+            force: vec![dem::Vec3::new(30e3, 0.0, 100e3) * width; samples],
             moment: vec![50e3 * width; samples],
             ..Histories::default()
         };
@@ -316,7 +316,7 @@ mod tests {
         let gauge = Gauge { velocity: 4.0, depth: 0.9, flux: 14.0, ..Gauge::default() };
         let histories = Histories {
             time: vec![1.0, 2.0, 3.0],
-            force: [30.0, 90.0, 60.0].map(|x| crate::dem::Vec3::new(x, 0.0, 0.0)).to_vec(),
+            force: [30.0, 90.0, 60.0].map(|x| dem::Vec3::new(x, 0.0, 0.0)).to_vec(),
             rope_mean: ropes([1.0, 2.0, 3.0]),
             rope_largest: ropes([4.0, 5.0, 6.0]),
             anchors: ropes([7.0, 8.0, 9.0]),
@@ -385,7 +385,7 @@ mod tests {
         let gauge = Gauge { depth: 1.0, velocity: 6.0, flux: 36.0, ..Gauge::default() };
         let histories = Histories {
             time: vec![0.0, 1.0, 2.0],
-            force: [0.0, at_peak, at_rest].map(|along| crate::dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
+            force: [0.0, at_peak, at_rest].map(|along| dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
             barrier_depth: vec![0.0, 1.0, 2.0],
             incoming: vec![gauge, Gauge::default(), Gauge { at_rest: 0.5, flux: 99.0, ..gauge }],
             ..Histories::default()
@@ -406,7 +406,7 @@ mod tests {
         let row = |peak: f64| vec![0.0, 15.2 * peak, 7.6 * peak];
         let histories = Histories {
             time: vec![1.0, 2.0, 3.0],
-            force: vec![crate::dem::Vec3::zeros(); 3],
+            force: vec![dem::Vec3::zeros(); 3],
             segments: vec![row(40.0), row(30.0)],
             moment: row(50.0),
             velocity: vec![[0.0; 2]; 3],
@@ -480,7 +480,7 @@ mod tests {
         let read = |deposit_depth: f64, gauge: Gauge| {
             let histories = Histories {
                 time: vec![0.0, 1.0, 2.0],
-                force: [0.0, 500e3, 300e3].map(|along| crate::dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
+                force: [0.0, 500e3, 300e3].map(|along| dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
                 barrier_depth: vec![0.0; 3],
                 incoming: vec![gauge, Gauge::default(), Gauge { flux: 99.0, depth: 2.0, velocity: 9.0, ..gauge }],
                 ..Histories::default()
@@ -504,7 +504,7 @@ mod tests {
         // What arrives in the very sample in which the force is largest counts.
         let histories = Histories {
             time: vec![0.0, 1.0],
-            force: [0.0, 500e3].map(|along| crate::dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
+            force: [0.0, 500e3].map(|along| dem::Vec3::new(along * width, 0.0, 0.0)).to_vec(),
             barrier_depth: vec![0.0; 2],
             incoming: vec![Gauge::default(), flow],
             ..Histories::default()

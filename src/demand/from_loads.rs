@@ -216,7 +216,7 @@ pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Optio
 pub fn wall_of(design: &Design) -> Option<WallInput> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
     let stability = wall.stability?;
-    let (base_slope, bed_slope) = (stability.base_slope, design.channel.slope);
+    let (base_slope, bed_slope) = (stability.base_slope.unwrap_or(0.0), design.channel.slope);
     Some(WallInput {
         height: wall.height * libm::cos(wall.lean - bed_slope + base_slope),
         thickness: stability.thickness,
@@ -226,7 +226,7 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
         base_slope,
         bed_slope,
         face_lean: wall.lean,
-        water_head: stability.water_head,
+        water_head: stability.water_head.unwrap_or(0.0),
     })
 }
 

@@ -45,6 +45,8 @@ pub struct Demands {
     pub wall_overturning: Demand,
     /// Likewise what presses on its base beside its weight, per width: by the guideline the load along the bed (N/m).
     pub wall_press: Demand,
+    /// Normal to the face of a wall, on the metre that takes the most, per width (N/m).
+    pub wall_local: Demand,
     /// About the foot of a wall, per width (N m/m).
     pub wall_moment: Demand,
     /// N
@@ -113,6 +115,9 @@ impl Demands {
             wall_sliding: meeting.force(by_guideline(guideline.metre_force), &|seen| seen.wall_sliding_peak),
             wall_overturning: meeting.force(by_guideline(guideline.foot_moment), &|seen| seen.wall_overturning_peak),
             wall_press: meeting.force(by_guideline(guideline.metre_force), &|seen| seen.wall_press_peak),
+            wall_local: meeting.force(by_guideline(guideline.metre_force / libm::cos(guideline.lean)), &|seen| {
+                seen.force_peak / guideline.width
+            }),
             wall_moment: meeting.force(by_guideline(guideline.foot_moment), &|seen| seen.moment_peak),
             rope_tension: meeting.by_rope(&RopeQuantity {
                 guideline: |rope| rope.state.tension,
@@ -149,6 +154,7 @@ impl Demands {
             &mut self.wall_sliding,
             &mut self.wall_overturning,
             &mut self.wall_press,
+            &mut self.wall_local,
             &mut self.wall_moment,
             &mut self.bed_force,
             &mut self.bolt_force,

@@ -145,9 +145,18 @@ impl Document {
 
     /// Position of the value at `path`, a dotted path with list indices as numbers.
     pub fn position(&self, path: &str) -> Option<Position> {
+        self.locate(path, false)
+    }
+
+    /// Position of the second of two values at `path`.
+    pub fn position_again(&self, path: &str) -> Option<Position> {
+        self.locate(path, true)
+    }
+
+    fn locate(&self, path: &str, again: bool) -> Option<Position> {
         BUDGET.set(MOST_VALUES);
         let steps: Vec<&str> = if path.is_empty() { Vec::new() } else { path.split('.').collect() };
-        let located = Locate { steps: &steps }.deserialize(serde_yaml::Deserializer::from_str(&self.text));
+        let located = Locate { steps: &steps, again }.deserialize(serde_yaml::Deserializer::from_str(&self.text));
         let location = located.err()?.location()?;
         Some(Position { line: location.line(), column: location.column() })
     }
@@ -269,6 +278,8 @@ fn merge(map: &mut Vec<(String, Node)>) {
 /// Walks to the end of a path and fails there, so that the parser tells where "there" is.
 struct Locate<'a> {
     steps: &'a [&'a str],
+    /// Whether the last step is to be found a second time.
+    again: bool,
 }
 
 impl<'de> DeserializeSeed<'de> for Locate<'_> {
@@ -318,16 +329,24 @@ impl<'de> Visitor<'de> for Locate<'_> {
         for _ in 0..wanted {
             items.next_element::<IgnoredAny>()?;
         }
-        items.next_element_seed(Locate { steps: rest })?;
+        items.next_element_seed(Locate { steps: rest, again: self.again })?;
         Err(A::Error::custom("here"))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<(), A::Error> {
+        let mut again = self.again;
         while !self.steps.is_empty()
             && let Some(taken) = entries.next_key_seed(KeySeed { steps: self.steps })?
         {
             match taken {
-                Some(taken) => return entries.next_value_seed(Locate { steps: &self.steps[taken..] }),
+                // The first of two is passed over.
+                Some(taken) if again && taken == self.steps.len() => {
+                    again = false;
+                    entries.next_value::<IgnoredAny>()?;
+                }
+                Some(taken) => {
+                    return entries.next_value_seed(Locate { steps: &self.steps[taken..], again: self.again });
+                }
                 None => drop(entries.next_value::<IgnoredAny>()?),
             }
         }

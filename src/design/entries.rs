@@ -144,7 +144,8 @@ impl Reader<'_> {
         for (index, (name, _)) in map.iter().enumerate() {
             let here = join(path, name);
             if map[..index].iter().any(|(earlier, _)| earlier == name) {
-                self.problems.push(Problem::new(&here, format!("the key `{name}` a second time"), "each key once"));
+                self.problems
+                    .push(Problem::new(&here, format!("the key `{name}` a second time"), "each key once").again());
             }
             if !keys.iter().any(|key| key.name == name) {
                 let mut problem =
@@ -298,7 +299,10 @@ fn quantity(node: &Node, dimension: Dimension, low: f64, high: f64) -> Result<f6
             return Err((other.describe(), Some(format!("write for example `1 {}`", dimension.display_symbol()))));
         }
     };
-    let value = units::parse(&text, dimension).map_err(|error| (error.found, error.hint))?;
+    let value = units::parse(&text, dimension).map_err(|error| {
+        let fits = units::with_a_unit_in(&text, dimension, low, high);
+        (error.found, fits.map(|fits| format!("write for example `{fits}`")).or(error.hint))
+    })?;
     // Bounds are inclusive up to rounding of the unit's factor.
     if value < low - 1e-9 * low.abs() || value > high + 1e-9 * high.abs() {
         return Err((format!("`{}`", text.trim()), Some("the value or its unit is out of range".into())));

@@ -163,8 +163,8 @@ pub struct Stability {
     pub density: f64,
     /// Of the base, which reaches downstream of the wall (m).
     pub base_width: f64,
-    /// Of the base against the horizontal (rad).
-    pub base_slope: f64,
+    /// Of the base against the horizontal (rad), where it is told.
+    pub base_slope: Option<f64>,
     /// tan φ between base and ground.
     pub base_friction: f64,
     /// Partial factors on the resistance to sliding and on the moment that holds the wall.
@@ -173,8 +173,8 @@ pub struct Stability {
     /// Of the ground under the base (Pa), if known, and the partial factor on it.
     pub bearing_resistance: Option<f64>,
     pub bearing_factor: f64,
-    /// Head of the water under the upstream edge of the base (m).
-    pub water_head: f64,
+    /// Head of the water under the upstream edge of the base (m), where it is told.
+    pub water_head: Option<f64>,
 }
 
 /// A net of wire ropes on horizontal main ropes.

@@ -59,7 +59,10 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
         problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
     }
     for problem in &mut problems {
-        problem.position = problem.position.or_else(|| nearest_position(&document, &problem.path));
+        problem.position = problem.position.or_else(|| match problem.again {
+            true => document.position_again(&problem.path),
+            false => nearest_position(&document, &problem.path),
+        });
     }
     problems.sort_by_key(|problem| problem.position);
     Err(refuse(problems))

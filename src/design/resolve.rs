@@ -132,13 +132,13 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             thickness,
             density: value("density")?,
             base_width: value("base_width").unwrap_or(thickness),
-            base_slope: value("base_slope")?,
+            base_slope: value("base_slope"),
             base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
             sliding_factor: value("sliding_factor")?,
             overturning_factor: value("overturning_factor")?,
             bearing_resistance: value("bearing_resistance"),
             bearing_factor: value("bearing_factor")?,
-            water_head: value("water_head").unwrap_or(0.0),
+            water_head: value("water_head"),
         })
     });
     let slope = e.number("channel.slope")?;
@@ -147,7 +147,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
         lean: match (e.number("barrier.rigid_wall.tilt"), stability) {
             (Some(tilt), _) => slope + tilt,
             // One that stands by its weight stands upright on its base.
-            (None, Some(Some(stability))) => slope - stability.base_slope,
+            (None, Some(Some(stability))) => slope - stability.base_slope.unwrap_or(0.0),
             (None, _) => 0.0,
         },
         segment_tops: segment_tops.collect(),

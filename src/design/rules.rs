@@ -205,7 +205,11 @@ fn grain_count_is_bearable(e: &Entries) -> Option<Problem> {
             format!("about {count:.2e} grains, the finest {finest}"),
             format!("at most {MOST_GRAINS:.0} grains"),
         )
-        .hint("`simulation.coarsen: auto` cuts the fine end of the curve, and the report says where"),
+        .hint(match (e.text("simulation.coarsen"), curve.quantile(0.0) < curve.quantile(1.0)) {
+            (_, false) => "give a coarser grain size, or a smaller flow: all grains have one size, so that no fine end can be cut".to_string(),
+            (Some("auto"), true) => format!("`simulation.coarsen: auto` cuts {:.0} % of the mass at the most, and that leaves too many: give a coarser curve, or a smaller flow", 100.0 * MOST_CUT),
+            (_, true) => "`simulation.coarsen: auto` cuts the fine end of the curve, and the report says where".to_string(),
+        }),
     )
 }
 
@@ -351,8 +355,13 @@ fn block_larger_than_the_grains(e: &Entries) -> Option<Problem> {
     (smaller < 1.2 * largest).then(|| {
         let found =
             format!("a block {} by {} of grains up to {}", length(typed), length(area / typed), length(largest));
-        Problem::new(typed_path, found, "a block longer and deeper than 1.2 times its largest grains")
-            .hint("grains cannot be packed into a layer thinner than themselves")
+        Problem::new(typed_path, found, "a block longer and deeper than 1.2 times its largest grains").hint(
+            if typed < area / typed {
+                "grains cannot be packed into a layer thinner than themselves: give more here, or smaller grains"
+            } else {
+                "what is given here leaves the flow too thin the other way: give less here, or more volume"
+            },
+        )
     })
 }
 

@@ -184,7 +184,11 @@ const STABILITY: &[Key] = &[
         quantity(D::Length, 0.05, 50.0),
         "width of its base, which reaches downstream; by default the thickness",
     ),
-    Key::default("base_slope", FRICTION, "0 deg", "slope of the base against the horizontal"),
+    Key::optional(
+        "base_slope",
+        FRICTION,
+        "slope of the base against the horizontal, 0 deg for a level one; where it is not given the base is taken as level and its checks stay open",
+    ),
     Key::required("base_friction", FRICTION, "friction angle between base and ground"),
     Key::required(
         "sliding_factor",
@@ -210,7 +214,7 @@ const STABILITY: &[Key] = &[
     Key::optional(
         "water_head",
         quantity(D::Length, 0.0, 50.0),
-        "head of the water under the upstream edge of the base, which falls evenly to none at its downstream edge; a design value, no factor is applied to it",
+        "head of the water under the upstream edge of the base, which falls evenly to none at its downstream edge, 0 m for a base that is drained; a design value, no factor is applied to it; where it is not given the base is taken as dry and its checks stay open",
     ),
 ];
 

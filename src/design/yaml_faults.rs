@@ -10,7 +10,8 @@ pub fn explain(message: &str, gave_up: Option<Position>, text: &str) -> Problem 
     let started_before = ["expected ':'", "expected ',' or", "unexpected end of stream"];
     let position = match began {
         Some(began) if started_before.iter().any(|known| said.contains(known)) => Some(began),
-        _ if said.contains("more than one document") => second_document(text),
+        _ if said.contains("more than one document") => second_document(text).or_else(|| first_indented(text)),
+        _ if said.contains("expected key") => gave_up.and_then(|place| without_a_colon_above(text, place)).or(gave_up),
         _ if said.contains("control characters") => control_character(text),
         _ => gave_up,
     };
@@ -33,10 +34,7 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         _ if said.contains("tab character") => "indent with spaces: the line is indented with a tab".to_string(),
         _ if said.contains("expected ':'") => match content.split_once(':') {
             Some((key, value)) => format!("put a space after the colon: `{key}: {}`", value.trim()),
-            None => match content.split_once(' ') {
-                Some((key, value)) => format!("a key is followed by a colon: `{key}: {}`", value.trim()),
-                None => format!("a key is followed by a colon: `{content}:`"),
-            },
+            None => without_a_colon(content),
         },
         _ if said.contains("mapping values are not allowed") && value.contains(": ") => {
             format!("a value that holds a colon needs quotes: `{key}: {}`", quoted(value))
@@ -45,6 +43,9 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
             format!(
                 "the keys of a group begin in one column: `{key}` is indented more than the line above it, or that line lacks its colon"
             )
+        }
+        _ if said.contains("expected key") && !content.contains(':') && !content.starts_with("- ") => {
+            without_a_colon(content)
         }
         _ if said.contains("expected key") && content.starts_with("- ") => {
             format!("a dash begins an item of a list; a key has none: `{}`", content.trim_start_matches("- "))
@@ -69,6 +70,9 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         }
         _ if said.contains("unexpected end of stream") => {
             "the quotation mark that is opened here is not closed".to_string()
+        }
+        _ if said.contains("more than one document") && line.starts_with([' ', '\t']) => {
+            format!("the keys of a group begin in one column: `{key}` is indented otherwise than those below it")
         }
         _ if said.contains("more than one document") => {
             "a design file holds one design: leave out the line `---` and what follows it".to_string()
@@ -96,6 +100,13 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+fn without_a_colon(content: &str) -> String {
+    match content.split_once(' ') {
+        Some((key, value)) => format!("a key is followed by a colon: `{key}: {}`", value.trim()),
+        None => format!("a key is followed by a colon: `{content}:`"),
+    }
 }
 
 /// A value between quotation marks that leave it as it is: a backslash means something between double ones.
@@ -155,6 +166,24 @@ fn second_document(text: &str) -> Option<Position> {
     Some(Position { line: index + 1, column: 1 })
 }
 
+/// The first line that says something, where it is indented.
+fn first_indented(text: &str) -> Option<Position> {
+    let said = |(_, line): &(usize, &str)| !line.trim().is_empty() && !line.trim().starts_with('#');
+    let (index, line) = text.lines().enumerate().find(said)?;
+    let column = line.len() - line.trim_start().len();
+    (column > 0).then_some(Position { line: index + 1, column: column + 1 })
+}
+
+/// The line above a place that says something, if it lacks the colon of a key.
+fn without_a_colon_above(text: &str, place: Position) -> Option<Position> {
+    let above: Vec<&str> = text.lines().take(place.line.checked_sub(1)?).collect();
+    let index =
+        above.iter().rposition(|line| !without_comment(line).trim().is_empty() && !line.trim().starts_with('#'))?;
+    let line = without_comment(above[index]);
+    let bare = !line.contains(':') && !line.trim().starts_with('-') && !line.contains(['"', '\'', '[', '{', ']', '}']);
+    bare.then_some(Position { line: index + 1, column: line.len() - line.trim_start().len() + 1 })
+}
+
 fn without_comment(line: &str) -> &str {
     line.split_once(" #").map_or(line, |(content, _)| content)
 }
@@ -162,6 +191,14 @@ fn without_comment(line: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use crate::design::document::Document;
+
+    #[test]
+    fn a_first_key_that_is_indented_is_told_and_no_dashes_that_are_not_there() {
+        let problem = Document::parse(b"# a design\n project:\n  name: x\nchannel: y\n").expect_err("a fault");
+        assert_eq!(problem.position.map(|place| place.line), Some(2));
+        let hint = problem.hint.unwrap_or_default();
+        assert!(hint.contains("`project` is indented otherwise than those below it"), "{hint}");
+    }
 
     #[test]
     fn the_fault_is_told_where_it_is_with_its_usual_cause() {
@@ -174,6 +211,7 @@ mod tests {
         for (from, to, line, hint) in [
             ("slope: 25", "slope:25", 3, "put a space after the colon: `slope: 25 deg`"),
             ("slope: 25", "slope 25", 3, "a key is followed by a colon: `slope: 25 deg`"),
+            ("width: 3 m", "width 3 m  # wide", 2, "a key is followed by a colon: `width: 3 m`"),
             ("  slope", "   slope", 3, "`slope` is indented more than the line above it"),
             ("  slope", " slope", 3, "`slope` is indented otherwise than those above it"),
             ("  slope", "  \tslope", 3, "indent with spaces"),

@@ -2,12 +2,12 @@
 
 pub mod ladder;
 
-use crate::dem::contact::law::contact_stiffness;
-use crate::dem::contact::restitution::{LONGEST_PHASE, damping_ratio_for};
-use crate::dem::time::stable_step::critical_step_of_pair;
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, Rope};
 use crate::scene::flow::release::bodies;
 use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
+use dem::contact::law::contact_stiffness;
+use dem::contact::restitution::{LONGEST_PHASE, damping_ratio_for};
+use dem::time::stable_step::critical_step_of_pair;
 
 /// Choices that trade time against accuracy, each with its reason.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use crate::checks::outcome::Outcome;
-use crate::dem::recorders::histories::smoothed;
 use crate::pipeline::Run;
 use crate::report::findings::over_starts;
 use crate::report::folder::ReportFile;
@@ -17,6 +16,7 @@ use crate::report::view::{is_share, summary, used};
 use crate::scene::build::SAMPLES_PER_WINDOW;
 use crate::simulated::Simulated;
 use crate::starts::Spread;
+use dem::recorders::histories::smoothed;
 
 const HTML: &str = include_str!("../../templates/compare.html");
 const MARKDOWN: &str = include_str!("../../templates/compare.md");
@@ -49,7 +49,7 @@ struct Page {
 
 #[derive(Debug, Serialize)]
 struct Head {
-    letter: char,
+    letter: String,
     name: String,
     title: String,
     /// Its folder as a link writes it.
@@ -80,7 +80,7 @@ struct Cell {
 /// The page as files. `variants` holds two at least.
 pub fn files(variants: &[Variant]) -> Result<Vec<ReportFile>, tera::Error> {
     let page = Page {
-        variants: variants.iter().zip('A'..).map(|(variant, letter)| head(variant, letter)).collect(),
+        variants: variants.iter().zip(letters()).map(|(variant, letter)| head(variant, letter)).collect(),
         checks: check_lines(variants),
         observed: observed_lines(variants),
         inputs: input_lines(variants),
@@ -93,7 +93,7 @@ pub fn files(variants: &[Variant]) -> Result<Vec<ReportFile>, tera::Error> {
     Ok(files)
 }
 
-fn head(variant: &Variant, letter: char) -> Head {
+fn head(variant: &Variant, letter: String) -> Head {
     let project = &variant.run.file.design.project;
     Head {
         letter,
@@ -107,6 +107,25 @@ fn head(variant: &Variant, letter: char) -> Head {
         verdict_line: summary(&variant.run),
         sha256: variant.run.file.sha256.clone(),
     }
+}
+
+/// Files of the page whatever is compared.
+pub const PAGE_FILES: [&str; 4] = ["compare.html", "compare.md", FORCE_CHART, MASS_CHART];
+const FORCE_CHART: &str = "force.svg";
+const MASS_CHART: &str = "retained_mass.svg";
+
+/// What the variants are called: A to Z, then AA and so on, as the columns of a table of numbers are.
+fn letters() -> impl Iterator<Item = String> {
+    let word = |mut number: usize| {
+        let mut word = Vec::new();
+        while number > 0 {
+            number -= 1;
+            word.push((b'A' + (number % 26) as u8) as char);
+            number /= 26;
+        }
+        word.iter().rev().collect()
+    };
+    (1..).map(word)
 }
 
 /// A name within a relative link (RFC 3986): all but letters, digits and four marks as bytes in hexadecimal digits.
@@ -231,8 +250,10 @@ fn input_lines(variants: &[Variant]) -> Vec<Line> {
 }
 
 fn charts(variants: &[Variant]) -> Vec<Chart> {
-    let seen: Vec<(char, &Simulated)> =
-        ('A'..).zip(variants).filter_map(|(letter, variant)| Some((letter, variant.run.simulated.as_ref()?))).collect();
+    let seen: Vec<(String, &Simulated)> = letters()
+        .zip(variants)
+        .filter_map(|(letter, variant)| Some((letter, variant.run.simulated.as_ref()?)))
+        .collect();
     let last = seen.iter().filter_map(|(_, seen)| seen.histories.time.last()).copied().fold(0.0, f64::max);
     if last == 0.0 {
         return Vec::new();
@@ -246,8 +267,8 @@ fn charts(variants: &[Variant]) -> Vec<Chart> {
     let largest = seen.iter().map(|(_, seen)| seen.first().force_peak).fold(0.0, f64::max);
     let (unit, factor) = if largest < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
     vec![
-        chart("Force on the barrier", "force.svg", ("total force", unit, factor), &time, &seen, &force),
-        chart("Retained mass", "retained_mass.svg", ("share of the mass", "%", 100.0), &time, &seen, &held),
+        chart("Force on the barrier", FORCE_CHART, ("total force", unit, factor), &time, &seen, &force),
+        chart("Retained mass", MASS_CHART, ("share of the mass", "%", 100.0), &time, &seen, &held),
     ]
 }
 
@@ -256,13 +277,13 @@ fn chart(
     file: &str,
     (label, unit, factor): (&str, &str, f64),
     time: &[f64],
-    seen: &[(char, &Simulated)],
+    seen: &[(String, &Simulated)],
     values: &dyn Fn(&Simulated) -> Vec<f64>,
 ) -> Chart {
     let curves: Vec<Vec<f64>> =
         seen.iter().map(|(_, seen)| resampled(&seen.histories.time, &values(seen), time)).collect();
-    let series = |(index, ((letter, _), values)): (usize, (&(char, &Simulated), _))| Series {
-        label: letter.to_string(),
+    let series = |(index, ((letter, _), values)): (usize, (&(String, &Simulated), _))| Series {
+        label: letter.clone(),
         values,
         colour: index % 6,
     };

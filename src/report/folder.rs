@@ -12,6 +12,7 @@ use sha2::Digest;
 
 use crate::checkpoint;
 use crate::program::PROGRAM;
+use crate::report::kind::Kind;
 use crate::report::lock::{self, Lock};
 use crate::report::manifest::{self, Manifest, digest_of, hexadecimal, is_plain};
 use crate::report::recording;
@@ -44,15 +45,15 @@ pub enum Refusal {
     )]
     Foreign(String, String),
     #[error(
-        "in {0}, files of an earlier run have been changed since ({1}), and the changes would be lost: move them elsewhere, or name another folder with --out"
+        "in {0}, files of an earlier run have been changed since ({1}), and the changes would be lost: move them elsewhere, or let the report go to another folder"
     )]
     Changed(String, String),
     #[error(
         "{0} holds a report of something else, as of another design file of the same name: name another folder with --out, or this one if a report of another design there may be replaced"
     )]
     OtherDesign(String),
-    #[error("{0} holds a report of something else: name another folder with --out")]
-    OtherReport(String),
+    #[error("{0} holds {1}, whose place {2} would take: name another folder with --out")]
+    OtherKind(String, &'static str, &'static str),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
     Taken(String),
     #[error("the report could not be written to {0}: {1}")]
@@ -124,30 +125,32 @@ impl Folder {
         self.source = self.manifest.coming.clone();
     }
 
-    /// Takes a folder for what is made from no single design: a comparison, a validation.
-    pub fn claim_for(path: &Path, what: &str) -> Result<Self, Refusal> {
-        let mut folder = Self::claim(path, None, Named::Explicitly)?;
-        if folder.manifest.source.as_ref().is_some_and(|source| source != what) && !folder.manifest.files.is_empty() {
-            return Err(Refusal::OtherReport(path.display().to_string()));
+    /// The folder, if a report of this kind may be written into it.
+    pub fn for_kind(self, kind: Kind) -> Result<Self, Refusal> {
+        match Kind::of(self.manifest.files.keys()) {
+            Some(there) if !kind.may_replace(there) => {
+                Err(Refusal::OtherKind(self.path.display().to_string(), there.words(), kind.words()))
+            }
+            _ => Ok(self),
         }
-        folder.source = Some(what.to_string());
+    }
+
+    /// Takes a folder for what is made from no single design: a comparison, a validation.
+    pub fn claim_for(path: &Path, kind: Kind) -> Result<Self, Refusal> {
+        let mut folder = Self::claim(path, None, Named::Explicitly)?.for_kind(kind)?;
+        folder.source = Some(kind.words().to_string());
         Ok(folder)
     }
 
     /// Takes a folder within this one, of a report of its own.
-    pub fn claim_inner(&self, name: &str) -> Result<Self, Refusal> {
+    pub fn claim_inner(&self, name: &str, kind: Kind) -> Result<Self, Refusal> {
         let path = inner(&self.path, name)
             .map_err(|error| Refusal::Unwritable(self.path.join(name).display().to_string(), error))?;
-        Self::claim(&path, None, Named::Explicitly)
+        Self::claim(&path, None, Named::Explicitly)?.for_kind(kind)
     }
 
     pub fn path(&self) -> &Path {
         &self.path
-    }
-
-    /// Whether a report here has a file of that name.
-    pub fn holds(&self, name: &str) -> bool {
-        self.manifest.names().any(|known| known == name)
     }
 
     /// Reads the manifest, or tells that the folder is not the program's.
@@ -412,6 +415,16 @@ fn place_beside(source: &Path, folder: &Path) -> Option<String> {
     let down: PathBuf = source.components().skip(common).collect();
     let up = folder.components().count() - common;
     Some(digest_of(format!("{up} up, then {}", down.display()).as_bytes())[..16].to_string())
+}
+
+/// A name for the folder or a file of something that goes by `name`, with a number behind it where that is taken.
+pub fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let name = folder_name(name);
+    let numbered = (2..).map(|number| format!("{name}_{number}"));
+    let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
+    let free = free.unwrap_or_default();
+    taken.insert(free.clone());
+    free
 }
 
 fn listed(names: &[String]) -> String {

@@ -277,7 +277,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row(
             "Uplift by water under the base",
             with_unit(wall.uplift(), "N/m"),
-            "ρ_w g h b/2, h being the head at the upstream edge (barrier.rigid_wall.stability.water_head, none by default); its share tan φ is in the demand for sliding, its moment at 2 b/3 in that for overturning",
+            "ρ_w g h b/2, h being the head at the upstream edge (barrier.rigid_wall.stability.water_head); its share tan φ is in the demand for sliding, its moment at 2 b/3 in that for overturning",
         ),
         row("Not checked", "–".into(), "the ground but for its bearing resistance, and scour"),
     ]

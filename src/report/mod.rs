@@ -4,6 +4,7 @@ pub mod compare;
 pub mod findings;
 pub mod folder;
 pub mod json;
+pub mod kind;
 pub mod loads;
 pub mod lock;
 pub mod manifest;

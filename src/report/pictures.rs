@@ -3,10 +3,6 @@
 use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::dem::ledger::Ledger;
-use crate::dem::recorders::histories::smoothed;
-use crate::dem::recorders::snapshots::{Moment, Snapshot};
-use crate::dem::tables::barrier::SegmentKind;
 use crate::design::BarrierDesign;
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
@@ -20,6 +16,10 @@ use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
 use crate::report::view::{is_share, worst_first};
 use crate::simulated::Simulated;
+use dem::ledger::Ledger;
+use dem::recorders::histories::smoothed;
+use dem::recorders::snapshots::{Moment, Snapshot};
+use dem::tables::barrier::SegmentKind;
 
 #[derive(Debug, Serialize)]
 pub struct Chart {

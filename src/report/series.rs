@@ -9,7 +9,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
-use crate::dem::recorders::histories::Histories;
+use dem::recorders::histories::Histories;
 
 /// Columns by name, each with its values.
 fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {

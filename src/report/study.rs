@@ -1,10 +1,11 @@
 //! The page of a study of speed against accuracy, and its table for programs.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::report::folder::{ReportFile, folder_name};
+use crate::report::folder::{ReportFile, free_name};
 use crate::report::numbers::quoted;
 use crate::report::pictures::Chart;
 use crate::report::plots::pareto::{Line, Pareto};
@@ -51,10 +52,11 @@ struct RowPart {
 
 /// Page, table and charts.
 pub fn files(name: &str, scenes: &[Scene]) -> Result<Vec<ReportFile>, tera::Error> {
+    let mut names = BTreeSet::new();
     let page = Page {
         name: name.into(),
         observables: OBSERVABLES.iter().map(|(name, _)| *name).collect(),
-        scenes: scenes.iter().map(scene_part).collect(),
+        scenes: scenes.iter().map(|scene| scene_part(scene, &free_name(&scene.name, &mut names))).collect(),
     };
     let Rendered { html, markdown } = render_as("study", &page, [HTML, MARKDOWN])?;
     let mut files = vec![
@@ -66,11 +68,11 @@ pub fn files(name: &str, scenes: &[Scene]) -> Result<Vec<ReportFile>, tera::Erro
     Ok(files)
 }
 
-fn scene_part(scene: &Scene) -> ScenePart {
+fn scene_part(scene: &Scene, file_name: &str) -> ScenePart {
     let told = tell(&scene.runs);
     ScenePart {
         name: scene.name.clone(),
-        chart: chart(scene, &told),
+        chart: chart(scene, file_name, &told),
         rows: told.iter().map(row_part).collect(),
         bargain: bargain(scene, &told),
     }
@@ -108,7 +110,7 @@ fn scatter(scene: &Scene) -> f64 {
     of_each.into_iter().map(|(_, scatter)| scatter).fold(0.0, f64::max)
 }
 
-fn chart(scene: &Scene, told: &[Told]) -> Chart {
+fn chart(scene: &Scene, file_name: &str, told: &[Told]) -> Chart {
     let base = told.iter().find(|told| told.setting == Setting::AsItIs);
     let default = base.map_or((1.0, 0.0), |told| (told.cost, told.error()));
     let line = |(knob, own): &(Knob, f64)| {
@@ -133,7 +135,7 @@ fn chart(scene: &Scene, told: &[Told]) -> Chart {
     let pareto = Pareto { title: format!("{title}, {}", scene.name), lines, default, floor: scatter(scene) };
     Chart {
         title,
-        file: format!("pareto_{}.svg", folder_name(&scene.name)),
+        file: format!("pareto_{file_name}.svg"),
         svg: pareto.svg(),
         note: "Every line is one knob turned alone, through the model as it is. Error: the largest over all observables, against the finest model."
             .into(),

@@ -507,14 +507,18 @@ fn derived_rows(run: &Run) -> Vec<Row> {
     let flow = &design.flow;
     let row = |name: &str, value: String, remark: String| Row { name: name.into(), value, remark };
     let solid = flow.volume() * flow.bulk_density / flow.solid_density;
+    // The equations alone need not be told of the grains.
+    let told = |known: bool, text: String| if known { text } else { "not given".into() };
+    let sizes = [0.3, 0.5, 0.9].map(|share| flow.sizes.named(share));
+    let grains = flow.sizes.count(solid);
     let mut rows = vec![
         row("Volume of the flow", with_unit(flow.volume(), "m³"), "with pores".into()),
         row(
             "Grain sizes D30, D50, D90",
-            [0.3, 0.5, 0.9].map(|share| with_unit(flow.sizes.named(share), "m")).join(", "),
+            told(sizes.iter().all(|size| size.is_finite()), sizes.map(|size| with_unit(size, "m")).join(", ")),
             format!("{}, as the sizes are given", flow.sizes.measure()),
         ),
-        row("Number of grains", format!("{:.0}", flow.sizes.count(solid)), "of the whole flow, about".into()),
+        row("Number of grains", told(grains.is_finite(), format!("{grains:.0}")), "of the whole flow, about".into()),
         row(
             "Unit weight normal to the bed ρ g'",
             format!("{} kN/m³", figures(run.guideline.input.unit_pressure() * 1e-3)),

@@ -6,9 +6,9 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::dem::recorders::film::{Film, Frame};
-use crate::dem::tables::barrier::SegmentKind;
 use crate::report::folder::ReportFile;
+use dem::recorders::film::{Film, Frame};
+use dem::tables::barrier::SegmentKind;
 
 /// Folder of the files within the report's.
 pub const FOLDER: &str = "vtk";

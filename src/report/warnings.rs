@@ -32,7 +32,6 @@ const WARNINGS: &[Warning] = &[
     sag_beyond_the_equations,
     formulas_that_stand,
     parts_that_no_check_sees,
-    dry_base,
     loads_without_factor,
     rope_ends_that_hold_all,
     soft_ropes,
@@ -82,16 +81,6 @@ fn parts_that_no_check_sees(run: &Run) -> Option<String> {
             )
         }),
     }
-}
-
-/// Water under a gravity wall lifts it, and only the designer knows of it.
-fn dry_base(run: &Run) -> Option<String> {
-    const HEAD: &str = "barrier.rigid_wall.stability.water_head";
-    let BarrierDesign::RigidWall(wall) = &run.file.design.barrier else { return None };
-    wall.stability?;
-    (!run.file.entries.given(HEAD)).then(|| {
-        format!("No water presses under the base of the wall: {HEAD} is not given. Where water stands behind the wall or seeps below it, give the head at the upstream edge; it lessens what holds against sliding and overturning.")
-    })
 }
 
 /// Clips and bends hold less than the rope.

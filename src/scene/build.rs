@@ -4,15 +4,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::dem::Vec3;
-use crate::dem::elements::ground::{Ground, Plane};
-use crate::dem::model::{Material, Model};
-use crate::dem::recorders::gauge::GaugeWindow;
-use crate::dem::recorders::recorder::{RecorderSetup, WallFace};
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::barrier::Barrier;
-use crate::dem::tables::grains::Grain;
-use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
@@ -20,6 +11,15 @@ use crate::scene::flow::release::{Block, packed_block, shape};
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
 use crate::units::GRAVITY;
+use dem::Vec3;
+use dem::elements::ground::{Ground, Plane};
+use dem::model::{Material, Model};
+use dem::recorders::gauge::GaugeWindow;
+use dem::recorders::recorder::{RecorderSetup, WallFace};
+use dem::simulation::Simulation;
+use dem::tables::barrier::Barrier;
+use dem::tables::grains::Grain;
+use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 
 /// A simulation at the moment of release.
 pub struct Scene {

@@ -1,13 +1,13 @@
 //! What a run will take, before it is made: grains, steps, time, memory.
 
-use crate::dem::Vec3;
-use crate::dem::recorders::film::bytes_of;
-use crate::dem::tables::grains::{GrainBody, GrainShape};
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::build::expected_time;
 use crate::scene::flow::packing::{PackingRoom, pack};
 use crate::scene::net::build::build as build_net;
+use dem::Vec3;
+use dem::recorders::film::bytes_of;
+use dem::tables::grains::{GrainBody, GrainShape};
 
 /// Estimate of one start.
 #[derive(Clone, Copy, Debug, PartialEq)]

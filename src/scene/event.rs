@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::Vault;
-use crate::dem::recorders::histories::{Histories, tail_mean};
-use crate::dem::recorders::recorder::Recorder;
-use crate::dem::simulation::{Simulation, Unstable};
 use crate::scene::build::Scene;
 use crate::scene::patience::Patience;
+use dem::recorders::histories::{Histories, tail_mean};
+use dem::recorders::recorder::Recorder;
+use dem::simulation::{Simulation, Unstable};
 
 /// Force may change by this share of itself from one stretch to the next and still count as steady.
 const STEADY_FORCE: f64 = 0.01;
@@ -152,7 +152,7 @@ mod tests {
         let count = 20;
         let mut histories = Histories {
             time: (0..count).map(f64::from).collect(),
-            force: vec![crate::dem::Vec3::new(100.0, 0.0, 0.0); count as usize],
+            force: vec![dem::Vec3::new(100.0, 0.0, 0.0); count as usize],
             moving: vec![0.01; count as usize],
             dead: vec![0.9; count as usize],
             lost: vec![[0.01, 0.0, 0.0, 0.0]; count as usize],
@@ -196,7 +196,7 @@ mod tests {
         let long = |change: &dyn Fn(&mut Histories)| {
             let mut histories = Histories {
                 time: (0..count).map(f64::from).collect(),
-                force: vec![crate::dem::Vec3::new(100.0, 0.0, 0.0); count as usize],
+                force: vec![dem::Vec3::new(100.0, 0.0, 0.0); count as usize],
                 moving: vec![0.01; count as usize],
                 dead: vec![0.9; count as usize],
                 lost: vec![[0.01, 0.0, 0.0, 0.0]; count as usize],
@@ -207,11 +207,11 @@ mod tests {
         };
         let quiet = long(&|_| ());
         assert!(steady(&quiet, 10) && steady(&quiet, 20) && !steady(&quiet, 21));
-        assert!(steady(&long(&|histories| histories.force[..20].fill(crate::dem::Vec3::zeros())), 10));
-        assert!(!steady(&long(&|histories| histories.force[..21].fill(crate::dem::Vec3::zeros())), 10));
+        assert!(steady(&long(&|histories| histories.force[..20].fill(dem::Vec3::zeros())), 10));
+        assert!(!steady(&long(&|histories| histories.force[..21].fill(dem::Vec3::zeros())), 10));
         assert!(steady(&long(&|histories| histories.dead[..30].fill(0.1)), 10));
         assert!(steady(&long(&|histories| histories.lost[..30].fill([0.0; 4])), 10));
         // The mean force of a stretch by a hundredth.
-        assert!(steady(&long(&|histories| histories.force[30..].fill(crate::dem::Vec3::new(101.0, 0.0, 0.0))), 10));
+        assert!(steady(&long(&|histories| histories.force[30..].fill(dem::Vec3::new(101.0, 0.0, 0.0))), 10));
     }
 }

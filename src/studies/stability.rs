@@ -5,17 +5,17 @@ use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 
 use crate::checks::credibility::{ENERGY_LIMIT, Numerics, doubts};
-use crate::dem::Vec3;
-use crate::dem::contact::law::contact_stiffness;
-use crate::dem::elements::cylinder::Cylinder;
-use crate::dem::elements::dissipator::Dissipator;
-use crate::dem::elements::strength::Strength;
-use crate::dem::model::Model;
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::dem::tables::surfaces::SurfaceRole;
 use crate::validation::scenes::{MODULUS, ball, closed_box, free_model, material, plane};
+use dem::Vec3;
+use dem::contact::law::contact_stiffness;
+use dem::elements::cylinder::Cylinder;
+use dem::elements::dissipator::Dissipator;
+use dem::elements::strength::Strength;
+use dem::model::Model;
+use dem::simulation::Simulation;
+use dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::surfaces::SurfaceRole;
 
 /// How a run went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -419,7 +419,7 @@ fn rope(element: f64, stiffer: f64, ropes: usize) -> Model {
 }
 
 fn cylinders(element: f64) -> Model {
-    let section = crate::dem::elements::cylinder::Section::round(0.016, ROPE_MODULUS, 0.3);
+    let section = dem::elements::cylinder::Section::round(0.016, ROPE_MODULUS, 0.3);
     let parts = (0.7 / element).round() as usize;
     let mass = STEEL * std::f64::consts::PI * 0.016 * 0.016 * element;
     let mut barrier = Barrier { contact_modulus: ROPE_MODULUS, ..Barrier::default() };

@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::dem::simulation::Unstable;
+use dem::simulation::Unstable;
 
 /// One case: a constant in its own file and a line in [`crate::validation::CASES`].
 pub struct Case {

@@ -1,10 +1,10 @@
 //! Small scenes and steps that several cases share.
 
-use crate::dem::Vec3;
-use crate::dem::model::{Material, Model};
-use crate::dem::simulation::{Simulation, Unstable};
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use dem::Vec3;
+use dem::model::{Material, Model};
+use dem::simulation::{Simulation, Unstable};
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 
 /// m/s²
 pub const GRAVITY: f64 = crate::units::GRAVITY;

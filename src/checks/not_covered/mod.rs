@@ -7,8 +7,10 @@ pub mod harder_flow;
 pub mod later_surges;
 pub mod load_factor;
 pub mod not_simulated;
+pub mod rigid_wall;
 pub mod short_peaks;
 pub mod side_strips;
+pub mod thinner_flow;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::from_loads::Guideline;
@@ -28,6 +30,8 @@ pub struct FirstSurge {
     pub velocity: f64,
     /// Its depth then, at bulk density (m).
     pub depth: f64,
+    /// Its momentum flux h v² over the one that the design gives; 1 where the design gives none.
+    pub flux_share: f64,
     /// K that the deposit shows at rest, where there is one.
     pub earth_pressure: Option<f64>,
     /// By how much a finer model, or other packings, may show larger forces and strokes (over these, less one) and smaller shares.
@@ -50,7 +54,9 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
     full_barrier::leave_open,
     later_surges::leave_open,
     harder_flow::leave_open,
+    thinner_flow::leave_open,
     short_peaks::leave_open,
+    rigid_wall::leave_open,
     load_factor::leave_open,
     not_simulated::leave_open,
     side_strips::leave_open,
@@ -78,7 +84,13 @@ pub mod tests {
 
     /// A first surge that pushes with a force (N), seen without error.
     pub fn pushing(push: f64) -> FirstSurge {
-        FirstSurge { push, sampled_over_smoothed: 1.0, moment_sampled_over_smoothed: 1.0, ..FirstSurge::default() }
+        FirstSurge {
+            push,
+            flux_share: 1.0,
+            sampled_over_smoothed: 1.0,
+            moment_sampled_over_smoothed: 1.0,
+            ..FirstSurge::default()
+        }
     }
 
     /// Verdict of a check by the equations, with what the simulation of the first surge shows.

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::dem::Vec3;
-use crate::dem::recorders::snapshots::{Snapshot, Strand};
-use crate::dem::tables::barrier::SegmentKind;
+use dem::Vec3;
+use dem::recorders::snapshots::{Snapshot, Strand};
+use dem::tables::barrier::SegmentKind;
 
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 8.0;

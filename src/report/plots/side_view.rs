@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::dem::Vec3;
-use crate::dem::recorders::snapshots::Snapshot;
+use dem::Vec3;
+use dem::recorders::snapshots::Snapshot;
 
 const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 330.0;
@@ -69,7 +69,7 @@ pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
     for (class, group) in groups.iter().enumerate() {
         let _ = write!(svg, "<g class=\"v{class}\">{group}</g>");
     }
-    let near = |strand: &&crate::dem::recorders::snapshots::Strand| within(&strand.ends[0], 2.0 * SLICE);
+    let near = |strand: &&dem::recorders::snapshots::Strand| within(&strand.ends[0], 2.0 * SLICE);
     let mut path = String::new();
     for strand in snapshot.strands.iter().filter(near) {
         let [(x1, y1), (x2, y2)] = [screen(&strand.ends[0]), screen(&strand.ends[1])];

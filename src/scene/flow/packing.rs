@@ -6,12 +6,12 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::dem::Vec3;
-use crate::dem::model::{Material, Model};
-use crate::dem::simulation::{Simulation, Unstable};
-use crate::dem::tables::grain_table::Quad;
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use dem::Vec3;
+use dem::model::{Material, Model};
+use dem::simulation::{Simulation, Unstable};
+use dem::tables::grain_table::Quad;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 
 /// Largest overlap left, over the smaller radius.
 pub const OVERLAP_ALLOWED: f64 = 0.01;

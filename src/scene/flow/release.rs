@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dem::Vec3;
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
 use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched};
 use crate::units::GRAVITY;
+use dem::Vec3;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
 
 /// Where the block stands: x of the foot of its downstream face, and its sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,15 +5,15 @@ use std::f64::consts::PI;
 
 use nalgebra::UnitQuaternion;
 
-use crate::dem::Vec3;
-use crate::dem::elements::cylinder::Section;
-use crate::dem::elements::dissipator::Dissipator;
-use crate::dem::elements::sliding::Chain;
-use crate::dem::elements::strength::Strength;
-use crate::dem::tables::barrier::{Anchor, Barrier, Frame, Node, Segment, SegmentKind};
 use crate::design::{BarrierModel, Bottom, Channel, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
 use crate::scene::net::rings::{POISSON, ring_stand_off};
+use dem::Vec3;
+use dem::elements::cylinder::Section;
+use dem::elements::dissipator::Dissipator;
+use dem::elements::sliding::Chain;
+use dem::elements::strength::Strength;
+use dem::tables::barrier::{Anchor, Barrier, Frame, Node, Segment, SegmentKind};
 
 /// Density of wire rope over its full circle (kg/m³): steel.
 pub const ROPE_DENSITY: f64 = 7850.0;

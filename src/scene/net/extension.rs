@@ -7,11 +7,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::dem::Vec3;
-use crate::dem::elements::dissipator::Dissipator;
-use crate::dem::tables::barrier::SegmentKind;
 use crate::design::SideExtension;
 use crate::scene::net::build::Builder;
+use dem::Vec3;
+use dem::elements::dissipator::Dissipator;
+use dem::tables::barrier::SegmentKind;
 
 /// Way after which a knot has its whole holding force (m).
 const GIVE: f64 = 0.01;

@@ -5,14 +5,14 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use crate::dem::Vec3;
-use crate::dem::contact::law::Memory;
-use crate::dem::elements::cylinder::{Cylinder, Section};
-use crate::dem::elements::ring::RingSide;
-use crate::dem::elements::strength::Strength;
-use crate::dem::tables::barrier::SegmentKind;
 use crate::design::{MainRopes, Rope};
 use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY, strength_of};
+use dem::Vec3;
+use dem::contact::law::Memory;
+use dem::elements::cylinder::{Cylinder, Section};
+use dem::elements::ring::RingSide;
+use dem::elements::strength::Strength;
+use dem::tables::barrier::SegmentKind;
 
 /// Poisson's ratio of all cylinders, for twisting only.
 pub const POISSON: f64 = 0.3;

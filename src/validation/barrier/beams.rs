@@ -1,10 +1,10 @@
 //! D2, D3, D5, D7, D8: cylinders in a row, clamped at one end, against the Euler-Bernoulli beam and the elastica.
 
-use crate::dem::Vec3;
-use crate::dem::tables::barrier::Barrier;
 use crate::validation::barrier::stand::{Stand, cantilever, line_mass, section};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::GRAVITY;
+use dem::Vec3;
+use dem::tables::barrier::Barrier;
 
 const WEAKNESS: &str = "static shapes are found by relaxation; no contact";
 

@@ -1,10 +1,10 @@
 //! D18, D19: the dissipator pulled to and fro, and stopping a mass.
 
-use crate::dem::Vec3;
-use crate::dem::elements::dissipator::Dissipator;
-use crate::dem::tables::barrier::{Barrier, Node};
 use crate::validation::barrier::stand::Stand;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
+use dem::Vec3;
+use dem::elements::dissipator::Dissipator;
+use dem::tables::barrier::{Barrier, Node};
 
 pub const CYCLE: Case = Case {
     id: "D18",

@@ -1,9 +1,9 @@
 //! D23, D25: where cylinders touch, and how stiff such a contact is.
 
-use crate::dem::Vec3;
-use crate::dem::contact::law::contact_stiffness;
-use crate::dem::geometry::segment_segment::nearest_of_segments;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
+use dem::Vec3;
+use dem::contact::law::contact_stiffness;
+use dem::geometry::segment_segment::nearest_of_segments;
 
 pub const NEAREST: Case = Case {
     id: "D23",

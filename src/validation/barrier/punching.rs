@@ -1,14 +1,14 @@
 //! D27: a net panel in a frame, pushed through its middle.
 
-use crate::dem::Vec3;
-use crate::dem::elements::strength::Strength;
-use crate::dem::model::Model;
-use crate::dem::simulation::{Simulation, Unstable};
-use crate::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::barrier::stand::DENSITY;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, free_model};
+use dem::Vec3;
+use dem::elements::strength::Strength;
+use dem::model::Model;
+use dem::simulation::{Simulation, Unstable};
+use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
     id: "D27",

@@ -1,11 +1,11 @@
 //! D1, D9, D10, D13, D14, D15: tension-only ropes against closed forms.
 
-use crate::dem::Vec3;
-use crate::dem::elements::dissipator::Dissipator;
-use crate::dem::tables::barrier::Barrier;
 use crate::validation::barrier::stand::{Stand, line, line_mass, rope, section};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::GRAVITY;
+use dem::Vec3;
+use dem::elements::dissipator::Dissipator;
+use dem::tables::barrier::Barrier;
 
 pub const BAR: Case = Case {
     id: "D1",

@@ -1,13 +1,13 @@
 //! A test stand: a barrier alone, with loads on its nodes, stepped by the engine's own forces and motion.
 
-use crate::dem::Vec3;
-use crate::dem::contact::law::LawConstants;
-use crate::dem::elements::cylinder::{Cylinder, Section};
-use crate::dem::elements::strength::Strength;
-use crate::dem::net::{NetForces, pull_all};
-use crate::dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
-use crate::dem::time::integrate::{move_nodes, turn_frames};
 use crate::validation::case::Broken;
+use dem::Vec3;
+use dem::contact::law::LawConstants;
+use dem::elements::cylinder::{Cylinder, Section};
+use dem::elements::strength::Strength;
+use dem::net::{NetForces, pull_all};
+use dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use dem::time::integrate::{move_nodes, turn_frames};
 
 /// The main rope of Albaba 2015: E = 4 GPa, R = 16 mm, 7850 kg/m³.
 pub const MODULUS: f64 = 4e9;

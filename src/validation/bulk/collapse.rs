@@ -1,13 +1,13 @@
 //! B1, B2 and B8: columns that collapse on a level floor.
 
-use crate::dem::Vec3;
-use crate::dem::model::{Material, Model};
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
-use crate::dem::tables::surfaces::SurfaceRole;
 use crate::scene::flow::packing::{PackingRoom, pack};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, floor, free_model, material, plane, run_until, side_by_side};
+use dem::Vec3;
+use dem::model::{Material, Model};
+use dem::simulation::Simulation;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::surfaces::SurfaceRole;
 
 pub const COLUMN: Case = Case {
     id: "B1",

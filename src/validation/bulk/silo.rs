@@ -1,13 +1,13 @@
 //! B4: a tall column between rubbing walls (Janssen).
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::{GrainBody, GrainShape};
-use crate::dem::tables::surfaces::SurfaceRole;
 use crate::scene::flow::packing::{PackingRoom, pack};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, floor, free_model, material, plane, run_until, side_by_side};
+use dem::Vec3;
+use dem::model::Model;
+use dem::simulation::Simulation;
+use dem::tables::grains::{GrainBody, GrainShape};
+use dem::tables::surfaces::SurfaceRole;
 
 pub const CASE: Case = Case {
     id: "B4",

@@ -1,11 +1,11 @@
 //! A6: a ball that bounces under gravity.
 
-use crate::dem::Vec3;
-use crate::dem::contact::restitution::damping_ratio_for;
-use crate::dem::model::{Material, Model};
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, ball, floor, free_model, material, simulate};
+use dem::Vec3;
+use dem::contact::restitution::damping_ratio_for;
+use dem::model::{Material, Model};
+use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
     id: "A6",

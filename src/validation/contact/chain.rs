@@ -1,12 +1,12 @@
 //! A27: standing waves of a chain of masses and springs.
 
-use crate::dem::Vec3;
-use crate::dem::elements::strength::Strength;
-use crate::dem::model::Model;
-use crate::dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{free_model, simulate};
+use dem::Vec3;
+use dem::elements::strength::Strength;
+use dem::model::Model;
+use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
     id: "A27",

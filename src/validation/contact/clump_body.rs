@@ -1,10 +1,10 @@
 //! A17 and A21: mass and inertia of clumps, their free rotation, and what collisions conserve.
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{cloud, free_model, material, momenta, run as step_on, simulate};
+use dem::Vec3;
+use dem::model::Model;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
 
 pub const BODY: Case = Case {
     id: "A17",

@@ -1,12 +1,12 @@
 //! A15: oblique impacts in steps as long as those of whole scenes, and in the longest that is allowed.
 
-use crate::dem::Vec3;
-use crate::dem::contact::restitution::LONGEST_PHASE;
-use crate::dem::model::{Material, Model};
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::{Grain, GrainShape};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{MODULUS, ball, floor, free_model, run as step_on, simulate};
+use dem::Vec3;
+use dem::contact::restitution::LONGEST_PHASE;
+use dem::model::{Material, Model};
+use dem::simulation::Simulation;
+use dem::tables::grains::{Grain, GrainShape};
 
 pub const CASE: Case = Case {
     id: "A15",

@@ -1,11 +1,11 @@
 //! A25: a granular gas that cools.
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::{Grain, GrainShape};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{MODULUS, ball, contact_time, free_model, material, simulate};
+use dem::Vec3;
+use dem::model::Model;
+use dem::simulation::Simulation;
+use dem::tables::grains::{Grain, GrainShape};
 
 pub const CASE: Case = Case {
     id: "A25",

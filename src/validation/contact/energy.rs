@@ -2,12 +2,12 @@
 
 use nalgebra::Rotation3;
 
-use crate::dem::Vec3;
-use crate::dem::ledger::Ledger;
-use crate::dem::model::Model;
-use crate::dem::tables::grains::{Grain, GrainShape};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{MODULUS, ball, closed_box, cloud, contact_time, free_model, material, simulate};
+use dem::Vec3;
+use dem::ledger::Ledger;
+use dem::model::Model;
+use dem::tables::grains::{Grain, GrainShape};
 
 pub const DRIFT: Case = Case {
     id: "A22",

@@ -1,10 +1,10 @@
 //! A9, A11, A12 and A13: oblique impacts on a wall.
 
-use crate::dem::Vec3;
-use crate::dem::model::{Material, Model};
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, contact_time, floor, free_model, run as step_on, simulate};
+use dem::Vec3;
+use dem::model::{Material, Model};
+use dem::tables::grains::GrainShape;
 
 pub const CLOSED_FORM: Case = Case {
     id: "A9",

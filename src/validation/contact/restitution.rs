@@ -1,12 +1,12 @@
 //! A1: two equal balls meet head on.
 
-use crate::dem::Vec3;
-use crate::dem::contact::restitution::{begins_beyond, damping_ratio_for, first_weight};
-use crate::dem::model::Model;
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{MODULUS, ball, contact_time, free_model, material, simulate};
+use dem::Vec3;
+use dem::contact::restitution::{begins_beyond, damping_ratio_for, first_weight};
+use dem::model::Model;
+use dem::simulation::Simulation;
+use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
     id: "A1",

@@ -1,11 +1,11 @@
 //! A8 and A20: a ball that slips, then rolls; and a ball on a slope.
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::simulation::Simulation;
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, ball, floor, free_model, material, run_until, simulate};
+use dem::Vec3;
+use dem::model::Model;
+use dem::simulation::Simulation;
+use dem::tables::grains::GrainShape;
 
 pub const SLIP: Case = Case {
     id: "A8",

@@ -1,11 +1,11 @@
 //! A5: where a ball is in the middle of a contact.
 
-use crate::dem::Vec3;
-use crate::dem::contact::restitution::restitution_of;
-use crate::dem::model::{Material, Model};
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, free_model, run as step_on, simulate};
+use dem::Vec3;
+use dem::contact::restitution::restitution_of;
+use dem::model::{Material, Model};
+use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
     id: "A5",

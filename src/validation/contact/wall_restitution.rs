@@ -1,10 +1,10 @@
 //! A3: a ball against a wall; and clumps, which meet with the mass of the whole clump.
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::tables::grains::{Grain, GrainBody, GrainShape};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{MODULUS, ball, contact_time, floor, free_model, material, run as step_on, simulate};
+use dem::Vec3;
+use dem::model::Model;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
 
 pub const CASE: Case = Case {
     id: "A3",

@@ -1,10 +1,10 @@
 //! A7: a ball at rest on the floor.
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::tables::grains::GrainShape;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, MODULUS, ball, floor, free_model, material, run as step_on, simulate};
+use dem::Vec3;
+use dem::model::Model;
+use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
     id: "A7",

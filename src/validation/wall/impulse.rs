@@ -1,15 +1,15 @@
 //! C1, C2 and C13: what the forces on a wall must add up to.
 
-use crate::dem::Vec3;
-use crate::dem::model::Model;
-use crate::dem::tables::grains::GrainShape;
-use crate::dem::tables::surfaces::SurfaceRole;
 use crate::loads::cases::{Extras, all, split};
 use crate::loads::input::GuidelineInput;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{
     GRAVITY, MODULUS, ball, cloud, contact_time, floor, free_model, material, momenta, plane, simulate,
 };
+use dem::Vec3;
+use dem::model::Model;
+use dem::tables::grains::GrainShape;
+use dem::tables::surfaces::SurfaceRole;
 
 pub const BALANCE: Case = Case {
     id: "C1",

@@ -2,8 +2,6 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::dem::ledger::Ledger;
-use crate::dem::recorders::histories::{Histories, smoothed};
 use crate::demand::from_histories::{Observed, Reading};
 use crate::demand::from_loads::guideline;
 use crate::design::Arrival;
@@ -13,6 +11,8 @@ use crate::fidelity::choose;
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Ongoing, Watch};
 use crate::validation::case::Broken;
+use dem::ledger::Ledger;
+use dem::recorders::histories::{Histories, smoothed};
 
 const DESIGN: &str = include_str!("../../../designs/flume_l44_h15_a40.yaml");
 /// Length of the chute (m).

@@ -1,0 +1,259 @@
+//! Contacts of grains with the lines of a flexible barrier, and with the nodes where they end.
+//!
+//! A sphere meets a line as a capsule. Lines that meet in a node overlap each other there, and a grain near the node must not be
+//! pushed by each of them in full. So they count as one body: of the overlaps u_j with the node that the lines have which run on
+//! from it towards the grain, each as thick as it is, only the largest counts, and every such line gives up the share
+//! 1 − max u_j/Σ u_j of its own. For two alike lines this is the gradient of the energy ½k (u₁² + u₂² − u_node²) to first order in
+//! the distance from the node. A node from which all lines lead away is touched once. So the force neither doubles nor
+//! jumps by more than that order where a grain passes a node.
+//!
+//! The force acts on the axis of the line: a rope does not roll under a grain, its weave holds it. (Where nodes turn, the friction at the
+//! surface, some 8 mm off the axis, would spin the knots of a net round and round.)
+//!
+//! The friction spring goes along when a grain slides from one line to the next.
+
+use std::ops::Range;
+
+use crate::Vec3;
+use crate::contact::law::{ContactPoint, LawConstants, Memory, Spring, contact_stiffness, respond};
+use crate::contact::pair_list::{PairList, Separation};
+use crate::geometry::point_segment::nearest_on_segment;
+use crate::ledger::ContactSums;
+use crate::neighbours::clocks::Clock;
+use crate::tables::barrier::{Barrier, Node};
+use crate::tables::grain_rows::{GrainRows, Member};
+use crate::tables::grain_table::{GrainLoad, Quad};
+
+/// Candidate pairs (member, line) of one block, and the forces they put on nodes in this step.
+#[derive(Clone, Debug, Default)]
+pub struct RopeContacts {
+    pub list: PairList,
+    pub pushes: Vec<Push>,
+    /// Grains whose centre has gone through a line in this step.
+    pub crossings: u32,
+    /// Scratch: the contact of every touching pair.
+    touches: Vec<Option<RopeTouch>>,
+}
+
+/// Force of one grain on one line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Push {
+    /// Row of the grain.
+    pub row: u32,
+    pub nodes: [u32; 2],
+    /// Share of the force that the second node takes.
+    pub share: f64,
+    pub force: Vec3,
+}
+
+pub struct RopeContext<'a> {
+    pub grains: GrainRows<'a>,
+    pub barrier: &'a Barrier,
+    pub law: LawConstants,
+    pub grain_modulus: f64,
+    pub grain_friction: f64,
+    /// Way that grains and nodes together can have gone since the lists were made (m).
+    pub clock: Clock,
+}
+
+/// A sphere on a line: the contact, its foot, and how the force is shared between the line's nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct RopeTouch {
+    pub point: ContactPoint,
+    pub foot: Vec3,
+    pub share: f64,
+    /// Whether the centre has gone through the axis in the step just made.
+    pub crossed: bool,
+}
+
+impl RopeContacts {
+    /// Loads the grains of the block that touch ropes and lists the pushes on the nodes.
+    pub fn load(&mut self, context: &RopeContext, range: &Range<usize>, loads: &mut [GrainLoad]) -> ContactSums {
+        let mut sums = ContactSums::default();
+        self.pushes.clear();
+        self.crossings = 0;
+        let (grains, barrier) = (context.grains, context.barrier);
+        self.list.sort_near(&context.clock, &OnRopes { grains, barrier });
+        sums.lost_friction += self.find_touches(context);
+        let per_grain = grains.shape.members();
+        let Self { list, pushes, touches, crossings } = self;
+        for ((pair, memory), contact) in list.touching.iter().zip(&mut list.memory).zip(touches) {
+            let [index, line] = *pair;
+            let Some(contact) = contact else { continue };
+            let member = grains.member(index as usize);
+            let response = respond(&contact.point, &Memory::from_quad(*memory), &context.law);
+            *memory = response.memory.quad();
+            let force = Vec3::from(response.force);
+            let row = index as usize / per_grain - range.start;
+            loads[row].add(&force, &(contact.foot - member.centre + member.arm));
+            let nodes = barrier.lines[line as usize].nodes;
+            pushes.push(Push { row: index / per_grain as u32, nodes, share: contact.share, force: -force });
+            sums.count(&response, contact.point.overlap / member.radius);
+            *crossings += u32::from(contact.crossed);
+        }
+        self.list.end_contacts();
+        sums
+    }
+
+    /// Finds the contact of every touching pair, notes those that have ended, and hands the friction springs of pairs whose
+    /// contact has passed to another line at the same node on to that. Returns the energy of springs that nobody takes (J).
+    fn find_touches(&mut self, context: &RopeContext) -> f64 {
+        let (grains, barrier) = (context.grains, context.barrier);
+        let on_ropes = OnRopes { grains, barrier };
+        let Self { list, touches, .. } = self;
+        touches.clear();
+        for (place, &[index, line]) in list.touching.iter().enumerate() {
+            if on_ropes.gap([index, line]) >= 0.0 {
+                list.ended.push(place as u32);
+                touches.push(None);
+            } else {
+                touches.push(touch(&grains.member(index as usize), line, context));
+            }
+        }
+        let mut lost = 0.0;
+        for place in 0..touches.len() {
+            let memory = Memory::from_quad(list.memory[place]);
+            if touches[place].is_some() || memory == Memory::default() {
+                continue;
+            }
+            list.memory[place] = Quad::default();
+            let heir = heir(place, list, touches, barrier);
+            match heir {
+                Some(heir) => list.memory[heir] = memory.quad(),
+                None => lost += self::stored(&memory, list.touching[place], context),
+            }
+        }
+        lost
+    }
+}
+
+/// The pair of the same grain and of a line at the same node that has just begun to touch.
+fn heir(place: usize, list: &PairList, touches: &[Option<RopeTouch>], barrier: &Barrier) -> Option<usize> {
+    let [member, line] = list.touching[place];
+    let nodes = barrier.lines[line as usize].nodes;
+    (0..touches.len()).find(|&other| {
+        let [same, next] = list.touching[other];
+        same == member
+            && touches[other].is_some()
+            && list.memory[other] == Quad::default()
+            && barrier.lines[next as usize].nodes.iter().any(|node| nodes.contains(node))
+    })
+}
+
+/// Energy that a friction spring holds (J), taken as if the line had kept its whole overlap.
+fn stored(memory: &Memory, [member, line]: [u32; 2], context: &RopeContext) -> f64 {
+    let member = context.grains.member(member as usize);
+    let line = &context.barrier.lines[line as usize];
+    let [a, b] = line.nodes.map(|node| &context.barrier.nodes[node as usize]);
+    let share = nearest_on_segment(&member.centre, &a.position, &b.position).share;
+    let grain = context.grain_modulus * member.radius;
+    let rope = context.barrier.contact_modulus * line.radius;
+    let spring = Spring::new(contact_stiffness(grain, rope), member.inverse_mass + inverse_mass_at(a, b, share));
+    0.5 * Vec3::from(memory.tangential).norm_squared() * spring.compliance
+        / context.law.friction_spring(&spring).stiffness_ratio()
+}
+
+/// Member spheres and lines, taken as thick as the thicker of their ends: never closer than they are.
+pub struct OnRopes<'a> {
+    pub grains: GrainRows<'a>,
+    pub barrier: &'a Barrier,
+}
+
+impl Separation for OnRopes<'_> {
+    fn of(&self, [member, line]: [u32; 2]) -> (f64, f64) {
+        let (centre, radius) = self.grains.sphere(member as usize);
+        let ends = self.barrier.lines[line as usize].nodes;
+        let [a, b] = ends.map(|node| &self.barrier.nodes[node as usize].position);
+        let nearest = nearest_on_segment(&centre, a, b).point;
+        ((nearest - centre).norm_squared(), radius + self.barrier.thickness(line))
+    }
+}
+
+/// Share of its overlap that a line keeps at least, whatever it gives up at its nodes.
+const LEAST_KEPT: f64 = 0.1;
+
+/// Geometry of sphere against line, or against the node a line ends in.
+pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<RopeTouch> {
+    let barrier = context.barrier;
+    let line = &barrier.lines[line_index as usize];
+    if line.broken {
+        return None;
+    }
+    let [a, b] = line.nodes.map(|node| &barrier.nodes[node as usize]);
+    let centre = member.centre;
+    let along = nearest_on_segment(&centre, &a.position, &b.position);
+    let towards = along.point - centre;
+    let end = usize::from(along.share > 0.5);
+    let rope_radius = if along.inside { line.radius } else { [a, b][end].radius };
+    let reach = member.radius + rope_radius;
+    let distance_squared = towards.norm_squared();
+    if distance_squared >= reach * reach || distance_squared == 0.0 {
+        return None;
+    }
+    if !along.inside && !owns_node(line_index, line.nodes[end], &centre, barrier) {
+        return None;
+    }
+    let distance = distance_squared.sqrt();
+    let overlap = reach - distance;
+    let normal = towards / distance;
+    let foot = centre + normal * (member.radius - 0.5 * overlap);
+    let rope_velocity = a.pace * (1.0 - along.share) + b.pace * along.share;
+    let velocity = rope_velocity - member.velocity - member.spin.cross(&(foot - centre));
+    let grain = context.grain_modulus * member.radius;
+    let rope = barrier.contact_modulus * rope_radius;
+    let inverse_mass = member.inverse_mass + inverse_mass_at(a, b, along.share);
+    let given_up = if along.inside { given_up(member, line_index, barrier) / overlap } else { 0.0 };
+    let kept = (1.0 - given_up).max(LEAST_KEPT);
+    let point = ContactPoint {
+        normal: normal.into(),
+        overlap,
+        velocity: velocity.into(),
+        twist: 0.5 * member.spin.dot(&normal),
+        spring: Spring::new(contact_stiffness(grain, rope), inverse_mass).part(kept),
+        friction: barrier.friction.min(context.grain_friction),
+    };
+    let before = towards - (rope_velocity - member.velocity) * context.law.time_step;
+    let crossed = before.dot(&towards) < 0.0;
+    Some(RopeTouch { point, foot, share: along.share, crossed })
+}
+
+/// Overlap that a line gives up at its nodes because other lines have it as well (m).
+fn given_up(member: &Member, line_index: u32, barrier: &Barrier) -> f64 {
+    let line = &barrier.lines[line_index as usize];
+    let at_node = |node: u32| {
+        let here = &barrier.nodes[node as usize];
+        let from_node = member.centre - here.position;
+        let bare = member.radius - from_node.norm();
+        let mine = bare + line.radius;
+        if mine <= 0.0 {
+            return 0.0;
+        }
+        let leading = here.lines.iter().filter(|&&other| leads_to(other, node, &from_node, barrier));
+        let overlaps = leading.map(|&other| (bare + barrier.lines[other as usize].radius).max(0.0));
+        let (most, sum) =
+            overlaps.fold((0.0, 0.0), |(most, sum): (f64, f64), overlap| (most.max(overlap), sum + overlap));
+        if sum > 0.0 { mine * (1.0 - most / sum) } else { 0.0 }
+    };
+    line.nodes.into_iter().map(at_node).sum()
+}
+
+/// Whether a line runs on from its end `node` towards a point that lies `from_node` off it.
+fn leads_to(line: u32, node: u32, from_node: &Vec3, barrier: &Barrier) -> bool {
+    let [a, b] = barrier.lines[line as usize].nodes;
+    let far = if a == node { b } else { a };
+    from_node.dot(&(barrier.nodes[far as usize].position - barrier.nodes[node as usize].position)) > 0.0
+}
+
+/// 1/m felt at the point that divides a line as (1−share):share; a fixed node counts as infinitely heavy.
+fn inverse_mass_at(a: &Node, b: &Node, share: f64) -> f64 {
+    let inverse = |node: &Node| if node.fixed { 0.0 } else { 1.0 / node.mass };
+    (1.0 - share).powi(2) * inverse(a) + share.powi(2) * inverse(b)
+}
+
+/// Whether `line` stands for its end `node` towards a sphere at `centre`: every line at the node must
+/// have the node as its nearest point, and this one must be the first of them.
+fn owns_node(line: u32, node: u32, centre: &Vec3, barrier: &Barrier) -> bool {
+    let here = &barrier.nodes[node as usize];
+    let from_node = centre - here.position;
+    here.lines.first() == Some(&line) && here.lines.iter().all(|&other| !leads_to(other, node, &from_node, barrier))
+}

@@ -1,0 +1,212 @@
+//! Contacts of grains with fixed surfaces.
+
+use std::ops::Range;
+
+use crate::Vec3;
+use crate::contact::lane_sums::LaneSums;
+use crate::contact::law::{ContactPoint, LawConstants, Response, Spring, respond};
+use crate::contact::pair_list::{EightPairs, PairList, Separation};
+use crate::ledger::ContactSums;
+use crate::neighbours::clocks::Clock;
+use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::simd::real::{Triple, cross, dot, negative, plus, scaled};
+use crate::simd::widest::{Work, with_widest};
+use crate::tables::grain_rows::GrainRows;
+use crate::tables::grain_table::{GrainLoad, Quad};
+use crate::tables::surfaces::{Surface, SurfaceRole};
+
+/// What surface contacts read.
+pub struct SurfaceContext<'a> {
+    pub grains: GrainRows<'a>,
+    pub surfaces: &'a [Surface],
+    pub law: LawConstants,
+    pub modulus: f64,
+    pub grain_friction: f64,
+    /// Way that the block's grains and all nodes can have gone since the lists were made (m).
+    pub clock: Clock,
+    /// Heights that part the rigid wall into segments, from the bottom up (m); the last is its top.
+    pub wall_levels: &'a [f64],
+}
+
+/// Forces the grains of one block put on the surfaces in one step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceForces {
+    /// Force on the base (N).
+    pub base: Vec3,
+    /// Force on the side walls, the back wall and the gate (N).
+    pub sides: Vec3,
+    /// Force on the rigid wall (N).
+    pub wall: Vec3,
+    /// Moment about its toe of the forces normal to the wall (N m).
+    pub wall_moment: f64,
+    /// Normal force on each wall segment (N).
+    pub wall_segments: Vec<f64>,
+}
+
+impl SurfaceForces {
+    pub fn reset(&mut self, segments: usize) {
+        self.base = Vec3::zeros();
+        self.sides = Vec3::zeros();
+        self.wall = Vec3::zeros();
+        self.wall_moment = 0.0;
+        self.wall_segments.clear();
+        self.wall_segments.resize(segments, 0.0);
+    }
+
+    pub fn add(&mut self, other: &Self) {
+        self.base += other.base;
+        self.sides += other.sides;
+        self.wall += other.wall;
+        self.wall_moment += other.wall_moment;
+        for (mine, theirs) in self.wall_segments.iter_mut().zip(&other.wall_segments) {
+            *mine += theirs;
+        }
+    }
+
+    fn record(&mut self, role: SurfaceRole, force: Vec3, normal_force: f64, height: f64, levels: &[f64]) {
+        match role {
+            SurfaceRole::Base => self.base += force,
+            SurfaceRole::Side | SurfaceRole::Gate => self.sides += force,
+            SurfaceRole::Wall => {
+                self.wall += force;
+                self.wall_moment += normal_force * height;
+                let segment = levels.iter().take_while(|&&top| height > top).count();
+                if let Some(sum) = self.wall_segments.get_mut(segment.min(levels.len().saturating_sub(1))) {
+                    *sum += normal_force;
+                }
+            }
+        }
+    }
+}
+
+/// Loads the grains of a block that touch surfaces; returns energies, adds to `forces`.
+pub fn load_surfaces(
+    list: &mut PairList,
+    context: &SurfaceContext,
+    range: &Range<usize>,
+    loads: &mut [GrainLoad],
+    forces: &mut SurfaceForces,
+) -> ContactSums {
+    with_widest(LoadSurfaces { list, context, start: range.start, loads, forces })
+}
+
+/// The surface contacts of one block, to be loaded.
+struct LoadSurfaces<'a, 'b> {
+    list: &'a mut PairList,
+    context: &'a SurfaceContext<'b>,
+    start: usize,
+    loads: &'a mut [GrainLoad],
+    forces: &'a mut SurfaceForces,
+}
+
+impl Work for LoadSurfaces<'_, '_> {
+    type Output = ContactSums;
+
+    #[inline(always)]
+    fn run<E: Eight>(mut self) -> ContactSums {
+        let context = self.context;
+        self.list.sort_near(&context.clock, &OnSurfaces { grains: context.grains, surfaces: context.surfaces });
+        let mut sums = LaneSums::<E>::default();
+        let mut last = None;
+        while let Some(eight) = self.list.eight_after(last) {
+            let touch = SurfaceTouch::<E>::of(context, &eight);
+            let response = respond(&touch.point, &self.list.memory_of(&eight), &context.law);
+            sums.count(&response, touch.point.overlap / touch.radius);
+            self.scatter(&eight, &touch, &response);
+            self.list.remember(&eight, &response.memory, touch.point.overlap);
+            last = Some(eight);
+        }
+        self.list.end_contacts();
+        sums.total()
+    }
+}
+
+impl LoadSurfaces<'_, '_> {
+    #[inline(always)]
+    fn scatter<E: Eight>(&mut self, eight: &EightPairs, touch: &SurfaceTouch<E>, response: &Response<E>) {
+        let zero = E::all(0.0);
+        let members = self.context.grains.shape.members();
+        let forces = E::rows(joined(response.force, zero));
+        let torques = E::rows(joined(cross(touch.lever, response.force), zero));
+        let normal_forces = response.normal_force.lanes();
+        for (lane, [member, surface]) in eight.pairs[..eight.count].iter().enumerate() {
+            let mut load = GrainLoad::default();
+            forces[lane].store(&mut load.force);
+            torques[lane].store(&mut load.torque);
+            self.loads[*member as usize / members - self.start].join(&load);
+            let surface = &self.context.surfaces[*surface as usize];
+            // On an edge the push leans away from the surface's own normal.
+            let square = normal_forces[lane] * touch.facing[lane].dot(&surface.normal).abs();
+            let levels = self.context.wall_levels;
+            self.forces.record(surface.role, -load.force.vector(), square, touch.height[lane], levels);
+        }
+    }
+}
+
+/// Spheres on surfaces, side by side. A surface takes part as an equal sphere of infinite mass, so k = E r and the
+/// restitution is the nominal one.
+struct SurfaceTouch<E> {
+    point: ContactPoint<E>,
+    /// m
+    radius: E,
+    /// From the grain's centre of mass to the nearest point (m).
+    lever: Triple<E>,
+    /// Direction from the centre to the nearest point.
+    facing: [Vec3; LANES],
+    /// Height of the nearest point over the surface's origin, along its first direction (m).
+    height: [f64; LANES],
+}
+
+impl<E: Eight> SurfaceTouch<E> {
+    /// Lanes not in use do not touch.
+    #[inline(always)]
+    fn of(context: &SurfaceContext, eight: &EightPairs) -> Self {
+        let grains = context.grains;
+        let members = grains.shape.members();
+        let (mut towards, mut lever, mut height) = ([Quad::default(); LANES], [Quad::default(); LANES], [0.0; LANES]);
+        let mut facing = [Vec3::zeros(); LANES];
+        for (lane, [member, surface]) in eight.pairs.iter().enumerate() {
+            let surface = &context.surfaces[*surface as usize];
+            let (centre, radius) = grains.sphere(*member as usize);
+            let foot = surface.nearest(&centre);
+            towards[lane] = Quad::new(&(foot - centre), radius);
+            let from_grain = foot - grains.place(*member as usize / members).vector();
+            lever[lane] = Quad::new(&from_grain, surface.friction.min(context.grain_friction));
+            facing[lane] = (foot - centre).try_normalize(0.0).unwrap_or(surface.normal);
+            height[lane] = surface.spans[0].direction.dot(&(foot - surface.origin));
+        }
+        let row = |lane: usize| eight.pairs[lane][0] as usize / members;
+        let (towards, radius) = parted(E::columns(each_lane!(|lane| E::Row::load(&towards[lane]))));
+        let (lever, friction) = parted(E::columns(each_lane!(|lane| E::Row::load(&lever[lane]))));
+        let (motion, inverse_mass) = parted(E::columns(each_lane!(|lane| E::Row::load(&grains.motion(row(lane))))));
+        let (spin, _) = parted(E::columns(each_lane!(|lane| E::Row::load(&grains.spin(row(lane))))));
+
+        // A centre exactly on the surface has no normal; any will do, and the overlap limit will speak.
+        let distance = dot(towards, towards).root() + f64::MIN_POSITIVE;
+        let normal = scaled(towards, E::all(1.0) / distance);
+        let numbers = E::from_lanes(each_lane!(|lane| lane as f64));
+        let point = ContactPoint {
+            normal,
+            overlap: E::all(eight.count as f64).if_above(numbers, radius - distance, -radius),
+            velocity: negative(plus(motion, cross(spin, lever))),
+            twist: dot(spin, normal) * 0.5,
+            spring: Spring::new(radius * context.modulus, inverse_mass),
+            friction,
+        };
+        Self { point, radius, lever, facing, height }
+    }
+}
+
+/// Member spheres and surfaces.
+pub struct OnSurfaces<'a> {
+    pub grains: GrainRows<'a>,
+    pub surfaces: &'a [Surface],
+}
+
+impl Separation for OnSurfaces<'_> {
+    #[inline(always)]
+    fn of(&self, [member, surface]: [u32; 2]) -> (f64, f64) {
+        let (centre, radius) = self.grains.sphere(member as usize);
+        (self.surfaces[surface as usize].distance_squared(&centre), radius)
+    }
+}

@@ -1,0 +1,111 @@
+//! Energy dissipator ("brake"): elastic, then a constant plateau force, then rigid.
+//!
+//! With e the elongation and p the plastic stroke so far, F = k (e − p) ≥ 0. While F would exceed the
+//! plateau and stroke is left, p grows so that F equals the plateau; unloading is elastic with slope k; once
+//! the stroke is used up, p stays and F grows with slope k: the load goes straight to the anchor.
+//! Source: Albaba 2015, section 4.2.4; unloading and hard stop are our choices (stated in the report).
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+use crate::tables::barrier::Node;
+
+/// A dissipator between an anchor (first node) and a rope end (second node).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Dissipator {
+    pub nodes: [u32; 2],
+    /// Number of the main rope it holds, from the bottom.
+    pub rope: u16,
+    /// Length at which tension starts (m).
+    pub rest_length: f64,
+    /// Radius with which grains touch it and what it has paid out (m): that of its rope.
+    pub radius: f64,
+    /// Elastic stiffness k (N/m).
+    pub stiffness: f64,
+    /// Plateau force (N).
+    pub plateau: f64,
+    /// Stroke available (m).
+    pub stroke: f64,
+    /// Stroke used so far, p (m).
+    pub used: f64,
+}
+
+/// State of a dissipator after one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Brake {
+    /// Tension (N), never negative.
+    pub tension: f64,
+    /// Unit vector from the first node to the second.
+    pub direction: Vec3,
+    /// Elastic energy (J).
+    pub stored: f64,
+    /// Energy dissipated in this step (J).
+    pub lost: f64,
+}
+
+impl Dissipator {
+    /// Stretches the dissipator to the present place of its nodes.
+    pub fn stretch(&mut self, anchor: &Node, end: &Node) -> Brake {
+        let line = end.position - anchor.position;
+        let length = line.norm();
+        let mut brake = self.elongate(length - self.rest_length);
+        brake.direction = if length > 0.0 { line / length } else { Vec3::zeros() };
+        brake
+    }
+
+    /// Sets the elongation (m), lets the plateau slip, and returns the force.
+    pub fn elongate(&mut self, elongation: f64) -> Brake {
+        let elastic_limit = self.plateau / self.stiffness;
+        let wanted = (elongation - elastic_limit).clamp(self.used, self.stroke.max(self.used));
+        let lost = self.plateau * (wanted - self.used);
+        self.used = wanted;
+        let elastic = (elongation - self.used).max(0.0);
+        Brake {
+            tension: self.stiffness * elastic,
+            stored: 0.5 * self.stiffness * elastic * elastic,
+            lost,
+            ..Brake::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn brake() -> Dissipator {
+        Dissipator {
+            nodes: [0, 1],
+            rope: 0,
+            rest_length: 0.0,
+            radius: 0.016,
+            stiffness: 45.957e6,
+            plateau: 250e3,
+            stroke: 2.5,
+            used: 0.0,
+        }
+    }
+
+    #[test]
+    fn holds_the_plateau_exactly_and_unloads_elastically() {
+        // Case D18.
+        let mut dissipator = brake();
+        assert_relative_eq!(dissipator.elongate(0.001).tension, 45.957e3, max_relative = 1e-12);
+        assert_relative_eq!(dissipator.elongate(1.0).tension, 250e3, max_relative = 1e-12);
+        let back = 1.0 - 100e3 / 45.957e6;
+        assert_relative_eq!(dissipator.elongate(back).tension, 150e3, max_relative = 1e-9);
+        assert_relative_eq!(dissipator.used, 1.0 - 250e3 / 45.957e6, max_relative = 1e-12);
+        assert_eq!(dissipator.elongate(0.5).tension, 0.0);
+    }
+
+    #[test]
+    fn passes_the_load_on_when_the_stroke_is_used_up() {
+        let mut dissipator = brake();
+        let limit = 2.5 + 250e3 / 45.957e6;
+        let result = dissipator.elongate(limit + 0.01);
+        assert_relative_eq!(dissipator.used, dissipator.stroke);
+        assert_relative_eq!(result.tension, 250e3 + 0.01 * 45.957e6, max_relative = 1e-9);
+        assert_relative_eq!(result.lost, 250e3 * 2.5, max_relative = 1e-12);
+    }
+}

@@ -1,0 +1,38 @@
+//! What is simulated: grains, surfaces, barrier, and what they are made of.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+use crate::tables::barrier::Barrier;
+use crate::tables::grains::{Grain, GrainShape};
+use crate::tables::surfaces::Surface;
+
+/// What the grains are made of, as contacts feel it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Contact modulus E (Pa): k = 2 E r₁ r₂/(r₁+r₂).
+    pub modulus: f64,
+    /// Normal restitution ε, 0 < ε ≤ 1.
+    pub restitution: f64,
+    /// k_t / k_n, 2/7 by Silbert 2001.
+    pub tangential_ratio: f64,
+    /// Friction coefficient between grains, tan φ.
+    pub friction: f64,
+}
+
+/// Everything that is simulated.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Model {
+    pub shape: GrainShape,
+    /// The grains as they start; a running simulation keeps them in its own table.
+    pub grains: Vec<Grain>,
+    pub surfaces: Vec<Surface>,
+    pub barrier: Option<Barrier>,
+    pub material: Material,
+    /// m/s², in the channel frame.
+    pub gravity: Vec3,
+    /// Tops of the rigid wall's segments from the bottom (m); empty without a rigid wall.
+    pub wall_levels: Vec<f64>,
+    /// Grains beyond this x are taken out of the model (m).
+    pub outlet: f64,
+}

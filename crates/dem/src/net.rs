@@ -1,0 +1,244 @@
+//! Forces within a flexible barrier at one instant, and their mean over a step of the grains.
+
+use crate::Vec3;
+use crate::contact::law::{LawConstants, Memory};
+use crate::contact::ropes::Push;
+use crate::elements::cylinder::{Cylinder, strain_all};
+use crate::elements::dissipator::Dissipator;
+use crate::elements::ground::Footing;
+use crate::elements::ring::{RingContext, RingForce, RingSide};
+use crate::elements::rope::{Fate, pull};
+use crate::tables::barrier::Barrier;
+
+/// Forces on the nodes and tensions of the elements.
+#[derive(Clone, Debug, Default)]
+pub struct NetForces {
+    /// Force on each node (N).
+    pub forces: Vec<Vec3>,
+    /// Tension of each segment (N).
+    pub tensions: Vec<f64>,
+    /// Tension of each dissipator (N).
+    pub brakes: Vec<f64>,
+    /// Torque on each node that turns (N m).
+    pub torques: Vec<Vec3>,
+    /// Axial force of each cylinder (N), tension positive.
+    pub axial: Vec<f64>,
+    /// Force of all grains on the barrier (N).
+    pub from_grains: Vec3,
+    /// Elastic energy (J).
+    pub stored: f64,
+    /// Lost in rope damping, and in ropes that draw out or break (J).
+    pub lost_ropes: f64,
+    /// Lost by rings sliding on their ropes, in their dashpots, by side extensions, and where the barrier lies on the ground (J).
+    pub lost_rings: f64,
+    /// Lost in dissipators (J).
+    pub lost_dissipators: f64,
+    /// Dissipators with the stroke of this step, and rings with what they remember now, to be taken over.
+    slipped: Vec<Dissipator>,
+    let_go: Vec<Dissipator>,
+    slid: Vec<(u32, Memory)>,
+    /// Where the barrier lies on the ground now.
+    lies: Vec<Footing>,
+    /// Pieces of rope that were overloaded.
+    overloaded: Vec<(usize, Fate)>,
+    bent: Vec<(usize, Cylinder)>,
+}
+
+/// Stretches every element to the present places of the nodes; `law` holds the barrier's own step.
+pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
+    let mut net = NetForces {
+        forces: vec![Vec3::zeros(); barrier.nodes.len()],
+        torques: vec![Vec3::zeros(); barrier.frames.len()],
+        tensions: Vec::with_capacity(barrier.segments.len()),
+        axial: Vec::with_capacity(barrier.cylinders.len()),
+        slipped: barrier.dissipators.clone(),
+        let_go: barrier.holds.clone(),
+        ..NetForces::default()
+    };
+    net.pull_segments(barrier, law.time_step);
+    net.pull_dissipators(barrier);
+    net.hold(barrier);
+    net.rest_on_ground(barrier, law);
+    net.strain_cylinders(barrier, law.time_step);
+    let context = RingContext {
+        nodes: &barrier.nodes,
+        frames: &barrier.frames,
+        cylinders: &barrier.cylinders,
+        moduli: barrier.ring_moduli,
+    };
+    for ring in &barrier.rings {
+        net.touch_ring(ring, &ring.force(&context, law), barrier);
+    }
+    net
+}
+
+/// Lets ropes slide through their rings at the present places, before they pull; returns the energy lost since the barrier's last
+/// step, which was of length `step` (J).
+pub fn slide_all(barrier: &mut Barrier, step: f64) -> f64 {
+    let Barrier { nodes, segments, chains, .. } = barrier;
+    chains.iter().map(|chain| chain.slide(segments, nodes, step)).sum()
+}
+
+impl NetForces {
+    fn pull_segments(&mut self, barrier: &Barrier, step: f64) {
+        for (number, segment) in barrier.segments.iter().enumerate() {
+            let [a, b] = segment.nodes.map(|node| node as usize);
+            let result = pull(segment, &barrier.nodes[a], &barrier.nodes[b], step);
+            let force = result.direction * result.tension;
+            self.forces[a] += force;
+            self.forces[b] -= force;
+            self.stored += result.stored;
+            self.lost_ropes += result.lost;
+            self.tensions.push(result.tension);
+            self.overloaded.extend(result.fate.map(|fate| (number, fate)));
+        }
+    }
+
+    fn pull_dissipators(&mut self, barrier: &Barrier) {
+        for dissipator in &mut self.slipped {
+            let [anchor, end] = dissipator.nodes.map(|node| node as usize);
+            let result = dissipator.stretch(&barrier.nodes[anchor], &barrier.nodes[end]);
+            let force = result.direction * result.tension;
+            self.forces[anchor] += force;
+            self.forces[end] -= force;
+            self.stored += result.stored;
+            self.lost_dissipators += result.lost;
+            self.brakes.push(result.tension);
+        }
+    }
+
+    /// Holds the knots of side extensions; what that loses is friction.
+    fn hold(&mut self, barrier: &Barrier) {
+        for hold in &mut self.let_go {
+            let [pin, knot] = hold.nodes.map(|node| node as usize);
+            let result = hold.stretch(&barrier.nodes[pin], &barrier.nodes[knot]);
+            self.forces[knot] -= result.direction * result.tension;
+            self.stored += result.stored;
+            self.lost_rings += result.lost;
+        }
+    }
+
+    fn rest_on_ground(&mut self, barrier: &Barrier, law: &LawConstants) {
+        let Some(ground) = &barrier.ground else { return };
+        ground.touch(&barrier.nodes, &barrier.footings, law, |footing, response| {
+            self.forces[footing.node as usize] += Vec3::from(response.force);
+            self.stored += response.stored;
+            self.lost_rings += response.lost_friction + response.lost_damping;
+            if ground.holds(&footing, &barrier.nodes) {
+                self.lies.push(footing);
+            }
+        });
+    }
+
+    fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {
+        let (mut stored, mut power) = (0.0, 0.0);
+        strain_all(barrier, |number, strain| {
+            let cylinder = &barrier.cylinders[number];
+            let [a, b] = cylinder.nodes.map(|node| node as usize);
+            let mut strain = *strain;
+            if cylinder.doubtful(&strain)
+                && let Some((after, given, lost)) = cylinder.give_way(&barrier.nodes, &barrier.frames, step)
+            {
+                self.lost_ropes += lost;
+                self.bent.push((number, after));
+                strain = given;
+            }
+            let force = Vec3::from(strain.force);
+            self.forces[a] -= force;
+            self.forces[b] += force;
+            self.torques[a] += Vec3::from(strain.moments[0]);
+            self.torques[b] += Vec3::from(strain.moments[1]);
+            stored += strain.stored;
+            power += strain.power_lost;
+            self.axial.push(strain.tension);
+        });
+        self.stored += stored;
+        self.lost_ropes += power * step;
+    }
+
+    fn touch_ring(&mut self, ring: &RingSide, result: &RingForce, barrier: &Barrier) {
+        let RingForce { touch, response } = result;
+        self.stored += response.stored;
+        self.lost_rings += response.lost_friction + response.lost_damping;
+        self.slid.push((touch.near, response.memory));
+        if touch.point.overlap <= 0.0 {
+            return;
+        }
+        let force = Vec3::from(response.force);
+        for (body, cylinder, force) in [(0, ring.side, force), (1, touch.near, -force)] {
+            let nodes = barrier.cylinders[cylinder as usize].nodes;
+            let torque = touch.arms[body].cross(&force);
+            self.put(&nodes, touch.shares[body], &force, &torque);
+        }
+    }
+
+    /// Puts a force and a torque at a point that divides a line as (1−share):share on its nodes.
+    fn put(&mut self, nodes: &[u32; 2], share: f64, force: &Vec3, torque: &Vec3) {
+        for (node, share) in [(nodes[0] as usize, 1.0 - share), (nodes[1] as usize, share)] {
+            self.forces[node] += force * share;
+            if let Some(sum) = self.torques.get_mut(node) {
+                *sum += torque * share;
+            }
+        }
+    }
+
+    /// Adds the force of a grain on a line, `times` over.
+    pub fn push(&mut self, push: &Push, times: f64) {
+        self.put(&push.nodes, push.share, &(push.force * times), &Vec3::zeros());
+        self.from_grains += push.force;
+    }
+
+    /// Hands strokes, what rings remember and what became of overloaded ropes to the barrier.
+    pub fn take_over(&self, barrier: &mut Barrier) {
+        for (number, fate) in &self.overloaded {
+            let segment = &mut barrier.segments[*number];
+            match fate {
+                Fate::Drawn(rest_length) => {
+                    segment.strength.drawn_out += rest_length - segment.rest_length;
+                    segment.set_rest_length(*rest_length);
+                }
+                Fate::Broken => {
+                    let nodes = segment.nodes;
+                    segment.part();
+                    barrier.lose_line(nodes);
+                }
+            }
+        }
+        for (number, after) in &self.bent {
+            let nodes = after.nodes;
+            barrier.cylinders[*number] = after.clone();
+            if after.strength.broken {
+                barrier.lose_line(nodes);
+            }
+        }
+        barrier.dissipators.clone_from_slice(&self.slipped);
+        barrier.holds.clone_from_slice(&self.let_go);
+        barrier.footings.clone_from(&self.lies);
+        for (ring, (near, memory)) in barrier.rings.iter_mut().zip(&self.slid) {
+            (ring.near, ring.memory) = (*near, *memory);
+        }
+    }
+
+    /// What was lost: in ropes, by rings, in dissipators (J).
+    pub fn losses(&self) -> [f64; 3] {
+        [self.lost_ropes, self.lost_rings, self.lost_dissipators]
+    }
+
+    /// Adds what happened in a later part of the same step of the grains; energy stored and lost stay those of the first.
+    pub fn go_on(&mut self, later: &Self) {
+        let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        self.forces.iter_mut().zip(&later.forces).for_each(|(sum, more)| *sum += more);
+        add(&mut self.tensions, &later.tensions);
+        add(&mut self.brakes, &later.brakes);
+        add(&mut self.axial, &later.axial);
+    }
+
+    /// Turns sums over `parts` parts of a step into means.
+    pub fn share_out(&mut self, parts: u32) {
+        let share = 1.0 / f64::from(parts);
+        self.forces.iter_mut().for_each(|force| *force *= share);
+        for sums in [&mut self.tensions, &mut self.brakes, &mut self.axial] {
+            sums.iter_mut().for_each(|sum| *sum *= share);
+        }
+    }
+}

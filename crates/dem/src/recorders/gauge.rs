@@ -1,0 +1,87 @@
+//! Depth, velocity and momentum flux of the flow in a stretch of the channel, and how far its front has come.
+
+use serde::{Deserialize, Serialize};
+
+use crate::recorders::histories::Gauge;
+use crate::tables::grains::Grain;
+
+/// A window across the channel, between two distances upstream of the barrier's foot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GaugeWindow {
+    pub near: f64,
+    pub far: f64,
+    /// Width of the channel (m).
+    pub width: f64,
+    /// kg/m³
+    pub bulk_density: f64,
+    /// Mean diameter of the grains (m).
+    pub mean_diameter: f64,
+}
+
+/// Windows into which the stretch of the deposit is cut; neighbours overlap by half.
+const DEPOSIT_WINDOWS: usize = 12;
+
+impl GaugeWindow {
+    /// Largest depth that the mass has at bulk density, over windows along the stretch, and the depth of the dead part in that
+    /// same window: a leaning or bulging barrier takes part of each window's room, so the one with most mass is the one that tells.
+    pub fn depths(&self, grains: &[Grain], dead: &[bool]) -> [f64; 2] {
+        let cell = (self.far - self.near) / (DEPOSIT_WINDOWS + 1) as f64;
+        let mut cells = [[0.0; 2]; DEPOSIT_WINDOWS + 1];
+        for (grain, dead) in grains.iter().zip(dead) {
+            let place = (-grain.position.x - self.near) / cell;
+            if place >= 0.0 && (place as usize) < cells.len() {
+                let [all, at_rest] = &mut cells[place as usize];
+                *all += grain.body.mass;
+                *at_rest += if *dead { grain.body.mass } else { 0.0 };
+            }
+        }
+        let windows = cells.windows(2).map(|pair| [pair[0][0] + pair[1][0], pair[0][1] + pair[1][1]]);
+        let most = windows.fold([0.0; 2], |most, window| if window[0] > most[0] { window } else { most });
+        most.map(|mass| mass / (self.bulk_density * self.width * 2.0 * cell))
+    }
+
+    /// `slow` tells which grains are at rest.
+    pub fn read(&self, grains: &[Grain], slow: &[bool]) -> Gauge {
+        let stretch = -self.far..=-self.near;
+        let inside = grains.iter().zip(slow).filter(|(grain, _)| stretch.contains(&grain.position.x));
+        let mut heights = Vec::new();
+        let (mut velocity, mut mass, mut momentum_flux, mut at_rest) = (0.0, 0.0, 0.0, 0.0);
+        for (grain, slow) in inside {
+            heights.push(grain.position.z);
+            at_rest += if *slow { grain.body.mass } else { 0.0 };
+            velocity += grain.velocity.x;
+            mass += grain.body.mass;
+            momentum_flux += grain.body.mass * grain.velocity.x.powi(2);
+        }
+        if heights.is_empty() {
+            return Gauge::default();
+        }
+        let count = heights.len();
+        let rank = (count * 9 / 10).min(count - 1);
+        let (_, ninety, _) = heights.select_nth_unstable_by(rank, f64::total_cmp);
+        let full_mass_per_depth = self.bulk_density * self.width * (self.far - self.near);
+        Gauge {
+            thickness: *ninety + 0.5 * self.mean_diameter,
+            velocity: velocity / count as f64,
+            at_rest: at_rest / mass,
+            depth: mass / full_mass_per_depth,
+            flux: momentum_flux / full_mass_per_depth,
+        }
+    }
+}
+
+/// Share of the mass in front of what is called the front.
+const AHEAD: f64 = 0.02;
+
+/// The place along the channel of which this share of the grains' mass is downstream (m).
+pub fn front(grains: &[Grain]) -> f64 {
+    let mut places: Vec<[f64; 2]> = grains.iter().map(|grain| [grain.position.x, grain.body.mass]).collect();
+    places.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
+    let wanted = AHEAD * places.iter().map(|[_, mass]| mass).sum::<f64>();
+    let mut ahead = 0.0;
+    let reached = places.iter().find(|[_, mass]| {
+        ahead += mass;
+        ahead >= wanted
+    });
+    reached.map_or(0.0, |[place, _]| *place)
+}

@@ -1,0 +1,439 @@
+//! A model in motion: one step after the other.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+use crate::contact::law::{LawConstants, Memory};
+use crate::contact::surfaces::SurfaceForces;
+use crate::ledger::{ContactSums, Ledger, MotionEnergy};
+use crate::model::Model;
+use crate::neighbours::renew::{Bodies, Neighbours};
+use crate::net::{NetForces, slide_all};
+use crate::sweep::sweep;
+use crate::tables::barrier::Barrier;
+use crate::tables::grain_table::GrainTable;
+use crate::tables::grains::Grain;
+use crate::tables::load_sheets::LoadSheets;
+use crate::tables::surfaces::SurfaceRole;
+use crate::time::integrate::Stretch;
+use crate::time::links::Linked;
+use crate::time::multi_rate::{BarrierStep, step_barrier};
+use crate::time::stable_step::{StepRatio, step_ratio};
+
+/// Steps between two audits of the stable step.
+const STEPS_PER_AUDIT: u64 = 500;
+
+/// Step over critical step to which the time step is cut when an audit finds it beyond the critical step.
+const STEP_AFTER_CUT: f64 = 0.95;
+
+/// Steps between two stops at which all lists are made anew, whatever they are still good for: what is kept there goes on bit for
+/// bit like a run that was never interrupted. Where spheres are many they are fewer, so that stops stay some seconds apart.
+const STEPS_PER_STOP: [u64; 2] = [200, 2000];
+/// Steps of a sphere between two stops, where neither bound holds: about a second of one core.
+const WORK_PER_STOP: u64 = 40_000_000;
+
+/// Steps between two stops of so many spheres.
+fn steps_per_stop(spheres: usize) -> u64 {
+    let [fewest, most] = STEPS_PER_STOP;
+    (WORK_PER_STOP / spheres.max(1) as u64).clamp(fewest, most)
+}
+
+/// Step of the barrier over its critical step that is aimed at where it takes several in one of the grains', and their largest
+/// number.
+const BARRIER_STEP_SHARE: f64 = 0.7;
+const MOST_PARTS: u32 = 200;
+
+/// Share of the first time step below which a run is given up.
+const SHORTEST_STEP: f64 = 0.05;
+
+/// Why a run cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unstable {
+    #[error("grain {id} left all bounds at t = {time:.4} s (speed {speed:.3e} m/s)")]
+    Grain { id: u32, time: f64, speed: f64 },
+    #[error("no time step is stable at t = {time:.4} s: cut down to {step:.3e} s")]
+    Step { time: f64, step: f64 },
+    #[error("barrier node {node} left all bounds at t = {time:.4} s (speed {speed:.3e} m/s)")]
+    Node { node: usize, time: f64, speed: f64 },
+}
+
+/// Extremes met so far that bear on credibility.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Extremes {
+    /// Largest overlap over the smaller radius.
+    pub overlap_ratio: f64,
+    /// Largest step over critical step.
+    pub step_ratio: StepRatio,
+    /// How often a sphere's centre has gone through a line of the barrier.
+    pub crossings: u32,
+}
+
+/// Sums over all blocks for the step just made.
+#[derive(Clone, Debug, Default)]
+pub struct StepSums {
+    pub contacts: ContactSums,
+    pub surfaces: SurfaceForces,
+    pub net: NetForces,
+}
+
+/// A contact of a grain with a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceContact {
+    /// Row of the grain.
+    pub row: usize,
+    pub role: SurfaceRole,
+    /// Force on the grain (N).
+    pub force: Vec3,
+    /// m
+    pub place: Vec3,
+}
+
+#[derive(Serialize, Deserialize)]
+pub struct Simulation {
+    /// All but the grains; those are in `grains`.
+    pub model: Model,
+    pub grains: GrainTable,
+    #[serde(skip)]
+    sheets: LoadSheets,
+    pub neighbours: Neighbours,
+    /// Time step (s).
+    pub time_step: f64,
+    /// Whether the step is held against what is connected, and cut; only a study of what happens else leaves it be.
+    pub audited: bool,
+    /// Viscous slowing of all grains (1/s), for preparation only.
+    pub drag: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Time since the start (s).
+    pub time: f64,
+    #[serde(skip)]
+    pub sums: StepSums,
+    /// Losses are booked in every step; energies in place only by [`Self::step_and_account`].
+    pub ledger: Ledger,
+    pub extremes: Extremes,
+    /// How often an audit has shortened the time step.
+    pub step_cuts: u32,
+    /// Steps of the barrier in one of the grains'.
+    pub barrier_parts: u32,
+    /// Motion of the barrier when the last step began, and what it has lost since, which is booked with the next step.
+    barrier_motion: MotionEnergy,
+    lost_since: [f64; 3],
+    first_time_step: f64,
+    law: LawConstants,
+    /// Speed no grain or node can have by honest means (m/s).
+    speed_limit: f64,
+    /// Steps between two stops.
+    stop_every: u64,
+}
+
+impl Simulation {
+    pub fn new(mut model: Model, time_step: f64, skin: f64, speed_limit: f64) -> Self {
+        let grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
+        Self {
+            stop_every: steps_per_stop(grains.members()),
+            grains,
+            sheets: LoadSheets::default(),
+            neighbours: Neighbours::new(skin),
+            time_step,
+            drag: 0.0,
+            audited: true,
+            steps: 0,
+            time: 0.0,
+            sums: StepSums::default(),
+            ledger: Ledger::default(),
+            extremes: Extremes::default(),
+            step_cuts: 0,
+            barrier_parts: 1,
+            barrier_motion: MotionEnergy::default(),
+            lost_since: [0.0; 3],
+            first_time_step: time_step,
+            law: LawConstants::new(model.material.restitution, model.material.tangential_ratio, time_step),
+            speed_limit,
+            model,
+        }
+    }
+
+    /// Advances the model by one step.
+    pub fn step(&mut self) -> Result<(), Unstable> {
+        self.prepare()?;
+        self.advance(false);
+        Ok(())
+    }
+
+    /// Advances the model by one step and closes the energy account of the instant its forces belong to. The energy of motion at
+    /// that instant is ½ m v₋·v₊, of the velocities half a step before and after: with it the leapfrog's work, force by force by the
+    /// trapezoidal rule, adds up exactly (½ m v₋² and ½ m v₊² would each be off by what the force does in half a step).
+    pub fn step_and_account(&mut self) -> Result<(), Unstable> {
+        self.prepare()?;
+        let before: Vec<Grain> = (0..self.grains.len()).map(|row| self.grains.grain(row)).collect();
+        self.advance(true);
+        let MotionEnergy { kinetic, rotational, potential } = self.motion_since(&before);
+        let barrier = &self.barrier_motion;
+        self.ledger.kinetic = kinetic + barrier.kinetic;
+        self.ledger.rotational = rotational + barrier.rotational;
+        self.ledger.potential = potential + barrier.potential;
+        Ok(())
+    }
+
+    /// All grains as they are now.
+    pub fn snapshot(&self) -> Vec<Grain> {
+        self.grains.grains()
+    }
+
+    /// All contacts of grains with surfaces at the present places: the springs as they are now, dashpots and friction as in the
+    /// step just made.
+    pub fn surface_contacts(&self) -> impl Iterator<Item = SurfaceContact> {
+        let lists = self.neighbours.blocks.iter().map(|block| &block.surfaces);
+        lists.flat_map(|list| list.touching.iter().zip(&list.memory)).map(|(pair, memory)| {
+            let surface = &self.model.surfaces[pair[1] as usize];
+            let memory = Memory::from_quad(*memory);
+            let row = pair[0] as usize / self.grains.shape.members();
+            let (centre, radius) = self.grains.rows().sphere(pair[0] as usize);
+            let towards = surface.nearest(&centre) - centre;
+            let overlap = (radius - towards.norm()).max(0.0);
+            let normal_force = (self.model.material.modulus * radius * overlap + memory.dashpot).max(0.0);
+            let force = Vec3::from(memory.tangential) - towards.normalize() * normal_force;
+            SurfaceContact { row, role: surface.role, force, place: centre + towards }
+        })
+    }
+
+    /// Puts a barrier up, and chooses how many steps it takes in one of the grains'.
+    pub fn put_up(&mut self, barrier: Barrier) {
+        self.model.barrier = Some(barrier);
+        self.neighbours.lose();
+        self.choose_parts();
+    }
+
+    /// Puts the grain in `row` somewhere else, without velocity; it spins on.
+    pub fn put(&mut self, row: usize, position: &Vec3) {
+        self.grains.place[row].set_vector(position);
+        self.grains.motion[row].set_vector(&Vec3::zeros());
+        self.neighbours.lose();
+    }
+
+    /// Takes away all surfaces of the given role (opens the gate).
+    pub fn remove_surfaces(&mut self, role: SurfaceRole) {
+        self.model.surfaces.retain(|surface| surface.role != role);
+        self.neighbours.forget_surfaces();
+    }
+
+    /// Restarts clock, energy account and extremes: what follows is the event itself.
+    pub fn start_account(&mut self) {
+        self.time = 0.0;
+        self.ledger = Ledger::default();
+        self.lost_since = [0.0; 3];
+        self.extremes = Extremes::default();
+    }
+
+    /// Whether the simulation may be kept here and taken up again later.
+    pub fn at_stop(&self) -> bool {
+        self.steps.is_multiple_of(self.stop_every)
+    }
+
+    fn law(&self) -> LawConstants {
+        LawConstants { time_step: self.time_step, ..self.law }
+    }
+
+    /// The law within the barrier, whose steps are shorter.
+    fn barrier_law(&self) -> LawConstants {
+        LawConstants { time_step: self.time_step / f64::from(self.barrier_parts), ..self.law }
+    }
+
+    /// Sees to it that lists and time step are good for the step to come.
+    fn prepare(&mut self) -> Result<(), Unstable> {
+        if self.at_stop() {
+            self.neighbours.rest();
+        }
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
+            self.check_finite()?;
+            self.renew();
+        }
+        if self.audited && (self.steps + 1).is_multiple_of(STEPS_PER_AUDIT) {
+            self.audit()?;
+        }
+        Ok(())
+    }
+
+    fn renew(&mut self) {
+        self.remove_departed();
+        let mut bodies =
+            Bodies { grains: &mut self.grains, surfaces: &self.model.surfaces, barrier: self.model.barrier.as_ref() };
+        self.neighbours.renew(&mut bodies);
+    }
+
+    /// Removes grains beyond the outlet and books the energy they carry.
+    fn remove_departed(&mut self) {
+        let outlet = self.model.outlet;
+        if self.grains.place.iter().all(|place| place.0[0] <= outlet) {
+            return;
+        }
+        let (stay, leave): (Vec<u32>, Vec<u32>) =
+            (0..self.grains.len() as u32).partition(|&row| self.grains.place[row as usize].0[0] <= outlet);
+        for row in leave {
+            let grain = self.grains.grain(row as usize);
+            let [kinetic, _] = grain.kinetic_energy();
+            self.ledger.carried_out += kinetic - grain.body.mass * self.model.gravity.dot(&grain.position);
+        }
+        self.grains.arrange(&stay);
+    }
+
+    /// Adds up the blocks in their fixed order.
+    fn gather_sums(&mut self) {
+        let mut contacts = ContactSums::default();
+        let surfaces = &mut self.sums.surfaces;
+        surfaces.reset(self.model.wall_levels.len());
+        for block in &self.neighbours.blocks {
+            contacts.add(&block.sums);
+            surfaces.add(&block.surface_forces);
+            self.extremes.crossings += block.ropes.crossings;
+        }
+        self.ledger.lost_damping += contacts.lost_damping;
+        self.ledger.lost_friction += contacts.lost_friction;
+        self.ledger.stored_contacts = contacts.stored;
+        self.extremes.overlap_ratio = self.extremes.overlap_ratio.max(contacts.overlap_ratio);
+        self.sums.contacts = contacts;
+    }
+
+    /// Holds the time step against what is connected now, and cuts it where it is too long.
+    fn audit(&mut self) -> Result<(), Unstable> {
+        let barrier = self.model.barrier.as_ref();
+        let ratio = if self.barrier_parts == 1 {
+            self.whole_ratio()
+        } else {
+            let links = self.linked(self.law()).contacts();
+            let within = self.linked(self.barrier_law()).within_barrier();
+            let mut own = step_ratio(&within, &self.grains, barrier, self.barrier_law().time_step);
+            let grains = step_ratio(&links, &self.grains, barrier, self.time_step);
+            if own.value > 1.0 && own.value.is_finite() {
+                self.note_ratio(own);
+                let before = self.barrier_law().time_step;
+                self.choose_parts();
+                own.value *= self.barrier_law().time_step / before;
+            }
+            // Asked so that what is not finite is kept.
+            if grains.value > own.value || !grains.value.is_finite() { grains } else { own }
+        };
+        self.note_ratio(ratio);
+        if ratio.value > 1.0 {
+            self.time_step *= STEP_AFTER_CUT / ratio.value;
+            self.step_cuts += 1;
+        }
+        if self.time_step < SHORTEST_STEP * self.first_time_step || !ratio.value.is_finite() {
+            return Err(Unstable::Step { time: self.time, step: self.time_step });
+        }
+        Ok(())
+    }
+
+    /// Step over critical step of all that is connected now, grains and barrier in one.
+    pub fn step_over_critical(&mut self) -> f64 {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
+            self.renew();
+        }
+        self.whole_ratio().value
+    }
+
+    /// Step over critical step of grains and barrier in one.
+    fn whole_ratio(&self) -> StepRatio {
+        let mut links = self.linked(self.law()).contacts();
+        links.extend(self.linked(self.barrier_law()).within_barrier());
+        step_ratio(&links, &self.grains, self.model.barrier.as_ref(), self.time_step)
+    }
+
+    fn note_ratio(&mut self, ratio: StepRatio) {
+        if ratio.value > self.extremes.step_ratio.value || !ratio.value.is_finite() {
+            self.extremes.step_ratio = ratio;
+        }
+    }
+
+    fn linked(&self, law: LawConstants) -> Linked<'_> {
+        Linked {
+            grains: self.grains.rows(),
+            surfaces: &self.model.surfaces,
+            barrier: self.model.barrier.as_ref(),
+            blocks: &self.neighbours.blocks,
+            law,
+            modulus: self.model.material.modulus,
+            friction: self.model.material.friction,
+        }
+    }
+
+    /// As many steps of the barrier in one of the grains' as what holds it together needs.
+    fn choose_parts(&mut self) {
+        let within = self.linked(self.barrier_law()).within_barrier();
+        let barrier = self.model.barrier.as_ref();
+        let ratio = step_ratio(&within, &self.grains, barrier, self.time_step).value;
+        let wanted = (ratio / BARRIER_STEP_SHARE).ceil();
+        // What is not finite ends the run at the next audit.
+        if wanted.is_finite() {
+            self.barrier_parts = (wanted as u32).clamp(1, MOST_PARTS);
+        }
+    }
+
+    /// Moves everything through the step; `account` asks for the energy of the barrier's motion.
+    fn advance(&mut self, account: bool) {
+        let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
+        let (law, own) = (self.law(), self.barrier_law());
+        if let Some(barrier) = &mut self.model.barrier {
+            self.ledger.lost_friction += slide_all(barrier, own.time_step);
+        }
+        let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, own, &time);
+        self.gather_sums();
+        let fastest_node = self.advance_barrier(net, &own, &time, account);
+        self.neighbours.tick(&paces, time.step, fastest_node);
+        self.steps += 1;
+        self.time += self.time_step;
+    }
+
+    /// Moves the barrier under its own forces at the start of the step, `net`, and those of the grains; returns the largest speed of
+    /// a node (m/s).
+    fn advance_barrier(&mut self, net: NetForces, own: &LawConstants, time: &Stretch, account: bool) -> f64 {
+        let Some(barrier) = &mut self.model.barrier else { return 0.0 };
+        let pushes = self.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
+        let BarrierStep { net, motion, fastest, lost_later } =
+            step_barrier(barrier, net, pushes, own, time, self.barrier_parts, account);
+        self.ledger.stored_barrier = net.stored;
+        for [ropes, rings, dissipators] in [std::mem::replace(&mut self.lost_since, lost_later), net.losses()] {
+            self.ledger.lost_ropes += ropes;
+            self.ledger.lost_friction += rings;
+            self.ledger.lost_dissipators += dissipators;
+        }
+        self.barrier_motion = motion;
+        self.sums.net = net;
+        fastest
+    }
+
+    /// Energies of the grains at the instant between their motion `before` and now, half a step from either.
+    fn motion_since(&self, before: &[Grain]) -> MotionEnergy {
+        let mut sums = MotionEnergy::default();
+        for (row, before) in before.iter().enumerate() {
+            let after = self.grains.grain(row);
+            let rotational =
+                0.25 * (before.spin().dot(&after.angular_momentum) + after.spin().dot(&before.angular_momentum));
+            sums.kinetic += 0.5 * before.body.mass * before.velocity.dot(&after.velocity) + rotational;
+            sums.rotational += rotational;
+            sums.potential -= before.body.mass * self.model.gravity.dot(&before.position);
+        }
+        sums
+    }
+
+    /// Stops a run that has lost its footing before it can spoil the neighbour search.
+    fn check_finite(&self) -> Result<(), Unstable> {
+        let limit = self.speed_limit;
+        let honest = |position: &Vec3, velocity: &Vec3| {
+            position.iter().all(|value| value.is_finite()) && velocity.norm() <= limit
+        };
+        for row in 0..self.grains.len() {
+            let velocity = self.grains.motion[row].vector();
+            if !honest(&self.grains.place[row].vector(), &velocity) {
+                return Err(Unstable::Grain { id: self.grains.ids[row], time: self.time, speed: velocity.norm() });
+            }
+        }
+        let nodes = self.model.barrier.iter().flat_map(|barrier| barrier.nodes.iter().enumerate());
+        for (index, node) in nodes {
+            if !honest(&node.position, &node.velocity) {
+                return Err(Unstable::Node { node: index, time: self.time, speed: node.velocity.norm() });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,160 @@
+//! One pass through the blocks in every step: a block is loaded, and moved while the cache still has it.
+//!
+//! The first block of a pair owns it. So once a block and all before it are loaded, nobody asks any more where its grains
+//! were, all their loads are there, and they may be moved; later blocks are loaded at the same time.
+
+#![allow(unsafe_code)]
+
+use std::sync::{PoisonError, RwLock};
+
+use crate::contact::grain_pairs::{PairConstants, PairContext, load_border, load_inner};
+use crate::contact::law::LawConstants;
+use crate::contact::ropes::RopeContext;
+use crate::contact::surfaces::{SurfaceContext, load_surfaces};
+use crate::crew;
+use crate::model::Model;
+use crate::neighbours::blocks::{Block, Outbox};
+use crate::neighbours::renew::Neighbours;
+use crate::net::{NetForces, pull_all};
+use crate::simd::eight::LANES;
+use crate::tables::barrier::Barrier;
+use crate::tables::grain_rows::{Foresight, GrainRows, RowsInMotion};
+use crate::tables::grain_table::{GrainLoad, GrainTable};
+use crate::tables::load_sheets::LoadSheets;
+use crate::time::integrate::{Pace, Stretch};
+
+/// Loads all grains and moves them through one step of theirs, that of `law`; pulls at the barrier, which stays where it is,
+/// as at the start of its own step, that of `barrier_law`. Returns the forces within the barrier, without those of the grains,
+/// and the pace of each block.
+pub fn sweep(
+    model: &Model,
+    grains: &mut GrainTable,
+    sheets: &LoadSheets,
+    neighbours: &mut Neighbours,
+    law: LawConstants,
+    barrier_law: LawConstants,
+    time: &Stretch,
+) -> (NetForces, Vec<Pace>) {
+    let Neighbours { blocks, outboxes, drift, .. } = neighbours;
+    let outboxes = &*outboxes;
+    let rows = RowsInMotion::of(grains, drift);
+    let forces = BlockForces { model, grains: rows.seen(), law, hands: crew::hands() };
+    let mut net = None;
+    let mut paces = vec![Pace::default(); blocks.len()];
+    let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &barrier_law, &mut net));
+    let turns = blocks.iter_mut().zip(&mut paces).enumerate();
+    let turns = turns.map(|(number, (block, pace))| {
+        let foresight = Foresight::none(rows.seen());
+        Part::Block(Turn { number, block, loads: Vec::new(), foresight, pace })
+    });
+    crew::wave(
+        elements.into_iter().chain(turns),
+        |part| match part {
+            Part::Elements(barrier, own, net) => **net = Some(pull_all(barrier, own)),
+            Part::Block(turn) => {
+                let mut outbox = outboxes[turn.number].write().unwrap_or_else(PoisonError::into_inner);
+                turn.loads = sheets.take(turn.block.grains.len());
+                turn.foresight = forces.foresight(turn.block);
+                forces.load_block(turn.block, &mut turn.loads, &mut outbox, &mut turn.foresight);
+            }
+        },
+        |part| {
+            if let Part::Block(turn) = part {
+                turn.take_post(outboxes);
+                // SAFETY: this block and all before it are loaded. Later blocks read no rows but their own and those of
+                // blocks after them, and every block is moved once.
+                let moving = unsafe { rows.take(&turn.block.grains, &mut turn.loads) };
+                *turn.pace = moving.advance(time, &mut turn.foresight);
+                sheets.give_back(std::mem::take(&mut turn.loads));
+            }
+        },
+    );
+    (net.unwrap_or_default(), paces)
+}
+
+/// A part of the work of a step.
+enum Part<'a> {
+    Elements(&'a Barrier, &'a LawConstants, &'a mut Option<NetForces>),
+    Block(Turn<'a>),
+}
+
+/// A block's turn.
+struct Turn<'a> {
+    number: usize,
+    block: &'a mut Block,
+    loads: Vec<GrainLoad>,
+    foresight: Foresight<'a>,
+    pace: &'a mut Pace,
+}
+
+impl Turn<'_> {
+    /// Adds what earlier blocks have posted for the grains of this one, in the order of the blocks.
+    fn take_post(&mut self, outboxes: &[RwLock<Outbox>]) {
+        let start = self.block.grains.start;
+        for sender in &outboxes[..self.number] {
+            let sender = sender.read().unwrap_or_else(PoisonError::into_inner);
+            for letter in sender.for_block(self.number) {
+                let load = GrainLoad { force: letter.force, torque: letter.torque };
+                self.loads[letter.row as usize - start].join(&load);
+            }
+        }
+    }
+}
+
+/// What every block reads while it is loaded.
+struct BlockForces<'a> {
+    model: &'a Model,
+    grains: GrainRows<'a>,
+    law: LawConstants,
+    /// Threads that share the blocks.
+    hands: usize,
+}
+
+impl<'a> BlockForces<'a> {
+    /// The rows of the block that this thread is likely to take next, asked for over the time that one block takes.
+    fn foresight(&self, block: &Block) -> Foresight<'a> {
+        let ahead = self.hands * block.grains.len();
+        let next = block.grains.start + ahead..block.grains.end + ahead;
+        Foresight::of(self.grains, &next, (block.inner.touching.len() + block.grains.len()) / LANES)
+    }
+
+    fn load_block(
+        &self,
+        block: &mut Block,
+        loads: &mut [GrainLoad],
+        outbox: &mut Outbox,
+        foresight: &mut Foresight<'a>,
+    ) {
+        let Self { model, grains, law, .. } = *self;
+        let clocks = block.clocks;
+        let material = &model.material;
+        outbox.clear();
+        let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
+        let pairs = |clock| PairContext { grains, constants, clock };
+        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, foresight);
+        sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
+        let surfaces = SurfaceContext {
+            grains,
+            surfaces: &model.surfaces,
+            law,
+            modulus: material.modulus,
+            grain_friction: material.friction,
+            clock: clocks.fixed,
+            wall_levels: &model.wall_levels,
+        };
+        block.surface_forces.reset(model.wall_levels.len());
+        sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.grains, loads, &mut block.surface_forces));
+        if let Some(barrier) = &model.barrier {
+            let context = RopeContext {
+                grains,
+                barrier,
+                law,
+                grain_modulus: material.modulus,
+                grain_friction: material.friction,
+                clock: clocks.fixed,
+            };
+            sums.add(&block.ropes.load(&context, &block.grains, loads));
+        }
+        block.sums = sums;
+    }
+}

@@ -1,0 +1,79 @@
+//! Fixed flat surfaces: channel base, side walls, gate, rigid barrier.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+
+/// A rectangle in space, possibly unbounded, that grains touch from either side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Surface {
+    pub role: SurfaceRole,
+    /// A point of the surface, from which extents are measured (m).
+    pub origin: Vec3,
+    /// Unit normal, towards the grains.
+    pub normal: Vec3,
+    /// Unit vectors in the surface with their (lowest, highest) extents (m); infinite where unbounded.
+    pub spans: [Span; 2],
+    /// Friction coefficient between grain and surface, tan φ.
+    pub friction: f64,
+}
+
+/// One in-plane direction of a surface and how far the surface reaches along it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Span {
+    pub direction: Vec3,
+    pub low: f64,
+    pub high: f64,
+}
+
+/// What a surface is for; recorders sum forces by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SurfaceRole {
+    Base,
+    Side,
+    Gate,
+    Wall,
+}
+
+impl Span {
+    pub fn unbounded(direction: Vec3) -> Self {
+        Self { direction, low: f64::NEG_INFINITY, high: f64::INFINITY }
+    }
+
+    pub fn bounded(direction: Vec3, low: f64, high: f64) -> Self {
+        Self { direction, low, high }
+    }
+}
+
+impl Surface {
+    /// The point of the surface nearest to `point`.
+    #[inline(always)]
+    pub fn nearest(&self, point: &Vec3) -> Vec3 {
+        if self.unbounded() {
+            return point - self.normal * self.height_above(point);
+        }
+        let from_origin = point - self.origin;
+        let mut nearest = self.origin;
+        for span in &self.spans {
+            nearest += span.direction * span.direction.dot(&from_origin).clamp(span.low, span.high);
+        }
+        nearest
+    }
+
+    /// Square of the distance of `point` from the surface (m²).
+    #[inline(always)]
+    pub fn distance_squared(&self, point: &Vec3) -> f64 {
+        let height = self.height_above(point);
+        if self.unbounded() { height * height } else { (self.nearest(point) - point).norm_squared() }
+    }
+
+    fn unbounded(&self) -> bool {
+        self.spans.iter().all(|span| span.low == f64::NEG_INFINITY && span.high == f64::INFINITY)
+    }
+
+    /// Signed distance of `point` from the plane the surface lies in (m).
+    #[inline(always)]
+    pub fn height_above(&self, point: &Vec3) -> f64 {
+        self.normal.dot(&(point - self.origin))
+    }
+}

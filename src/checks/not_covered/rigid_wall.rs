@@ -1,0 +1,57 @@
+//! The guideline's pressures were measured on flexible barriers: alone, without a simulation, they say little of a rigid wall.
+
+use super::Known;
+use crate::checks::outcome::{Opening, Outcome};
+use crate::design::BarrierDesign;
+
+/// Simulated over the guideline's loads on a wall that the examples come to.
+const SIMULATIONS_REACH: f64 = 1.8;
+
+pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
+    if known.seen.is_some() || !matches!(known.design.barrier, BarrierDesign::RigidWall(_)) {
+        return;
+    }
+    let close = |outcome: &&mut Outcome| {
+        // Asked as "enough to spare", so that what is not a number has none.
+        let spare = outcome.utilisation.is_some_and(|used| used * SIMULATIONS_REACH <= 1.0);
+        outcome.holds() && outcome.resistance.is_some() && outcome.rests_on_pressures && !spare
+    };
+    for outcome in outcomes.iter_mut().filter(close) {
+        outcome.leave_open(Opening::NeedsSimulation(format!(
+            "the guideline's pressures were measured on flexible barriers, and simulated ones on a rigid wall come to {SIMULATIONS_REACH} times as much (run the simulation)"
+        )));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::check_all;
+    use crate::checks::not_covered::tests::{pushing, small_net};
+    use crate::checks::outcome::CheckVerdict;
+    use crate::demand::Demands;
+    use crate::demand::from_loads::guideline;
+    use crate::design::Design;
+    use crate::design::read::read_design;
+
+    /// Verdict on a wall, or rope, that the equations load to a share of what it resists.
+    fn verdict(design: &Design, id: &str, used: f64, simulated: bool) -> CheckVerdict {
+        let guideline = guideline(design);
+        let mut outcomes = check_all(design, &Demands::by_equations(&guideline, &design.factors));
+        let outcome = outcomes.iter_mut().find(|outcome| outcome.id == id).expect("a check");
+        (outcome.utilisation, outcome.verdict) = (Some(used), CheckVerdict::Pass);
+        leave_open(Known { design, guideline: &guideline, seen: simulated.then(|| pushing(1.0)) }, &mut outcomes);
+        outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict
+    }
+
+    #[test]
+    fn a_wall_by_the_equations_alone_needs_much_to_spare() {
+        let wall = read_design("x", include_bytes!("../../../designs/rigid_wall.yaml")).unwrap().design;
+        assert_eq!(verdict(&wall, "total_force", 0.55, false), CheckVerdict::Pass);
+        assert_eq!(verdict(&wall, "total_force", 0.56, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "wall_moment", 0.56, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "total_force", f64::NAN, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "total_force", 0.56, true), CheckVerdict::Pass);
+        assert_eq!(verdict(&small_net(), "rope_2_tension", 0.56, false), CheckVerdict::Pass);
+    }
+}

@@ -1,0 +1,52 @@
+//! What a boulder does to the metre of a wall that it hits: that resists no more than its share of what the whole wall does.
+
+use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
+use crate::demand::Demands;
+use crate::design::{BarrierDesign, Design};
+use crate::sources::DESIGN_LIMIT;
+
+pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
+    let (Some(characteristic), Some(_)) = (wall.resistance, design.loads.point_load) else { return Vec::new() };
+    let name = CheckName::new(
+        "wall_local_force",
+        "Force on the metre of the wall that the point load hits, per width",
+        "N/m",
+        DESIGN_LIMIT,
+    );
+    let resistance =
+        Resistance { characteristic: characteristic / design.channel.width, factor: wall.resistance_factor };
+    vec![Outcome { kind: Kind::WallStrength, ..Outcome::at_most(name, demands.wall_local, resistance, 1.0) }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demand::from_loads::guideline;
+    use crate::design::read::read_design;
+    use approx::assert_relative_eq;
+
+    /// 3 MN at 1 m spread at 45° to one side over half the height of the wall, not over the whole width.
+    #[test]
+    fn a_boulder_is_held_by_the_metres_that_it_hits() {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let told = |design: &Design| {
+            check(design, &Demands::by_equations(&guideline(design), &design.factors)).into_iter().next()
+        };
+        assert_eq!(told(&design), None);
+        design.loads.point_load = Some((3e6, 1.0));
+        let without = {
+            let mut without = design.clone();
+            without.loads.point_load = Some((0.0, 1.0));
+            told(&without).expect("a check").demand.guideline.expect("a force")
+        };
+        let outcome = told(&design).expect("a check");
+        let BarrierDesign::RigidWall(wall) = &design.barrier else { panic!("a wall") };
+        let lean = libm::cos(wall.lean);
+        let spread = 0.5 * wall.height * lean;
+        let more = design.factors.load * 3e6 / spread / lean;
+        assert_relative_eq!(outcome.demand.guideline.expect("a force"), without + more, max_relative = 1e-9);
+        let resists = wall.resistance.expect("given") / wall.resistance_factor / design.channel.width;
+        assert_relative_eq!(outcome.capacity.expect("a capacity"), resists, max_relative = 1e-12);
+    }
+}
