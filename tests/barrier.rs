@@ -10,12 +10,14 @@ use dem::contact::law::Memory;
 use dem::elements::cylinder::{Cylinder, Section};
 use dem::elements::dissipator::Dissipator;
 use dem::elements::ring::RingSide;
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::sliding::Chain;
 use dem::elements::strength::Strength;
 use dem::model::Model;
 use dem::simulation::{Simulation, Unstable};
-use dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::GrainShape;
+use dem::tables::nodes::{Frame, Node};
 use nalgebra::UnitQuaternion;
 
 const AXIAL_STIFFNESS: f64 = 3.21699e6;

@@ -7,12 +7,14 @@
 use barrier_check::validation::scenes::{floor, free_model};
 use dem::Vec3;
 use dem::contact::law::Memory;
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::ledger::Ledger;
 use dem::model::{Material, Model};
 use dem::simulation::Simulation;
-use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::nodes::Node;
 
 const RADIUS: f64 = 0.05;
 /// Soft, so that a day takes 10⁸ steps.

@@ -4,11 +4,13 @@ use approx::assert_relative_eq;
 use barrier_check::validation::scenes::free_model;
 use dem::Vec3;
 use dem::elements::ground::{Ground, Plane};
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::model::Model;
 use dem::simulation::Simulation;
-use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::GrainShape;
+use dem::tables::nodes::Node;
 
 const GRAVITY: f64 = 9.81;
 const RADIUS: f64 = 0.008;

@@ -16,10 +16,10 @@ use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
 use crate::report::view::{is_share, worst_first};
 use crate::simulated::Simulated;
+use dem::elements::segment::SegmentKind;
 use dem::ledger::Ledger;
 use dem::recorders::histories::smoothed;
 use dem::recorders::snapshots::{Moment, Snapshot};
-use dem::tables::barrier::SegmentKind;
 
 #[derive(Debug, Serialize)]
 pub struct Chart {

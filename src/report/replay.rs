@@ -13,8 +13,8 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
+use dem::elements::segment::SegmentKind;
 use dem::recorders::film::{Film, Frame, Pose};
-use dem::tables::barrier::SegmentKind;
 
 /// Size that the packed film must not exceed (bytes of base 64): the page is to stay below 4 MB.
 const MOST_BYTES: usize = 2_900_000;

@@ -7,8 +7,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::report::folder::ReportFile;
+use dem::elements::segment::SegmentKind;
 use dem::recorders::film::{Film, Frame};
-use dem::tables::barrier::SegmentKind;
 
 /// Folder of the files within the report's.
 pub const FOLDER: &str = "vtk";

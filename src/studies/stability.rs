@@ -10,11 +10,13 @@ use dem::Vec3;
 use dem::contact::law::contact_stiffness;
 use dem::elements::cylinder::Cylinder;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::model::Model;
 use dem::simulation::Simulation;
-use dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
+use dem::tables::nodes::{Frame, Node};
 use dem::tables::surfaces::SurfaceRole;
 
 /// How a run went.

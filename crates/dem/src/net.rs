@@ -132,7 +132,7 @@ impl NetForces {
 
     fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {
         let (mut stored, mut power) = (0.0, 0.0);
-        strain_all(barrier, |number, strain| {
+        strain_all(&barrier.cylinders, &barrier.nodes, &barrier.frames, |number, strain| {
             let cylinder = &barrier.cylinders[number];
             let [a, b] = cylinder.nodes.map(|node| node as usize);
             let mut strain = *strain;

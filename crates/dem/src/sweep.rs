@@ -7,7 +7,8 @@
 
 use std::sync::{PoisonError, RwLock};
 
-use crate::contact::grain_pairs::{PairConstants, PairContext, load_border, load_inner};
+use crate::contact::grain_pairs::{PairContext, load_border, load_inner};
+use crate::contact::grain_touch::PairConstants;
 use crate::contact::law::LawConstants;
 use crate::contact::ropes::RopeContext;
 use crate::contact::surfaces::{SurfaceContext, load_surfaces};

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use dem::Vec3;
+use dem::elements::segment::SegmentKind;
 use dem::recorders::snapshots::{Snapshot, Strand};
-use dem::tables::barrier::SegmentKind;
 
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 8.0;

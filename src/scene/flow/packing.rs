@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use dem::Vec3;
 use dem::model::{Material, Model};
+use dem::simd::quad::Quad;
 use dem::simulation::{Simulation, Unstable};
-use dem::tables::grain_table::Quad;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 

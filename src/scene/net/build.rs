@@ -11,9 +11,11 @@ use crate::scene::net::rings::{POISSON, ring_stand_off};
 use dem::Vec3;
 use dem::elements::cylinder::Section;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::sliding::Chain;
 use dem::elements::strength::Strength;
-use dem::tables::barrier::{Anchor, Barrier, Frame, Node, Segment, SegmentKind};
+use dem::tables::barrier::{Anchor, Barrier};
+use dem::tables::nodes::{Frame, Node};
 
 /// Density of wire rope over its full circle (kg/m³): steel.
 pub const ROPE_DENSITY: f64 = 7850.0;

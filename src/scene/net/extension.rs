@@ -11,7 +11,7 @@ use crate::design::SideExtension;
 use crate::scene::net::build::Builder;
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
-use dem::tables::barrier::SegmentKind;
+use dem::elements::segment::SegmentKind;
 
 /// Way after which a knot has its whole holding force (m).
 const GIVE: f64 = 0.01;

@@ -11,8 +11,8 @@ use dem::Vec3;
 use dem::contact::law::Memory;
 use dem::elements::cylinder::{Cylinder, Section};
 use dem::elements::ring::RingSide;
+use dem::elements::segment::SegmentKind;
 use dem::elements::strength::Strength;
-use dem::tables::barrier::SegmentKind;
 
 /// Poisson's ratio of all cylinders, for twisting only.
 pub const POISSON: f64 = 0.3;

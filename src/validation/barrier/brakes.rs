@@ -4,7 +4,8 @@ use crate::validation::barrier::stand::Stand;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
-use dem::tables::barrier::{Barrier, Node};
+use dem::tables::barrier::Barrier;
+use dem::tables::nodes::Node;
 
 pub const CYCLE: Case = Case {
     id: "D18",

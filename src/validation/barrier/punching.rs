@@ -4,11 +4,13 @@ use crate::validation::barrier::stand::DENSITY;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, free_model};
 use dem::Vec3;
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::model::Model;
 use dem::simulation::{Simulation, Unstable};
-use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::GrainShape;
+use dem::tables::nodes::Node;
 
 pub const CASE: Case = Case {
     id: "D27",

@@ -4,9 +4,11 @@ use crate::validation::case::Broken;
 use dem::Vec3;
 use dem::contact::law::LawConstants;
 use dem::elements::cylinder::{Cylinder, Section};
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::net::{NetForces, pull_all};
-use dem::tables::barrier::{Barrier, Frame, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
+use dem::tables::nodes::{Frame, Node};
 use dem::time::integrate::{move_nodes, turn_frames};
 
 /// The main rope of Albaba 2015: E = 4 GPa, R = 16 mm, 7850 kg/m³.

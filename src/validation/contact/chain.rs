@@ -3,10 +3,12 @@
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{free_model, simulate};
 use dem::Vec3;
+use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::model::Model;
-use dem::tables::barrier::{Barrier, Node, Segment, SegmentKind};
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::GrainShape;
+use dem::tables::nodes::Node;
 
 pub const CASE: Case = Case {
     id: "A27",

@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 
-use crate::contact::grain_touch::GrainTouch;
+use crate::contact::grain_touch::{GrainTouch, PairConstants};
 use crate::contact::lane_sums::LaneSums;
-use crate::contact::law::{LawConstants, Response, respond};
+use crate::contact::law::{Response, respond};
 use crate::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::ledger::ContactSums;
 use crate::neighbours::blocks::{Letter, Outbox};
@@ -19,15 +19,6 @@ use crate::simd::widest::{Work, with_widest};
 use crate::tables::grain_rows::{Foresight, GrainRows};
 use crate::tables::grain_table::{GrainLoad, side};
 use crate::tables::grains::GrainShape;
-
-/// What the grain contacts of a run have in common.
-#[derive(Clone, Copy, Debug)]
-pub struct PairConstants {
-    pub law: LawConstants,
-    /// Contact modulus of the grains (Pa).
-    pub modulus: f64,
-    pub friction: f64,
-}
 
 /// Everything that [`load_inner`] and [`load_border`] read besides the list itself.
 pub struct PairContext<'a> {

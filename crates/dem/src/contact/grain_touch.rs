@@ -1,12 +1,21 @@
 //! Sphere against sphere, eight pairs side by side.
 
-use crate::contact::grain_pairs::PairConstants;
-use crate::contact::law::{ContactPoint, Response, Spring};
+use crate::contact::law::{ContactPoint, LawConstants, Response, Spring};
 use crate::contact::pair_list::EightPairs;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::simd::quad::Quad;
 use crate::simd::real::{Triple, add_scaled, cross, dot, minus, plus, scaled};
 use crate::tables::grain_rows::GrainRows;
-use crate::tables::grain_table::{Quad, side};
+use crate::tables::grain_table::side;
+
+/// What the grain contacts of a run have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct PairConstants {
+    pub law: LawConstants,
+    /// Contact modulus of the grains (Pa).
+    pub modulus: f64,
+    pub friction: f64,
+}
 
 /// Signs that turn the sum of two rows into the difference of their vectors and the sum of their fourth entries.
 const DIFFERENCE: Quad = Quad([-1.0, -1.0, -1.0, 1.0]);

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::restitution::{StepCorrection, begins_beyond, damping_ratio_for, first_weight};
 use crate::simd::eight::{joined, parted};
+use crate::simd::quad::Quad;
 use crate::simd::real::{Real, Triple, add_scaled, cross, dot, scaled};
-use crate::tables::grain_table::Quad;
 
 /// Where and how two bodies touch: what geometry hands to the law. The second body is "the other one".
 #[derive(Clone, Copy, Debug)]

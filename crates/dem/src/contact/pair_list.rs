@@ -6,7 +6,7 @@ use crate::neighbours::alarms::Alarms;
 use crate::neighbours::clocks::Clock;
 use crate::neighbours::memory_rows::{MemoryRows, Remembered};
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
-use crate::tables::grain_table::Quad;
+use crate::simd::quad::Quad;
 
 /// Pairs (member, other party); the other party is a member, a surface or a line of the barrier.
 #[derive(Clone, Debug, Default)]

@@ -20,9 +20,11 @@ use crate::contact::pair_list::{PairList, Separation};
 use crate::geometry::point_segment::nearest_on_segment;
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::Clock;
-use crate::tables::barrier::{Barrier, Node};
+use crate::simd::quad::Quad;
+use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::{GrainRows, Member};
-use crate::tables::grain_table::{GrainLoad, Quad};
+use crate::tables::grain_table::GrainLoad;
+use crate::tables::nodes::Node;
 
 /// Candidate pairs (member, line) of one block, and the forces they put on nodes in this step.
 #[derive(Clone, Debug, Default)]

@@ -9,10 +9,11 @@ use crate::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::Clock;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::simd::quad::Quad;
 use crate::simd::real::{Triple, cross, dot, negative, plus, scaled};
 use crate::simd::widest::{Work, with_widest};
 use crate::tables::grain_rows::GrainRows;
-use crate::tables::grain_table::{GrainLoad, Quad};
+use crate::tables::grain_table::GrainLoad;
 use crate::tables::surfaces::{Surface, SurfaceRole};
 
 /// What surface contacts read.

@@ -15,12 +15,13 @@ use serde::{Deserialize, Serialize};
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::Vec3;
+use crate::elements::segment::SegmentKind;
 use crate::elements::strength::Strength;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::simd::quad::Quad;
 use crate::simd::real::{Real, Triple, add_scaled, cross, dot, minus, negative, plus, scaled};
 use crate::simd::widest::{Work, with_widest};
-use crate::tables::barrier::{Barrier, Frame, Node, SegmentKind};
-use crate::tables::grain_table::Quad;
+use crate::tables::nodes::{Frame, Node};
 use crate::time::integrate::small_turn;
 
 /// Rounds over the two ends of a cylinder that yields in bending; each leaves a quarter of what is wrong.
@@ -333,8 +334,8 @@ fn turn_between<R: Real>(from: &[Triple<R>; 3], to: &[Triple<R>; 3]) -> Triple<R
 }
 
 /// Strains many cylinders, eight side by side, and hands what each does to its nodes to `take`, in their order.
-pub fn strain_all(barrier: &Barrier, take: impl FnMut(usize, &Strain)) {
-    with_widest(StrainAll { barrier, take });
+pub fn strain_all(cylinders: &[Cylinder], nodes: &[Node], frames: &[Frame], take: impl FnMut(usize, &Strain)) {
+    with_widest(StrainAll { cylinders, nodes, frames, take });
 }
 
 /// Rows of numbers that a cylinder is strained from.
@@ -346,7 +347,9 @@ fn columns<E: Eight>(rows: &[Quad; LANES]) -> [E; 4] {
 }
 
 struct StrainAll<'a, F> {
-    barrier: &'a Barrier,
+    cylinders: &'a [Cylinder],
+    nodes: &'a [Node],
+    frames: &'a [Frame],
     take: F,
 }
 
@@ -354,8 +357,8 @@ impl<F: FnMut(usize, &Strain)> Work for StrainAll<'_, F> {
     type Output = ();
 
     #[inline(always)]
-    fn run<E: Eight>(mut self) {
-        let Barrier { nodes, frames, cylinders, .. } = self.barrier;
+    fn run<E: Eight>(self) {
+        let Self { cylinders, nodes, frames, mut take } = self;
         for (part, eight) in cylinders.chunks(LANES).enumerate() {
             let last = eight.len() - 1;
             let mut sheet = [[Quad::default(); LANES]; ROWS];
@@ -411,7 +414,7 @@ impl<F: FnMut(usize, &Strain)> Work for StrainAll<'_, F> {
                     stored: first.fourth(),
                     power_lost: second.fourth(),
                 };
-                (self.take)(part * LANES + lane, &strain);
+                take(part * LANES + lane, &strain);
             }
         }
     }

@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::tables::barrier::Node;
+use crate::tables::nodes::Node;
 
 /// A dissipator between an anchor (first node) and a rope end (second node).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
 use crate::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, contact_stiffness, respond};
-use crate::tables::barrier::Node;
+use crate::tables::nodes::Node;
 
 /// A plane that nodes lie on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

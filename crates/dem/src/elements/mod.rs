@@ -5,5 +5,6 @@ pub mod dissipator;
 pub mod ground;
 pub mod ring;
 pub mod rope;
+pub mod segment;
 pub mod sliding;
 pub mod strength;

@@ -13,7 +13,7 @@ use crate::Vec3;
 use crate::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, contact_stiffness, respond};
 use crate::elements::cylinder::Cylinder;
 use crate::geometry::segment_segment::{BetweenSegments, nearest_of_segments};
-use crate::tables::barrier::{Frame, Node};
+use crate::tables::nodes::{Frame, Node};
 
 /// A side of a ring and the rope it runs on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,8 @@
 //! a segment draws out at constant tension, at its breaking load it breaks, if it may do either.
 
 use crate::Vec3;
-use crate::tables::barrier::{Node, Segment};
+use crate::elements::segment::Segment;
+use crate::tables::nodes::Node;
 
 /// Tension of a segment and what it stores and loses.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

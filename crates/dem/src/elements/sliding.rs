@@ -9,7 +9,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::tables::barrier::{Node, Segment};
+use crate::elements::segment::Segment;
+use crate::tables::nodes::Node;
 
 /// Segments of one rope in order from end to end; rings sit between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

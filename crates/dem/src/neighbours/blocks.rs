@@ -11,7 +11,7 @@ use crate::contact::ropes::RopeContacts;
 use crate::contact::surfaces::SurfaceForces;
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::BlockClocks;
-use crate::tables::grain_table::Quad;
+use crate::simd::quad::Quad;
 use crate::tables::grains::GrainShape;
 
 /// Grains below which one block is enough: parallel work would cost more than it saves.

@@ -7,8 +7,9 @@
 //! radius and o the largest distance of a member from its grain's centre.
 
 use crate::crew;
-use crate::tables::grain_table::{GrainTable, Quad};
-use crate::time::integrate::Drifting;
+use crate::simd::quad::Quad;
+use crate::tables::grain_table::GrainTable;
+use crate::tables::moving_rows::Drifting;
 use crate::{Vec3, larger_or_nan};
 
 /// Pieces of the drift along the channel.

@@ -1,12 +1,11 @@
 //! What of the neighbour lists is kept with a run that is taken up again later: the contacts in force with what they remember, and
 //! what the next lists depend on. The lists themselves are made anew, as they are at every stop of a run.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::contact::pair_list::PairList;
 use crate::neighbours::blocks::Block;
-use crate::neighbours::renew::Neighbours;
-use crate::tables::grain_table::Quad;
+use crate::simd::quad::Quad;
 
 /// Contacts in force: rows of the pairs, and what each remembers.
 type Contacts = (Vec<[u32; 2]>, Vec<Quad>);
@@ -52,17 +51,5 @@ impl Kept {
         fill(&mut block.surfaces, self.surfaces);
         fill(&mut block.ropes.list, self.ropes);
         block
-    }
-}
-
-impl Serialize for Neighbours {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.keep().serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Neighbours {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Kept::deserialize(deserializer).map(Self::take_up)
     }
 }

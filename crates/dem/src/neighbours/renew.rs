@@ -2,6 +2,8 @@
 
 use std::sync::RwLock;
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 use crate::crew;
 use crate::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
 use crate::neighbours::broad_phase::{Box3, BoxTree};
@@ -15,8 +17,9 @@ use crate::neighbours::memory_rows::MemoryRows;
 use crate::neighbours::order::morton_code;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
+use crate::tables::moving_rows::Drifting;
 use crate::tables::surfaces::Surface;
-use crate::time::integrate::{Drifting, Pace};
+use crate::time::integrate::Pace;
 use crate::{Vec3, larger_or_nan};
 
 /// Reach of the lists of surfaces and ropes over that of the lists of grains.
@@ -306,4 +309,16 @@ fn reorder(grains: &mut GrainTable) {
         (morton_code(&grains.place[row].vector(), &low, 2.0 * widest), grains.ids[row])
     });
     grains.arrange(&order);
+}
+
+impl Serialize for Neighbours {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.keep().serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Neighbours {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Kept::deserialize(deserializer).map(Self::take_up)
+    }
 }

@@ -3,8 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::recorders::recorder::WallFace;
 use crate::tables::barrier::Barrier;
+
+/// The face of a rigid wall, whose foot is at x = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallFace {
+    /// Along the face (m).
+    pub height: f64,
+    /// m
+    pub width: f64,
+    /// Upstream from the bed's normal (rad).
+    pub lean: f64,
+}
 
 /// The way a grain passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

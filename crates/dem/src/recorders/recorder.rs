@@ -6,16 +6,17 @@ use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Vec3;
+use crate::elements::segment::SegmentKind;
 use crate::net::NetForces;
 use crate::recorders::bolts::share_between_bolts;
 use crate::recorders::dead_zone::{push_at_rest, pushes_by_state};
 use crate::recorders::deposit::beyond_the_first_gap;
 use crate::recorders::gauge::{GaugeWindow, front};
 use crate::recorders::histories::Histories;
-use crate::recorders::passage::{Screen, WAYS, Way};
+use crate::recorders::passage::{Screen, WAYS, WallFace, Way};
 use crate::recorders::snapshots::{Moment, Snapshot};
 use crate::simulation::{Simulation, Unstable};
-use crate::tables::barrier::{Barrier, SegmentKind};
+use crate::tables::barrier::Barrier;
 use crate::tables::grains::Grain;
 
 /// A grain is at rest below this share of the highest mean velocity (Albaba 2015, section 3.3.3).
@@ -62,17 +63,6 @@ pub struct RecorderSetup {
     pub side_walls: f64,
     /// Length upstream of the barrier within which whatever lies has arrived (m).
     pub near: f64,
-}
-
-/// The face of a rigid wall, whose foot is at x = 0.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct WallFace {
-    /// Along the face (m).
-    pub height: f64,
-    /// m
-    pub width: f64,
-    /// Upstream from the bed's normal (rad).
-    pub lean: f64,
 }
 
 #[derive(Serialize, Deserialize)]

@@ -3,9 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::elements::segment::SegmentKind;
 use crate::net::NetForces;
 use crate::simulation::Simulation;
-use crate::tables::barrier::{Barrier, SegmentKind};
+use crate::tables::barrier::Barrier;
 use crate::tables::grains::Grain;
 use crate::tables::surfaces::SurfaceRole;
 

@@ -2,8 +2,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use crate::simd::quad::Quad;
 use crate::simd::real::{Real, Triple};
-use crate::tables::grain_table::Quad;
 
 /// Numbers handled side by side.
 pub const LANES: usize = 8;

@@ -2,6 +2,7 @@
 
 pub mod eight;
 mod plain;
+pub mod quad;
 pub mod real;
 pub mod widest;
 #[cfg(target_arch = "x86_64")]

@@ -3,8 +3,8 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::simd::eight::{Eight, LANES, Row};
+use crate::simd::quad::Quad;
 use crate::simd::real::Real;
-use crate::tables::grain_table::Quad;
 
 #[derive(Clone, Copy, Default)]
 pub struct PlainRow([f64; 4]);

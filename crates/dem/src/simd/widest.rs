@@ -49,7 +49,7 @@ fn with_avx2<W: Work>(work: W) -> W::Output {
 mod tests {
     use super::*;
     use crate::simd::eight::Row;
-    use crate::tables::grain_table::Quad;
+    use crate::simd::quad::Quad;
 
     /// Does something with every operation.
     struct Everything([Quad; 8]);

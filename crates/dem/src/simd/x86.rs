@@ -9,8 +9,8 @@ use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::simd::eight::{Eight, LANES, Row};
+use crate::simd::quad::Quad;
 use crate::simd::real::Real;
-use crate::tables::grain_table::Quad;
 
 /// A row of four in one register (AVX).
 #[derive(Clone, Copy)]

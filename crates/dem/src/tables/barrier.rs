@@ -2,86 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use nalgebra::UnitQuaternion;
-
-use crate::Vec3;
 use crate::elements::cylinder::Cylinder;
 use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::{Footing, Ground};
 use crate::elements::ring::RingSide;
+use crate::elements::segment::{Segment, SegmentKind};
 use crate::elements::sliding::Chain;
 use crate::elements::strength::Strength;
-
-/// A point mass of the net or of a rope.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Node {
-    pub position: Vec3,
-    /// At half steps, like the grains'; where the barrier takes several steps in one of the grains', at those.
-    pub velocity: Vec3,
-    /// Mean velocity over the last step of the grains, which is what they feel.
-    pub pace: Vec3,
-    /// kg
-    pub mass: f64,
-    /// A fixed node never moves: an anchor, or a rope bolted to the bed.
-    pub fixed: bool,
-    /// Radius with which grains touch the node (m): the thickest line that ends there; made by [`Barrier::connect`].
-    pub radius: f64,
-    /// Lines that end here; grains that touch the very node are found through it.
-    pub lines: Vec<u32>,
-}
-
-/// How a node is turned, where cylinders meet in it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Frame {
-    pub orientation: UnitQuaternion<f64>,
-    /// Angular velocity (rad/s), at half steps.
-    pub spin: Vec3,
-    /// Moment of inertia, the same about all axes (kg m²).
-    pub inertia: f64,
-    /// A clamped node never turns.
-    pub held: bool,
-}
-
-/// A straight piece of wire rope: a spring that pulls and never pushes, with a little damping.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Segment {
-    pub nodes: [u32; 2],
-    pub kind: SegmentKind,
-    /// Length at which tension starts (m).
-    pub rest_length: f64,
-    /// Axial stiffness over length, EA/L0 (N/m).
-    pub stiffness: f64,
-    /// Axial damping (N s/m), active while taut.
-    pub damping: f64,
-    /// Radius with which grains touch (m).
-    pub radius: f64,
-    pub strength: Strength,
-}
-
-impl Segment {
-    /// Changes the rest length; the stiffness EA/L0 follows. The damping stays: it is a share of what the piece it came with had
-    /// critical, between those two nodes' masses.
-    pub fn set_rest_length(&mut self, rest_length: f64) {
-        self.stiffness *= self.rest_length / rest_length;
-        self.rest_length = rest_length;
-    }
-
-    /// Lets the segment break: it pulls no more.
-    pub fn part(&mut self) {
-        self.strength.broken = true;
-        (self.stiffness, self.damping) = (0.0, 0.0);
-    }
-}
-
-/// Which part of the barrier a segment or cylinder belongs to; `Main` carries the number of its rope from the bottom.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SegmentKind {
-    Net,
-    Main(u16),
-    Lateral,
-    /// A ring, or what ties it to the net. Grains pass it by: it lies behind the net.
-    Ring,
-}
+use crate::tables::nodes::{Frame, Node};
 
 /// A segment or cylinder as grains touch it: a line between two nodes, with a thickness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,10 +6,11 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use crate::Vec3;
-use crate::tables::grain_table::{GrainLoad, GrainTable, Quad, side};
+use crate::simd::quad::Quad;
+use crate::tables::grain_table::{GrainLoad, GrainTable, side};
 use crate::tables::grains::GrainShape;
+use crate::tables::moving_rows::{Drifting, MovingRows};
 use crate::tables::prefetch::prefetch;
-use crate::time::integrate::{Drifting, MovingRows};
 
 /// The rows of a grain table, to be read one by one.
 #[derive(Clone, Copy)]
@@ -150,6 +151,14 @@ impl<'a> GrainRows<'a> {
             inverse_mass: motion.fourth(),
             arm,
         }
+    }
+}
+
+impl GrainTable {
+    /// Its rows, to be read.
+    #[inline(always)]
+    pub fn rows(&self) -> GrainRows<'_> {
+        GrainRows::of(self)
     }
 }
 

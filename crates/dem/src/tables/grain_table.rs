@@ -6,35 +6,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::tables::grain_rows::GrainRows;
+use crate::simd::quad::Quad;
 use crate::tables::grains::{Grain, GrainBody, GrainShape};
-
-/// Four numbers that are handled together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[repr(C, align(32))]
-pub struct Quad(pub [f64; 4]);
-
-impl Quad {
-    #[inline(always)]
-    pub fn new(vector: &Vec3, fourth: f64) -> Self {
-        Self([vector.x, vector.y, vector.z, fourth])
-    }
-
-    #[inline(always)]
-    pub fn vector(&self) -> Vec3 {
-        Vec3::new(self.0[0], self.0[1], self.0[2])
-    }
-
-    #[inline(always)]
-    pub fn fourth(&self) -> f64 {
-        self.0[3]
-    }
-
-    #[inline(always)]
-    pub fn set_vector(&mut self, vector: &Vec3) {
-        self.0[..3].copy_from_slice(vector.as_slice());
-    }
-}
 
 /// Force (N) and torque about the grain's centre (N m), summed over its contacts; the fourth entries stay zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -153,12 +126,6 @@ impl GrainTable {
     /// All grains as they are now, in the order of the rows.
     pub fn grains(&self) -> Vec<Grain> {
         (0..self.len()).map(|row| self.grain(row)).collect()
-    }
-
-    /// Its rows, to be read.
-    #[inline(always)]
-    pub fn rows(&self) -> GrainRows<'_> {
-        GrainRows::of(self)
     }
 
     /// Puts the rows into the given order, which may leave rows out.

@@ -7,11 +7,13 @@
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
+use crate::simd::quad::Quad;
 use crate::simd::real::{Real, Triple, add_scaled, cross, dot, plus, scaled};
 use crate::simd::widest::{Work, with_widest};
-use crate::tables::barrier::{Frame, Node};
 use crate::tables::grain_rows::Foresight;
-use crate::tables::grain_table::{GrainLoad, Quad};
+use crate::tables::grain_table::GrainLoad;
+use crate::tables::moving_rows::MovingRows;
+use crate::tables::nodes::{Frame, Node};
 use crate::{Vec3, larger_or_nan};
 
 /// The stretch of time a step covers, with what acts on all grains alike.
@@ -24,22 +26,6 @@ pub struct Stretch {
     /// m/s²
     pub gravity: Vec3,
 }
-
-/// The rows of one block of grains, to be moved; `axis` and `momentum` are empty for spheres.
-pub struct MovingRows<'a> {
-    pub place: &'a mut [Quad],
-    pub motion: &'a mut [Quad],
-    pub spin: &'a mut [Quad],
-    pub axis: &'a mut [Quad],
-    pub momentum: &'a mut [Quad],
-    /// Set to zero when used.
-    pub loads: &'a mut [GrainLoad],
-    /// Drift of the flow at each grain (m/s).
-    pub drift: &'a [Drifting],
-}
-
-/// A drift velocity (m/s); the last entry is unused.
-pub type Drifting = [f32; 4];
 
 /// Upper bounds on how fast the grains of a block go (m/s).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

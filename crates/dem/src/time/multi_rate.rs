@@ -14,7 +14,8 @@ use crate::contact::law::LawConstants;
 use crate::contact::ropes::Push;
 use crate::ledger::MotionEnergy;
 use crate::net::{NetForces, pull_all};
-use crate::tables::barrier::{Barrier, Frame, Node};
+use crate::tables::barrier::Barrier;
+use crate::tables::nodes::{Frame, Node};
 use crate::time::integrate::{Stretch, move_nodes, turn_frames};
 use crate::{Vec3, larger_or_nan};
 

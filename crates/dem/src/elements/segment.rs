@@ -1,0 +1,46 @@
+//! A straight piece of wire rope between two nodes, and which part of the barrier it belongs to.
+
+use serde::{Deserialize, Serialize};
+
+use crate::elements::strength::Strength;
+
+/// A straight piece of wire rope: a spring that pulls and never pushes, with a little damping.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Segment {
+    pub nodes: [u32; 2],
+    pub kind: SegmentKind,
+    /// Length at which tension starts (m).
+    pub rest_length: f64,
+    /// Axial stiffness over length, EA/L0 (N/m).
+    pub stiffness: f64,
+    /// Axial damping (N s/m), active while taut.
+    pub damping: f64,
+    /// Radius with which grains touch (m).
+    pub radius: f64,
+    pub strength: Strength,
+}
+
+impl Segment {
+    /// Changes the rest length; the stiffness EA/L0 follows. The damping stays: it is a share of what the piece it came with had
+    /// critical, between those two nodes' masses.
+    pub fn set_rest_length(&mut self, rest_length: f64) {
+        self.stiffness *= self.rest_length / rest_length;
+        self.rest_length = rest_length;
+    }
+
+    /// Lets the segment break: it pulls no more.
+    pub fn part(&mut self) {
+        self.strength.broken = true;
+        (self.stiffness, self.damping) = (0.0, 0.0);
+    }
+}
+
+/// Which part of the barrier a segment or cylinder belongs to; `Main` carries the number of its rope from the bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SegmentKind {
+    Net,
+    Main(u16),
+    Lateral,
+    /// A ring, or what ties it to the net. Grains pass it by: it lies behind the net.
+    Ring,
+}

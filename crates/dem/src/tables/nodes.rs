@@ -1,0 +1,36 @@
+//! The point masses of a flexible barrier, and how they are turned where cylinders meet in them.
+
+use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+
+/// A point mass of the net or of a rope.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Node {
+    pub position: Vec3,
+    /// At half steps, like the grains'; where the barrier takes several steps in one of the grains', at those.
+    pub velocity: Vec3,
+    /// Mean velocity over the last step of the grains, which is what they feel.
+    pub pace: Vec3,
+    /// kg
+    pub mass: f64,
+    /// A fixed node never moves: an anchor, or a rope bolted to the bed.
+    pub fixed: bool,
+    /// Radius with which grains touch the node (m): the thickest line that ends there; made by [`crate::tables::barrier::Barrier::connect`].
+    pub radius: f64,
+    /// Lines that end here; grains that touch the very node are found through it.
+    pub lines: Vec<u32>,
+}
+
+/// How a node is turned, where cylinders meet in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    pub orientation: UnitQuaternion<f64>,
+    /// Angular velocity (rad/s), at half steps.
+    pub spin: Vec3,
+    /// Moment of inertia, the same about all axes (kg m²).
+    pub inertia: f64,
+    /// A clamped node never turns.
+    pub held: bool,
+}
