@@ -3,7 +3,8 @@
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::checks::check_all;
-use crate::checks::not_covered::{FirstSurge, Known, leave_open_not_covered};
+use crate::checks::not_covered::known::{FirstSurge, Known};
+use crate::checks::not_covered::leave_open_not_covered;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::from_histories::Observed;

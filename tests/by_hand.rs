@@ -8,7 +8,8 @@ use barrier_check::demand::from_histories::Observed;
 use barrier_check::demand::from_loads::{Guideline, guideline};
 use barrier_check::demand::{Demands, Seen};
 use barrier_check::design::Design;
-use barrier_check::design::read::{Purpose, read_design_for};
+use barrier_check::design::entries::Purpose;
+use barrier_check::design::read::read_design_for;
 
 const NET: &str = "
 project: {name: By hand, barrier: Net}

@@ -1,11 +1,15 @@
 //! Rules of detailing, and the range in which the guideline has been used. They warn; they do not fail a design.
 
-use crate::checks::range::LARGEST_SAG;
 use crate::demand::from_loads::{Guideline, event_fill};
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
 use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
 use crate::loads::input::GuidelineInput;
+
+/// Sag over span, and strain, up to which a main rope's parabola with small strains is known to hold.
+pub const LARGEST_SAG: f64 = 0.3;
+
+pub const LARGEST_STRAIN: f64 = 0.1;
 
 /// What hangs on a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,14 +3,10 @@
 //!
 //! A check fails all the same: outside its range a formula may say too little, and what fails by it is not saved by that.
 
-use crate::checks::detailing::{Bearing, rules};
+use crate::checks::detailing::{Bearing, LARGEST_SAG, LARGEST_STRAIN, rules};
 use crate::checks::outcome::{Opening, Outcome};
 use crate::demand::from_loads::Guideline;
 use crate::design::{BarrierDesign, Design, OutsideRange};
-
-/// Sag over span, and strain, up to which a main rope's parabola with small strains is known to hold.
-pub const LARGEST_SAG: f64 = 0.3;
-pub const LARGEST_STRAIN: f64 = 0.1;
 
 /// Leaves open what would hold by a formula that is used outside its range.
 pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes: &mut [Outcome]) {

@@ -1,5 +1,6 @@
 //! `barrier-check DESIGN`: from a design file to a report and an exit code.
 
+use crate::commands::Failure;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -11,7 +12,8 @@ use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::{exit_code, hand_over, summarise, write_report};
 use crate::commands::progress::Progress;
 use crate::design::FidelityWish;
-use crate::design::read::{DesignFile, Purpose, read_design, read_design_for};
+use crate::design::entries::Purpose;
+use crate::design::read::{DesignFile, read_design, read_design_for};
 use crate::fidelity::choose;
 use crate::load_cases::{cases, factored};
 use crate::pipeline::{Run, by_equations, climb, run, vary};
@@ -226,8 +228,6 @@ pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
     };
     hand_over(&by_equations(file), &mut folder, false)
 }
-
-pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// The design, and the folder its report goes to.
 fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignFile, Folder), ExitCode> {

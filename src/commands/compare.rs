@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::commands::ExitCode;
-use crate::commands::check::{Failure, Wishes, load, simulate};
+use crate::commands::Failure;
+use crate::commands::check::{Wishes, load, simulate};
 use crate::commands::output::{exit_code, put, write_report};
 use crate::commands::report::{kind_of, read_recording};
 use crate::pipeline::Run;

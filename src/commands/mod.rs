@@ -20,3 +20,6 @@ pub enum ExitCode {
     /// No decision: bad input, or a run that cannot be relied on.
     Undecided = 2,
 }
+
+/// Why a command could not do what it was asked for.
+pub type Failure = Box<dyn std::error::Error + Send + Sync>;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::commands::ExitCode;
-use crate::commands::check::Failure;
+use crate::commands::Failure;
 use crate::pipeline::{Run, Verdict};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use crate::commands::ExitCode;
-use crate::commands::check::{Failure, claim};
+use crate::commands::Failure;
+use crate::commands::check::claim;
 use crate::commands::input::{self, LONGEST_RECORDING};
 use crate::commands::output::hand_over;
 use crate::pipeline::Run;

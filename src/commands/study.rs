@@ -7,7 +7,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sha2::Digest;
 
 use crate::commands::ExitCode;
-use crate::commands::check::{Failure, STOP, load};
+use crate::commands::Failure;
+use crate::commands::check::{STOP, load};
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::put;
 use crate::design::read::DesignFile;

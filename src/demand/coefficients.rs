@@ -6,9 +6,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::demand::from_histories::STANDING;
 use crate::loads::input::GuidelineInput;
 use dem::recorders::histories::{Histories, peak, smoothed};
+
+/// Share of the mass in a gauge that may be at rest without the gauge telling of a deposit.
+pub const STANDING: f64 = 0.01;
 
 /// Time series, one value for each sample; forces per width (N/m). A coefficient is NaN where its depth is less than a grain
 /// or its velocity too small to tell, and with the velocity upstream also where the window in which it is gauged holds grains at rest.

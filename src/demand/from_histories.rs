@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::demand::coefficients::{Coefficients, coefficients};
+use crate::demand::coefficients::{Coefficients, STANDING, coefficients};
 use crate::demand::from_loads::{Guideline, wall_of};
 use crate::design::{BarrierDesign, Design};
 use dem::recorders::histories::{Gauge, Histories, peak, smoothed, tail_mean};
@@ -245,9 +245,6 @@ impl Observed {
         }
     }
 }
-
-/// Share of the mass in a gauge that may be at rest without the gauge telling of a deposit.
-pub const STANDING: f64 = 0.01;
 
 /// Way of the front between the two places over its time; from where it started, if that is nearer than the far one.
 fn front_velocity(histories: &Histories) -> Option<f64> {

@@ -2,7 +2,8 @@
 
 use crate::demand::larger;
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo};
-use crate::loads::cases::{Extras, LoadCase, PointLoad, all, envelope, later_surge};
+use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
+use crate::loads::cases::{all, envelope, later_surge};
 use crate::loads::fill::{Deposit, Retention, deposit_height};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};

@@ -3,9 +3,11 @@
 pub mod coefficients;
 pub mod from_histories;
 pub mod from_loads;
+pub mod larger;
 
 use self::from_histories::Observed;
 use self::from_loads::{Guideline, RopeLoad};
+pub use self::larger::larger;
 use crate::design::Factors;
 use crate::starts::Spread;
 
@@ -295,11 +297,6 @@ impl Meeting<'_> {
 
 /// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
 pub const CAP_TOLERANCE: f64 = 1.01;
-
-/// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
 
 #[cfg(test)]
 mod tests {

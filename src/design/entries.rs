@@ -3,11 +3,19 @@
 use std::collections::BTreeMap;
 
 use crate::design::document::Node;
-use crate::design::grain_lengths;
+use crate::design::grain_multiple;
 use crate::design::key::{Key, Kind, Need, names};
-use crate::design::read::Purpose;
 use crate::problem::{Problem, nearest};
 use crate::units::{self, Dimension, separators};
+
+/// What a design is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Grains must be described, and be such that they can be simulated.
+    Simulation,
+    /// The equations alone, which need no grains and refuse none.
+    Equations,
+}
 
 /// A checked value. Quantities are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -243,7 +251,7 @@ type Misunderstood = (String, Option<String>);
 fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
     match *kind {
         Kind::Quantity { dimension, low, high } => quantity(node, dimension, low, high).map(Value::Number),
-        Kind::LengthOrGrains { low, high } => match grain_lengths::parse(&typed(node)) {
+        Kind::LengthOrGrains { low, high } => match grain_multiple::parse(&typed(node)) {
             Some((times, finer)) => Ok(Value::OfGrains { times, finer, bounds: [low, high] }),
             None => quantity(node, Dimension::Length, low, high).map(Value::Number),
         },

@@ -3,7 +3,9 @@
 pub mod document;
 pub mod entries;
 pub mod factor_sets;
+pub mod flow_entries;
 pub mod grain_lengths;
+pub mod grain_multiple;
 pub mod key;
 pub mod net_rules;
 pub mod read;
@@ -11,6 +13,7 @@ pub mod resolve;
 pub mod rope_rules;
 pub mod rules;
 pub mod schema;
+pub mod show;
 pub mod sizes;
 pub mod wall_rules;
 pub mod yaml_faults;

@@ -1,7 +1,7 @@
 //! Contradictions between values of a flexible net; listed in [`super::rules`].
 
 use crate::design::entries::Entries;
-use crate::design::rules::{at, length};
+use crate::design::show::{at, length};
 use crate::problem::Problem;
 use crate::units::Dimension;
 

@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::design::document::Document;
-use crate::design::entries::{Entries, Origin, Value, read};
+use crate::design::entries::{Entries, Origin, Purpose, Value, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
@@ -21,15 +21,6 @@ pub struct DesignFile {
     pub text: Vec<u8>,
     pub design: Design,
     pub entries: Entries,
-}
-
-/// What a design is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
-    /// Grains must be described, and be such that they can be simulated.
-    Simulation,
-    /// The equations alone, which need no grains and refuse none.
-    Equations,
 }
 
 /// Reads the bytes of the file called `file`, to be simulated.

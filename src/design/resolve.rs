@@ -1,8 +1,8 @@
 //! From checked entries to the design, in SI.
 
 use crate::design::entries::Entries;
+use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve};
 use crate::design::net_rules::rope_heights;
-use crate::design::rules::{coarsened, curve_known_from, flow_volume, size_curve};
 use crate::design::sizes::SizeCurve;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,

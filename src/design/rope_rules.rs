@@ -1,7 +1,7 @@
 //! Rules of single ropes.
 
 use crate::design::entries::Entries;
-use crate::design::rules::at;
+use crate::design::show::at;
 use crate::problem::Problem;
 
 /// Breaking load over the full circle of the diameter beyond which no wire rope is (Pa): the strongest wires, of 2160 MPa, fill less than

@@ -2,9 +2,10 @@
 //! silent: that was already reported.
 
 use crate::design::entries::Entries;
+use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, quantiles, size_curve};
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
-use crate::design::sizes::SizeCurve;
+use crate::design::show::{NET, at, length};
 use crate::design::{net_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -64,8 +65,6 @@ pub const GRAIN_RULES: &[Rule] = &[
     net_rules::cylinders_are_bearable,
 ];
 
-const NET: &str = "barrier.flexible_net";
-
 fn schema_version_is_known(e: &Entries) -> Option<Problem> {
     let version = e.number("schema_version")?;
     (version != SCHEMA_VERSION).then(|| {
@@ -73,19 +72,6 @@ fn schema_version_is_known(e: &Entries) -> Option<Problem> {
             if version > SCHEMA_VERSION { "a newer barrier-check is needed" } else { "there never was such a version" };
         Problem::new("schema_version", format!("version {version}"), format!("version {SCHEMA_VERSION}")).hint(hint)
     })
-}
-
-pub fn at(name: &str) -> String {
-    format!("{NET}.{name}")
-}
-
-pub fn length(value: f64) -> String {
-    Dimension::Length.show(value)
-}
-
-/// Volume of the flow with pores, from whichever of mass and volume was given.
-pub fn flow_volume(entries: &Entries) -> Option<f64> {
-    entries.number("flow.volume").or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
 }
 
 fn mass_or_volume(e: &Entries) -> Option<Problem> {
@@ -139,13 +125,6 @@ fn sizes_have_an_order(e: &Entries) -> Option<Problem> {
     })
 }
 
-/// (share of the mass, diameter) of the quantiles that were typed.
-pub fn quantiles(e: &Entries) -> Vec<(f64, f64)> {
-    (1..=9)
-        .filter_map(|tenth| Some((f64::from(tenth) / 10.0, e.number(&format!("flow.grain_sizes.curve.d{tenth}0"))?)))
-        .collect()
-}
-
 fn curve_has_two_quantiles(e: &Entries) -> Option<Problem> {
     let path = "flow.grain_sizes.curve";
     (e.has_section(path) && quantiles(e).len() < 2)
@@ -163,22 +142,6 @@ fn curve_increases(e: &Entries) -> Option<Problem> {
         found,
         "diameters that increase with the share",
     ))
-}
-
-/// The size curve of the design, ends included, if it is sound.
-pub fn size_curve(e: &Entries) -> Option<SizeCurve> {
-    let uniform = |key: &str| e.number(&format!("flow.grain_sizes.uniform.{key}"));
-    if let (Some(smallest), Some(largest)) = (uniform("min"), uniform("max")) {
-        return (smallest <= largest).then_some(SizeCurve::ByNumber { smallest, largest });
-    }
-    let points = quantiles(e);
-    let rises = points.windows(2).all(|pair| pair[0].1 < pair[1].1);
-    (points.len() >= 2 && rises).then(|| SizeCurve::through(&points))
-}
-
-/// The lowest share of the mass of which the design gives a size.
-pub fn curve_known_from(e: &Entries) -> f64 {
-    quantiles(e).first().map_or(0.0, |(share, _)| *share)
 }
 
 fn grains_fit_the_channel(e: &Entries) -> Option<Problem> {
@@ -211,34 +174,6 @@ fn grain_count_is_bearable(e: &Entries) -> Option<Problem> {
             (_, true) => "`simulation.coarsen: auto` cuts the fine end of the curve, and the report says where".to_string(),
         }),
     )
-}
-
-fn grain_count(e: &Entries, curve: &SizeCurve) -> Option<f64> {
-    let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
-    Some(curve.count(solid))
-}
-
-/// Grains to which `coarsen: auto` cuts a curve down: what runs in minutes.
-const COARSENED: f64 = 20_000.0;
-/// Largest share of the mass that it cuts.
-const MOST_CUT: f64 = 0.9;
-
-/// Below which share of the mass the curve is cut, where the design asks for that and has more grains than run in minutes; nothing
-/// where it does not, or where no cut is enough.
-pub fn coarsened(e: &Entries, curve: &SizeCurve) -> Option<f64> {
-    if e.text("simulation.coarsen") != Some("auto") || grain_count(e, curve)? <= COARSENED {
-        return None;
-    }
-    let enough = |share: f64| grain_count(e, &curve.cut_below(share)).is_some_and(|count| count <= COARSENED);
-    let (mut low, mut high) = (0.0, MOST_CUT);
-    if !enough(high) {
-        return None;
-    }
-    for _ in 0..30 {
-        let middle = 0.5 * (low + high);
-        if enough(middle) { high = middle } else { low = middle }
-    }
-    Some(high)
 }
 
 fn dam_break_height_agrees(e: &Entries) -> Option<Problem> {

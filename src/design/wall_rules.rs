@@ -1,7 +1,7 @@
 //! Contradictions between values of a rigid wall; listed in [`super::rules`].
 
 use crate::design::entries::Entries;
-use crate::design::rules::length;
+use crate::design::show::length;
 use crate::problem::Problem;
 use crate::units::Dimension;
 

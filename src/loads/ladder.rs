@@ -2,7 +2,7 @@
 //!
 //! Each gives the force of a surge on the empty barrier per metre of width. None decides a check: they show the spread.
 
-use crate::loads::cases::Certainty;
+use crate::loads::cases::load_case::Certainty;
 use crate::loads::input::GuidelineInput;
 
 /// One model of the ladder.

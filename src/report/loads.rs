@@ -4,14 +4,15 @@ use serde::Serialize;
 
 use crate::checks::detailing;
 use crate::demand::from_loads::{RopeLoad, event_fill, wall_of};
-use crate::loads::cases::{LoadCase, split};
+use crate::loads::cases::load_case::LoadCase;
+use crate::loads::cases::split;
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::ladder::MODELS;
 use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
-use crate::report::view::{Row, lower_first};
+use crate::report::row::{Row, lower_first};
 use crate::sensitivity;
 
 #[derive(Debug, Serialize)]

@@ -14,6 +14,7 @@ pub mod plots;
 pub mod recording;
 pub mod render;
 pub mod replay;
+pub mod row;
 pub mod series;
 pub mod stability_map;
 pub mod statements;

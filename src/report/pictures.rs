@@ -14,7 +14,7 @@ use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
 use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
-use crate::report::view::{is_share, worst_first};
+use crate::report::row::{is_share, worst_first};
 use crate::simulated::Simulated;
 use dem::elements::segment::SegmentKind;
 use dem::ledger::Ledger;
@@ -88,7 +88,7 @@ pub fn utilisation_chart(run: &Run) -> Option<Chart> {
         let used = outcome.utilisation?;
         let of = |demand: Option<f64>| Some(demand? / outcome.capacity.filter(|_| outcome.resistance.is_some())?);
         let by = [of(outcome.demand.guideline), of(outcome.demand.simulation)];
-        let value = is_share(outcome).then(|| crate::report::view::used(outcome));
+        let value = is_share(outcome).then(|| crate::report::row::used(outcome));
         Some(Bar { label: outcome.title.clone(), used, by, value, class: outcome.verdict.word() })
     };
     let bars: Vec<Bar> = judged.filter_map(bar).take(MOST_BARS).collect();

@@ -4,7 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::read::{Purpose, read_design_for};
+use crate::design::entries::Purpose;
+use crate::design::read::read_design_for;
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, restore};

@@ -1,9 +1,10 @@
 //! What the templates may see: texts and finished figures.
 
+use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, used, worst_first};
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
+use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
 use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
@@ -11,7 +12,7 @@ use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
-use crate::report::numbers::{figures, percent, with_scatter, with_unit};
+use crate::report::numbers::{figures, with_scatter, with_unit};
 use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::replay::Replay;
@@ -73,14 +74,6 @@ pub struct View {
     /// The rungs that ran, where the program chose how fine to model, and why it stopped.
     pub climb: Vec<ClimbRow>,
     pub why_enough: String,
-}
-
-/// A name with its value and, where it helps, a remark.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    pub name: String,
-    pub value: String,
-    pub remark: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -226,27 +219,6 @@ fn moment(seconds: i64) -> Option<String> {
     moment.format(time::macros::format_description!("[year]-[month]-[day] [hour]:[minute] UTC")).ok()
 }
 
-/// Outcomes by their verdict, then by how much is used.
-pub fn worst_first(run: &Run) -> Vec<&Outcome> {
-    let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
-    outcomes.sort_by(|a, b| {
-        let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);
-        rank(a.verdict).cmp(&rank(b.verdict)).then(used(b).total_cmp(&used(a)))
-    });
-    outcomes
-}
-
-/// Worst first.
-fn rank(verdict: CheckVerdict) -> u8 {
-    match verdict {
-        CheckVerdict::Fail => 0,
-        CheckVerdict::Open => 1,
-        CheckVerdict::Warn => 2,
-        CheckVerdict::Pass => 3,
-        CheckVerdict::Info => 4,
-    }
-}
-
 /// The verdict in a sentence.
 pub fn summary(run: &Run) -> String {
     let sorted = worst_first(run);
@@ -332,45 +304,6 @@ fn check_row(outcome: &Outcome) -> CheckRow {
         verdict: outcome.verdict.word(),
         source: outcome.source,
     }
-}
-
-/// Whether a share must be kept, which reads as what is there, not as what is missing.
-pub fn is_share(outcome: &Outcome) -> bool {
-    outcome.unit == "-" && outcome.resistance.is_none() && outcome.capacity.is_some()
-}
-
-/// How much of the capacity is used; of a share that must be kept, what is kept.
-pub fn used(outcome: &Outcome) -> String {
-    let stroke = outcome.resistance.filter(|_| outcome.unit == "m").map(|(resistance, _)| resistance.characteristic);
-    let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
-    match (outcome.utilisation, outcome.verdict) {
-        (None, CheckVerdict::Pass) => "at plateau, as designed".to_string(),
-        (Some(_), _) if is_share(outcome) => {
-            outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit))
-        }
-        (used, _) if used_up => format!("≥ {}", percent(used)),
-        (used, _) => percent(used),
-    }
-}
-
-/// Whether a check only says that a stroke is used up, which the check of the stroke says as well.
-fn is_stop(outcome: &Outcome) -> bool {
-    outcome.kind == Kind::DissipatorTension
-}
-
-/// The check in a line: "tension of main rope 3 (75 %)", "mass held by the barrier (99.9 %, at least 90.0 %)".
-pub fn in_a_line(outcome: &Outcome) -> String {
-    let title = lower_first(&outcome.title);
-    match outcome.capacity.filter(|_| is_share(outcome)) {
-        Some(least) => format!("{title} ({}, at least {})", used(outcome), with_unit(least, outcome.unit)),
-        None => format!("{title} ({})", used(outcome)),
-    }
-}
-
-/// A title within a sentence.
-pub fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_lowercase().collect::<String>() + letters.as_str())
 }
 
 /// Characteristic resistance over its factor, times the share that may be used.

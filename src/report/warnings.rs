@@ -9,8 +9,8 @@ use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet, OutsideRa
 use crate::fidelity::ladder::rung_of;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, with_unit};
+use crate::report::row::{in_a_line, is_share, lower_first};
 use crate::report::validation::Kept;
-use crate::report::view::{in_a_line, is_share, lower_first};
 
 type Warning = fn(&Run) -> Option<String>;
 

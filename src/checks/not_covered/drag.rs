@@ -1,6 +1,6 @@
 //! The drag of a flow over the barrier is known where its friction and length are given; a drag that is not given is not zero.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::demand::Demands;

@@ -2,7 +2,7 @@
 //! tell how much more presses on it than the simulation shows. What would not hold that much more stays open, and so does what would hold
 //! it by less than the simulation may be off.
 
-use super::{FirstSurge, Known};
+use super::known::{FirstSurge, Known};
 use crate::checks::bolts::tension_under_more;
 use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::demand::larger;

@@ -1,7 +1,7 @@
 //! What the equations would fail, or would not be known for, with the velocity that the simulated flow arrives with and the K that its
 //! deposit shows at rest, where these are larger than what the equations were given.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
@@ -53,7 +53,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::not_covered::FirstSurge;
+    use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::not_covered::tests::small_net;
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::from_loads::guideline;

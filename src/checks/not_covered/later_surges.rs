@@ -1,6 +1,6 @@
 //! Surges over a deposit are in the equations alone: where the simulated first surge pushes harder than theirs, so would the later ones.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome};
 
 /// Simulated over the guideline's force of a first surge up to which its K and λ are taken to hold for the later ones too: the scatter
@@ -56,8 +56,8 @@ mod tests {
     /// What fails, what has no utilisation and what does not hang on pressures stays as it is.
     #[test]
     fn only_what_holds_by_pressures_is_opened() {
-        use super::Known;
         use crate::checks::check_all;
+        use crate::checks::not_covered::known::Known;
         use crate::demand::{Demand, Demands};
         let design = small_net();
         let guideline = guideline(&design);

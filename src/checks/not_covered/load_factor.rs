@@ -1,6 +1,6 @@
 //! A partial factor on loads that is not given is not 1.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {

@@ -4,6 +4,7 @@
 pub mod drag;
 pub mod full_barrier;
 pub mod harder_flow;
+pub mod known;
 pub mod later_surges;
 pub mod load_factor;
 pub mod not_simulated;
@@ -12,42 +13,8 @@ pub mod short_peaks;
 pub mod side_strips;
 pub mod thinner_flow;
 
+use self::known::Known;
 use crate::checks::outcome::Outcome;
-use crate::demand::from_loads::Guideline;
-use crate::design::Design;
-
-/// What a simulation shows of the first surge, without partial factors.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct FirstSurge {
-    /// Its largest force along the bed (N).
-    pub push: f64,
-    /// Its largest moment about the foot of a wall, per width (N m/m).
-    pub moment: f64,
-    /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged.
-    pub sampled_over_smoothed: f64,
-    pub moment_sampled_over_smoothed: f64,
-    /// The velocity with which it arrives (m/s).
-    pub velocity: f64,
-    /// Its depth then, at bulk density (m).
-    pub depth: f64,
-    /// Its momentum flux h v² over the one that the design gives; 1 where the design gives none.
-    pub flux_share: f64,
-    /// K that the deposit shows at rest, where there is one.
-    pub earth_pressure: Option<f64>,
-    /// By how much a finer model, or other packings, may show larger forces and strokes (over these, less one) and smaller shares.
-    pub force_band: f64,
-    pub stroke_band: f64,
-    pub share_band: f64,
-}
-
-/// What a rule goes by.
-#[derive(Clone, Copy)]
-pub struct Known<'a> {
-    pub design: &'a Design,
-    pub guideline: &'a Guideline,
-    /// Nothing where nothing was simulated.
-    pub seen: Option<FirstSurge>,
-}
 
 /// All rules. Of several that leave a check open the first one tells why.
 const RULES: &[fn(Known, &mut [Outcome])] = &[
@@ -72,10 +39,12 @@ pub fn leave_open_not_covered(known: Known, outcomes: &mut [Outcome]) {
 pub mod tests {
     use super::*;
     use crate::checks::check_all;
+    use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::from_histories::Observed;
     use crate::demand::from_loads::guideline;
     use crate::demand::{Demands, Seen};
+    use crate::design::Design;
     use crate::design::read::read_design;
 
     pub fn small_net() -> Design {

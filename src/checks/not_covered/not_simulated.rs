@@ -1,7 +1,7 @@
 //! What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
 //! later surges of a larger event, a boulder, snow, a flow over the full barrier.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::outcome::{Kind, Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {

@@ -1,6 +1,6 @@
 //! The guideline's pressures were measured on flexible barriers: alone, without a simulation, they say little of a rigid wall.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::design::BarrierDesign;
 

@@ -1,7 +1,7 @@
 //! Short peaks of the force on a wall, and of its moment. What is judged is a mean over a window; a boulder that hits is shorter than that.
 //! Whether a wall follows so short a force is not known here: it holds it, or the check is open.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::outcome::{Kind, Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
@@ -28,7 +28,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 
 #[cfg(test)]
 mod tests {
-    use crate::checks::not_covered::FirstSurge;
+    use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::not_covered::tests::{pushing, simulated_verdict};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::from_histories::Observed;

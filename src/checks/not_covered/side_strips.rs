@@ -1,7 +1,7 @@
 //! Strips of net along the side walls change what is held and what is loaded, by a force that wall and deposit hold them with: what the
 //! simulation shows with a default that nobody vouches for is open.
 
-use super::Known;
+use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::design::BarrierDesign;
 

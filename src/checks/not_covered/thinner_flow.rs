@@ -1,8 +1,8 @@
 //! A simulated surge that arrives with less momentum than the design says, as one does that draws out on its way: what the simulation governs
 //! must hold in proportion to the momentum that was asked for.
 
-use super::Known;
 use super::full_barrier::used_under_more;
+use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
@@ -28,7 +28,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 mod tests {
     use super::*;
     use crate::checks::check_all;
-    use crate::checks::not_covered::FirstSurge;
+    use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::not_covered::tests::{net_holds, pushing, small_net};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::from_loads::guideline;

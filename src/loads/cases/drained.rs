@@ -1,6 +1,7 @@
 //! The full barrier once its deposit has drained: a smaller K and density, both given by the designer.
 
-use crate::loads::cases::{Certainty, Extras, LoadCase, full};
+use crate::loads::cases::full;
+use crate::loads::cases::load_case::{Certainty, Extras, LoadCase};
 use crate::loads::input::GuidelineInput;
 
 pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {

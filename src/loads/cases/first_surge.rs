@@ -1,6 +1,7 @@
 //! The first surge on the empty barrier: p = K ρ g' (h − z) + λ ρ v² up to h.
 
-use crate::loads::cases::{LoadCase, later_surge};
+use crate::loads::cases::later_surge;
+use crate::loads::cases::load_case::LoadCase;
 use crate::loads::input::GuidelineInput;
 
 pub fn case(input: &GuidelineInput) -> LoadCase {

@@ -1,6 +1,7 @@
 //! The barrier filled and everything at rest: K ρ g' (H − z).
 
-use crate::loads::cases::{LoadCase, later_surge};
+use crate::loads::cases::later_surge;
+use crate::loads::cases::load_case::LoadCase;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 

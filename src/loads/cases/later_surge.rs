@@ -1,6 +1,6 @@
 //! A surge over a deposit of height H_d: K ρ g' (H_d + h − z), and λ ρ v² between H_d and H_d + h, as far as the barrier stands.
 
-use crate::loads::cases::{Certainty, LoadCase};
+use crate::loads::cases::load_case::{Certainty, LoadCase};
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 use crate::sources::VOLKWEIN_2014;

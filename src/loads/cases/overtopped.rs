@@ -3,7 +3,8 @@
 //! Guasti 2011); the form of the drag is Coulomb's. It decides only with a friction and a length that the designer gives; else a
 //! usual friction and the depth h_o as length show its size.
 
-use crate::loads::cases::{Certainty, Extras, LoadCase, full};
+use crate::loads::cases::full;
+use crate::loads::cases::load_case::{Certainty, Extras, LoadCase};
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 

@@ -1,6 +1,7 @@
 //! Snow against the barrier: a uniform pressure that the designer gives.
 
-use crate::loads::cases::{Certainty, LoadCase, full};
+use crate::loads::cases::full;
+use crate::loads::cases::load_case::{Certainty, LoadCase};
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 

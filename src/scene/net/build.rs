@@ -7,7 +7,7 @@ use nalgebra::UnitQuaternion;
 
 use crate::design::{BarrierModel, Bottom, Channel, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
-use crate::scene::net::rings::{POISSON, ring_stand_off};
+use crate::scene::net::ring_shape::{POISSON, ring_stand_off};
 use dem::Vec3;
 use dem::elements::cylinder::Section;
 use dem::elements::dissipator::Dissipator;

@@ -3,4 +3,5 @@
 pub mod build;
 mod extension;
 pub mod grid;
+pub mod ring_shape;
 pub mod rings;

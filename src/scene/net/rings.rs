@@ -3,9 +3,10 @@
 //! A ring stands across its rope, with a corner upstream that one more cylinder ties to a knot of the net. So the knots on a main
 //! rope stand a little upstream of it. Two diagonals hold a ring in shape.
 
+use crate::scene::net::ring_shape::{POISSON, ring_side};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use crate::design::{MainRopes, Rope};
+use crate::design::Rope;
 use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY, strength_of};
 use dem::Vec3;
 use dem::contact::law::Memory;
@@ -14,23 +15,8 @@ use dem::elements::ring::RingSide;
 use dem::elements::segment::SegmentKind;
 use dem::elements::strength::Strength;
 
-/// Poisson's ratio of all cylinders, for twisting only.
-pub const POISSON: f64 = 0.3;
-/// Play between ring and rope, over the sum of their radii: 1 mm with the ropes of the thesis.
-const PLAY: f64 = 1.0 / 24.0;
-
 /// Damping of a cylinder's own turning mode over critical: wires rub on each other when a rope bends.
 const BENDING_DAMPING_RATIO: f64 = 0.2;
-
-/// Length of a ring's sides (m), and of what ties it to the net.
-fn ring_side(ropes: &MainRopes) -> f64 {
-    (ropes.rope.diameter + ropes.ring_diameter) * (1.0 + PLAY)
-}
-
-/// How far a knot stands off the rope it hangs on (m).
-pub fn ring_stand_off(ropes: &MainRopes) -> f64 {
-    ring_side(ropes) * (1.0 + FRAC_1_SQRT_2)
-}
 
 impl Builder<'_> {
     /// Adds a main rope of cylinders along `row` from end to end, and a ring at each knot; returns the rope's nodes.

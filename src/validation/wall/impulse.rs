@@ -1,6 +1,7 @@
 //! C1, C2 and C13: what the forces on a wall must add up to.
 
-use crate::loads::cases::{Extras, all, split};
+use crate::loads::cases::load_case::Extras;
+use crate::loads::cases::{all, split};
 use crate::loads::input::GuidelineInput;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{

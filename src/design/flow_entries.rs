@@ -1,0 +1,61 @@
+//! What the entries of a design say of its flow: volume, grain sizes, how many grains that makes, and how it is cut.
+
+use crate::design::entries::Entries;
+use crate::design::sizes::SizeCurve;
+
+/// Volume of the flow with pores, from whichever of mass and volume was given.
+pub fn flow_volume(entries: &Entries) -> Option<f64> {
+    entries.number("flow.volume").or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
+}
+
+/// (share of the mass, diameter) of the quantiles that were typed.
+pub fn quantiles(e: &Entries) -> Vec<(f64, f64)> {
+    (1..=9)
+        .filter_map(|tenth| Some((f64::from(tenth) / 10.0, e.number(&format!("flow.grain_sizes.curve.d{tenth}0"))?)))
+        .collect()
+}
+
+/// The size curve of the design, ends included, if it is sound.
+pub fn size_curve(e: &Entries) -> Option<SizeCurve> {
+    let uniform = |key: &str| e.number(&format!("flow.grain_sizes.uniform.{key}"));
+    if let (Some(smallest), Some(largest)) = (uniform("min"), uniform("max")) {
+        return (smallest <= largest).then_some(SizeCurve::ByNumber { smallest, largest });
+    }
+    let points = quantiles(e);
+    let rises = points.windows(2).all(|pair| pair[0].1 < pair[1].1);
+    (points.len() >= 2 && rises).then(|| SizeCurve::through(&points))
+}
+
+/// The lowest share of the mass of which the design gives a size.
+pub fn curve_known_from(e: &Entries) -> f64 {
+    quantiles(e).first().map_or(0.0, |(share, _)| *share)
+}
+
+pub fn grain_count(e: &Entries, curve: &SizeCurve) -> Option<f64> {
+    let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
+    Some(curve.count(solid))
+}
+
+/// Grains to which `coarsen: auto` cuts a curve down: what runs in minutes.
+const COARSENED: f64 = 20_000.0;
+
+/// Largest share of the mass that it cuts.
+pub const MOST_CUT: f64 = 0.9;
+
+/// Below which share of the mass the curve is cut, where the design asks for that and has more grains than run in minutes; nothing
+/// where it does not, or where no cut is enough.
+pub fn coarsened(e: &Entries, curve: &SizeCurve) -> Option<f64> {
+    if e.text("simulation.coarsen") != Some("auto") || grain_count(e, curve)? <= COARSENED {
+        return None;
+    }
+    let enough = |share: f64| grain_count(e, &curve.cut_below(share)).is_some_and(|count| count <= COARSENED);
+    let (mut low, mut high) = (0.0, MOST_CUT);
+    if !enough(high) {
+        return None;
+    }
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if enough(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
+}

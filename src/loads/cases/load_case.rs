@@ -1,0 +1,136 @@
+//! One stage of a barrier's life: its pressures, and what acts beside them.
+
+use crate::loads::pressure::Diagram;
+
+/// How sure we are of a formula or a value; only what is certain may decide a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Certainty {
+    /// Read in the source itself or in a thesis that cites it.
+    Read,
+    /// Given by the designer.
+    Given,
+    /// Derived from first principles here.
+    Derived,
+    /// From memory: shown, never decisive.
+    Memory,
+}
+
+impl Certainty {
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Read => "read in the source or second hand",
+            Self::Given => "given in the design",
+            Self::Derived => "derived",
+            Self::Memory => "from memory, to be verified",
+        }
+    }
+
+    pub fn decides(self) -> bool {
+        self != Self::Memory
+    }
+}
+
+/// A force at one place of the barrier (N), at a height above the bed (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointLoad {
+    pub force: f64,
+    pub height: f64,
+}
+
+/// One stage: its pressures, and what acts beside them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCase {
+    pub id: &'static str,
+    pub title: &'static str,
+    /// Height of the deposit at rest H_d (m).
+    pub deposit: f64,
+    /// Depth of the flow that moves against the barrier h, or over it h_o (m); 0 when nothing moves.
+    pub moving: f64,
+    pub diagram: Diagram,
+    /// Drag of the overtopping flow on the barrier's top, along the channel (N/m).
+    pub shear: f64,
+    /// Whether the drag may decide a check.
+    pub shear_certainty: Certainty,
+    pub point: Option<PointLoad>,
+    /// The resultant in symbols.
+    pub formula: &'static str,
+    pub certainty: Certainty,
+    pub source: &'static str,
+}
+
+impl LoadCase {
+    /// Static pressure at the bed (Pa).
+    pub fn pressure_static(&self) -> f64 {
+        self.diagram.unit * self.diagram.surface
+    }
+
+    /// Force per width R, without point loads (N/m).
+    pub fn force_per_width(&self) -> f64 {
+        self.diagram.force(0.0, f64::INFINITY) + self.decisive_shear()
+    }
+
+    /// Moment per width about the bed, without point loads (N m/m).
+    pub fn moment_per_width(&self) -> f64 {
+        self.diagram.moment(0.0, f64::INFINITY) + self.decisive_shear() * self.diagram.top
+    }
+
+    /// Force on a barrier of this width, its point load included (N).
+    pub fn total_force(&self, width: f64) -> f64 {
+        self.force_per_width() * width + self.point.map_or(0.0, |point| point.force)
+    }
+
+    /// Moment about the bed, per width, of all that acts on a barrier of this width (N m/m).
+    pub fn mean_moment(&self, width: f64) -> f64 {
+        self.moment_per_width() + self.point.map_or(0.0, |point| point.force * point.height / width)
+    }
+
+    /// Force normal to a face that leans by θ from the bed's normal, on a barrier of this width (N): what presses on it has R along the bed
+    /// and R tan θ off it, R/cos θ in all. Drag and point load are taken likewise, which is on the safe side.
+    pub fn face_force(&self, width: f64, lean: f64) -> f64 {
+        self.total_force(width) / libm::cos(lean)
+    }
+
+    /// Moment of that force about the foot of the face, per width (N m/m): the pressures act at z/cos θ along it, so that theirs is the
+    /// moment of R by 1 + tan² θ; drag and point load act along the bed.
+    pub fn face_moment(&self, width: f64, lean: f64) -> f64 {
+        self.mean_moment(width) + self.diagram.moment(0.0, f64::INFINITY) * libm::tan(lean).powi(2)
+    }
+
+    /// The largest force along the bed that any metre of a wall takes (N/m): a point load at the end of the wall, its worst place, spreads
+    /// at 45° to one side, over its height, over half the height of the wall at the least, and over the whole width at the most.
+    pub fn metre_force(&self, width: f64, height: f64) -> f64 {
+        let spread = |point: PointLoad| point.force / width.min(point.height.max(0.5 * height));
+        self.force_per_width() + self.point.map_or(0.0, spread)
+    }
+
+    /// The largest moment about the foot of the face that any metre of a wall takes (N m/m): a point load at the end of the wall spreads at
+    /// 45° to one side on its way down to the foot, over its height, if the wall is that wide.
+    pub fn foot_moment(&self, width: f64, lean: f64) -> f64 {
+        let spread = |point: PointLoad| point.force * (1.0 - point.height / width).max(0.0);
+        self.face_moment(width, lean) + self.point.map_or(0.0, spread)
+    }
+
+    /// Force per width on the strip of a rope between two heights; the topmost strip takes the drag (N/m).
+    pub fn strip_force(&self, low: f64, high: f64) -> f64 {
+        let drag = if high >= self.diagram.top && low < self.diagram.top { self.decisive_shear() } else { 0.0 };
+        self.diagram.force(low, high) + drag
+    }
+
+    fn decisive_shear(&self) -> f64 {
+        if self.shear_certainty.decides() { self.shear } else { 0.0 }
+    }
+}
+
+/// What the designer gives beside the flow; every part is left out unless it is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extras {
+    /// Depth of the flow over the full barrier h_o (m); that of the surge unless given.
+    pub overflow_depth: Option<f64>,
+    /// tan φ of the drag on the barrier's top, and the length on which it acts (m).
+    pub overflow_drag: Option<[f64; 2]>,
+    /// K and density (kg/m³) of the drained deposit.
+    pub drained: Option<[f64; 2]>,
+    pub point: Option<PointLoad>,
+    /// Uniform pressure of snow (Pa).
+    pub snow: Option<f64>,
+}

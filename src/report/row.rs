@@ -1,0 +1,74 @@
+//! A row of a table of the report, and how an outcome is told in one.
+
+use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
+use crate::pipeline::Run;
+use crate::report::numbers::{percent, with_unit};
+use serde::Serialize;
+
+/// A name with its value and, where it helps, a remark.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    pub name: String,
+    pub value: String,
+    pub remark: String,
+}
+
+/// Outcomes by their verdict, then by how much is used.
+pub fn worst_first(run: &Run) -> Vec<&Outcome> {
+    let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
+    outcomes.sort_by(|a, b| {
+        let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);
+        rank(a.verdict).cmp(&rank(b.verdict)).then(used(b).total_cmp(&used(a)))
+    });
+    outcomes
+}
+
+/// Worst first.
+fn rank(verdict: CheckVerdict) -> u8 {
+    match verdict {
+        CheckVerdict::Fail => 0,
+        CheckVerdict::Open => 1,
+        CheckVerdict::Warn => 2,
+        CheckVerdict::Pass => 3,
+        CheckVerdict::Info => 4,
+    }
+}
+
+/// Whether a share must be kept, which reads as what is there, not as what is missing.
+pub fn is_share(outcome: &Outcome) -> bool {
+    outcome.unit == "-" && outcome.resistance.is_none() && outcome.capacity.is_some()
+}
+
+/// How much of the capacity is used; of a share that must be kept, what is kept.
+pub fn used(outcome: &Outcome) -> String {
+    let stroke = outcome.resistance.filter(|_| outcome.unit == "m").map(|(resistance, _)| resistance.characteristic);
+    let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
+    match (outcome.utilisation, outcome.verdict) {
+        (None, CheckVerdict::Pass) => "at plateau, as designed".to_string(),
+        (Some(_), _) if is_share(outcome) => {
+            outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit))
+        }
+        (used, _) if used_up => format!("≥ {}", percent(used)),
+        (used, _) => percent(used),
+    }
+}
+
+/// Whether a check only says that a stroke is used up, which the check of the stroke says as well.
+pub fn is_stop(outcome: &Outcome) -> bool {
+    outcome.kind == Kind::DissipatorTension
+}
+
+/// The check in a line: "tension of main rope 3 (75 %)", "mass held by the barrier (99.9 %, at least 90.0 %)".
+pub fn in_a_line(outcome: &Outcome) -> String {
+    let title = lower_first(&outcome.title);
+    match outcome.capacity.filter(|_| is_share(outcome)) {
+        Some(least) => format!("{title} ({}, at least {})", used(outcome), with_unit(least, outcome.unit)),
+        None => format!("{title} ({})", used(outcome)),
+    }
+}
+
+/// A title within a sentence.
+pub fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_lowercase().collect::<String>() + letters.as_str())
+}
