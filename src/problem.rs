@@ -18,7 +18,7 @@ pub struct Problem {
     pub position: Option<Position>,
     pub found: String,
     pub allowed: String,
-    pub hint: Option<String>,
+    pub hint: Option<Box<str>>,
     /// Whether it is the second of two keys of that path.
     pub again: bool,
 }
@@ -36,7 +36,7 @@ impl Problem {
     }
 
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(hint.into().into_boxed_str());
         self
     }
 

@@ -216,3 +216,34 @@ fn pipes_devices_and_long_files_are_refused_at_once() {
     }
     assert!(started.elapsed().as_secs_f64() < 5.0, "{:?}", started.elapsed());
 }
+
+/// A recording that somebody brought is made a report of, and replaced by nothing else; nor is a run within a comparison.
+#[test]
+fn what_was_simulated_is_replaced_by_nothing_else() {
+    let place = workplace("kinds");
+    let made = run(&place, &["net.yaml", "--out", "run"]);
+    assert!(matches!(made.status.code(), Some(0..=2)), "{}", error(&made));
+    let recording = std::fs::read(place.join("run/recording.bin")).expect("a recording");
+    std::fs::create_dir(place.join("brought")).expect("a folder");
+    std::fs::write(place.join("brought/recording.bin"), &recording).expect("a recording");
+    let compared = run(&place, &["compare", "run", "run", "--out", "side"]);
+    assert!(matches!(compared.status.code(), Some(0..=2)), "{}", error(&compared));
+    for folder in ["brought", "side/net"] {
+        let before = std::fs::read(place.join(folder).join("recording.bin")).expect("a recording");
+        for refused in [
+            vec!["validate", "A1", "--out", folder],
+            vec!["loads", "net.yaml", "--out", folder],
+            vec!["compare", "run", "run", "--out", folder],
+        ] {
+            let refused_by = run(&place, &refused);
+            assert_eq!(refused_by.status.code(), Some(2), "{refused:?}");
+            assert!(error(&refused_by).contains("name"), "{}", error(&refused_by));
+            assert_eq!(std::fs::read(place.join(folder).join("recording.bin")).expect("it stays"), before);
+        }
+    }
+    let crossed = run(&place, &["compare", "side/net_2", "side/net", "--out", "side"]);
+    assert!(error(&crossed).contains("would be replaced by the report of another"), "{}", error(&crossed));
+    let again = run(&place, &["report", "brought"]);
+    assert!(matches!(again.status.code(), Some(0..=2)), "{}", error(&again));
+    assert!(place.join("brought/report.html").is_file());
+}

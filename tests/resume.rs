@@ -180,19 +180,38 @@ fn what_is_resumed_takes_its_place_under_its_own_name() {
     let source = || {
         let manifest = std::fs::read_to_string(out.join("manifest.json")).expect("a manifest");
         let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
-        (manifest["source"].to_string(), manifest["coming"].to_string())
+        manifest["source"].to_string()
     };
-    let (first, coming) = source();
-    assert_eq!(coming, "null");
+    let first = source();
     let mut child = start(&out, &[]);
     assert!(wait_until_kept(&mut child, &out));
     let _ = child.kill();
     let _ = child.wait();
-    let (still, second) = source();
-    assert!(still == first && second != first && second != "null", "{still} {second}");
+    assert_eq!(source(), first);
+    // A run of a third that keeps nothing leaves it to be resumed, and a validation does not take its place.
+    let mut child = program()
+        .args(["designs/site_a.yaml", "--out", &path])
+        .stderr(Stdio::null())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let _ = child.kill();
+    let _ = child.wait();
+    let refused = run(&["validate", "A1", "--out", &path]);
+    assert!(error(&refused).contains("an interrupted run is kept"), "{}", error(&refused));
     let resumed = run(&["resume", &path]);
     assert!(matches!(resumed.status.code(), Some(0..=2)), "{}", error(&resumed));
-    assert_eq!(source(), (second, "null".to_string()));
+    let second = source();
+    assert!(second != first && second != "null", "{second}");
+    // That of the design itself, which may go on there.
+    let other = folder("owner_by_itself");
+    run(&[DESIGN, "--out", &other.display().to_string()]);
+    let manifest = std::fs::read_to_string(other.join("manifest.json")).expect("a manifest");
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
+    assert_eq!(manifest["source"].to_string(), second);
+    let report = std::fs::read_to_string(out.join("design.yaml")).expect("a design");
+    assert_eq!(report, std::fs::read_to_string(DESIGN).expect("a design"));
 }
 
 /// Killed, with what was kept spoilt on purpose before it is resumed.

@@ -31,6 +31,8 @@ pub struct Order {
     /// Name of the design file without folder and extension, and its bytes.
     pub name: String,
     pub design: Vec<u8>,
+    /// What tells the design file from others of its name, as seen from the folder of the report.
+    pub source: Option<String>,
     pub starts: u32,
     pub vary: bool,
     pub vtk: bool,
@@ -177,7 +179,8 @@ impl Shelf<'_> {
         }
         let path = self.vault.folder.join(&self.name);
         let before = file::previous(&path);
-        for (path, otherwise) in [(&path, "the one before it is used"), (&before, "this simulation begins anew")] {
+        let then = if before.exists() { "the one before it is used" } else { "this simulation begins anew" };
+        for (path, otherwise) in [(&path, then), (&before, "this simulation begins anew")] {
             match read(path, Kind::Simulation, Some(self.print)) {
                 Ok(content) => return Some(content),
                 Err(CheckpointError::Missing) => {}

@@ -2,7 +2,6 @@
 
 use crate::commands::Failure;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::checkpoint::file::CheckpointError;
@@ -11,6 +10,7 @@ use crate::commands::ExitCode;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::{exit_code, hand_over, summarise, write_report};
 use crate::commands::progress::Progress;
+use crate::commands::signals::{listen, stop};
 use crate::design::FidelityWish;
 use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, read_design, read_design_for};
@@ -28,9 +28,6 @@ use crate::terminal;
 
 /// Packings of a run at the most.
 pub const MOST_STARTS: u32 = 1000;
-
-/// Whether Ctrl-C was pressed.
-pub static STOP: AtomicBool = AtomicBool::new(false);
 
 /// How to run a design.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +52,8 @@ pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Durati
     let place = folder.path().to_path_buf();
     tell_what_auto_leaves_out(&file, wishes);
     let Wishes { starts, vary, vtk, .. } = wishes;
-    let order = Order { name: file.name.clone(), design: file.text.clone(), starts, vary, vtk };
+    let source = folder.source().map(str::to_string);
+    let order = Order { name: file.name.clone(), design: file.text.clone(), source, starts, vary, vtk };
     let vault = open_vault(&place, order, &file, keep_every, true);
     if Vault::order_in(vault.folder()).is_ok() {
         terminal::warn(format_args!(
@@ -110,7 +108,7 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
         }
     };
     let Some(mut claimed) = claimed else { return ExitCode::Undecided };
-    claimed.go_on();
+    claimed.go_on_with(order.source.clone());
     if !(1..=MOST_STARTS).contains(&order.starts) {
         terminal::warn(format_args!("error: the run kept in {} asks for {} packings", kept.display(), order.starts));
         return ExitCode::Undecided;
@@ -283,17 +281,6 @@ fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
     }
 }
 
-/// Listens for Ctrl-C and for being asked to end: the first time the run is kept at its next stop and ends, the second time the
-/// program ends at once.
-fn listen() {
-    // Set once; that it cannot be set again for the next of several designs is no matter.
-    let _ = ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(ExitCode::Undecided as i32);
-        }
-    });
-}
-
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress.
 pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Result<Run, Failure> {
     listen();
@@ -303,7 +290,7 @@ pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Resu
         .num_threads(wishes.threads.unwrap_or(0))
         .build()
         .map_err(|error| format!("the threads could not be started ({error}): ask for fewer with --threads"))?;
-    let watch = Watch { progress: &show, stop: &STOP, vault };
+    let watch = Watch { progress: &show, stop: stop(), vault };
     let result = pool.install(|| {
         let mut result = match file.design.simulation.fidelity {
             FidelityWish::Auto => climb(file, wishes.starts, &watch)?,

@@ -34,9 +34,18 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     // Their folders too: no run whose report cannot be written.
     let sources: Vec<Source> = sources.into_iter().flatten().collect();
     let names: Vec<String> = sources.iter().map(|source| free_name(source.name(), &mut folders)).collect();
+    if let Some(overwritten) = overwritten(paths, out, &names) {
+        terminal::warn(format_args!(
+            "error: {} would be replaced by the report of another: name another folder with --out",
+            overwritten.display()
+        ));
+        return ExitCode::Undecided;
+    }
     let claimed = Folder::claim_for(out, Kind::Comparison).and_then(|page| {
-        let inner = |(name, source): (&String, &Source)| page.claim_inner(name, source.kind());
-        let reports = names.iter().zip(&sources).map(inner).collect::<Result<Vec<_>, _>>()?;
+        let inner = |((name, source), path): ((&String, &Source), &PathBuf)| {
+            page.claim_inner(name, source.design_file(path), source.kind())
+        };
+        let reports = names.iter().zip(&sources).zip(paths).map(inner).collect::<Result<Vec<_>, _>>()?;
         Ok((page, reports))
     });
     let (mut page, mut reports) = match claimed {
@@ -48,9 +57,9 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     };
     for (((path, source), folder), report) in paths.iter().zip(sources).zip(names).zip(&mut reports) {
         terminal::warn(format_args!("{}", path.display()));
-        // A page of before does not stand beside reports that are not its own.
-        let withdrawn = put(&mut page, &[]);
-        let ran = withdrawn.and_then(|()| source.run(wishes)).and_then(|run| {
+        let ran = source.run(wishes).and_then(|run| {
+            // A page of before does not stand beside reports that are not its own.
+            put(&mut page, &[])?;
             write_report(&run, report, wishes.vtk)?;
             Ok(run)
         });
@@ -74,6 +83,16 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     variants.iter().map(|variant| exit_code(variant.run.verdict)).max().unwrap_or(ExitCode::Undecided)
 }
 
+/// A folder that is compared and that the report of another would be written into.
+fn overwritten<'a>(paths: &'a [PathBuf], out: &Path, names: &[String]) -> Option<&'a PathBuf> {
+    let targets: Vec<Option<PathBuf>> = names.iter().map(|name| out.join(name).canonicalize().ok()).collect();
+    let of_another = |(own, path): &(usize, &PathBuf)| {
+        let place = path.is_dir().then(|| path.canonicalize().ok()).flatten();
+        place.is_some() && targets.iter().enumerate().any(|(other, target)| other != *own && *target == place)
+    };
+    paths.iter().enumerate().find(of_another).map(|(_, path)| path)
+}
+
 /// What a variant comes from.
 enum Source {
     Design(Box<crate::design::read::DesignFile>),
@@ -93,6 +112,11 @@ impl Source {
             Self::Design(file) => &file.name,
             Self::Recorded(run) => &run.file.name,
         }
+    }
+
+    /// The design file at this path, if that is what it comes from.
+    fn design_file<'a>(&self, path: &'a Path) -> Option<&'a Path> {
+        matches!(self, Self::Design(_)).then_some(path)
     }
 
     fn kind(&self) -> Kind {

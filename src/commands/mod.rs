@@ -7,6 +7,7 @@ pub mod output;
 pub mod progress;
 pub mod report;
 pub mod schema;
+pub mod signals;
 pub mod study;
 pub mod validate;
 

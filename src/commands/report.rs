@@ -4,11 +4,10 @@ use std::path::Path;
 
 use crate::commands::ExitCode;
 use crate::commands::Failure;
-use crate::commands::check::claim;
 use crate::commands::input::{self, LONGEST_RECORDING};
 use crate::commands::output::hand_over;
 use crate::pipeline::Run;
-use crate::report::folder::Named;
+use crate::report::folder::{Folder, Named};
 use crate::report::kind::Kind;
 use crate::report::recording::{self, decode};
 use crate::terminal;
@@ -20,10 +19,16 @@ pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
-        Ok(run) => match claim(folder, None, Named::Explicitly, kind_of(&run)) {
-            Ok(mut folder) => hand_over(&run, &mut folder, with_vtk),
-            Err(code) => code,
-        },
+        Ok(run) => {
+            let claimed = Folder::claim(folder, None, Named::Explicitly);
+            match claimed.and_then(|folder| folder.for_recorded(kind_of(&run))) {
+                Ok(mut folder) => hand_over(&run, &mut folder, with_vtk),
+                Err(refusal) => {
+                    terminal::warn(format_args!("error: {refusal}"));
+                    ExitCode::Undecided
+                }
+            }
+        }
     }
 }
 

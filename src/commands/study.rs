@@ -8,9 +8,10 @@ use sha2::Digest;
 
 use crate::commands::ExitCode;
 use crate::commands::Failure;
-use crate::commands::check::{STOP, load};
+use crate::commands::check::load;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::put;
+use crate::commands::signals::{listen, stop};
 use crate::design::read::DesignFile;
 use crate::report::folder::{Folder, Named, create, folder_name, inner};
 use crate::report::kind::Kind;
@@ -84,7 +85,7 @@ fn stability_map(plan: &StabilityPlan, mut folder: Folder) -> Result<PathBuf, Fa
 fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<(Task, Option<Point>)>, Failure> {
     let program = sha2::Sha256::digest(std::fs::read(std::env::current_exe()?)?);
     let file_of = |task: &Task| kept.join(format!("{}.json", key(task, &scenes[task.scene], &program)));
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    listen();
     let bar = ProgressBar::new(tasks.len() as u64);
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len}  {msg}  {eta} left");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
@@ -93,13 +94,15 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
     let results = side_by_side(threads, tasks.len(), |index| -> Result<Option<Point>, String> {
         let task = &tasks[index];
         let file = file_of(task);
-        if let Some(point) = std::fs::read(&file).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()) {
+        if let Some(point) =
+            input::read(&file, LONGEST_TEXT, b"").ok().and_then(|bytes| serde_json::from_slice(&bytes).ok())
+        {
             found.fetch_add(1, Ordering::Relaxed);
             bar.inc(1);
             return Ok(Some(point));
         }
         bar.set_message(format!("{}, {}", scenes[task.scene].name, task.setting.word()));
-        let watch = Watch { progress: &|_| (), stop: &STOP, vault: None };
+        let watch = Watch { progress: &|_| (), stop: stop(), vault: None };
         let point = match make(task, &scenes[task.scene].design, &watch) {
             Ok(point) => point,
             Err(RunError::Preparation(_)) => return Ok(None),

@@ -198,7 +198,7 @@ impl Reader<'_> {
             }
             Err((found, hint)) => {
                 let mut problem = Problem::new(path, found, key.kind.allowed());
-                problem.hint = hint;
+                problem.hint = hint.map(String::into_boxed_str);
                 self.problems.push(problem);
             }
         }

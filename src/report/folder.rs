@@ -54,6 +54,8 @@ pub enum Refusal {
     OtherDesign(String),
     #[error("{0} holds {1}, whose place {2} would take: name another folder with --out")]
     OtherKind(String, &'static str, &'static str),
+    #[error("in {0} an interrupted run is kept: resume it first, or name another folder with --out")]
+    Interrupted(String),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
     Taken(String),
     #[error("the report could not be written to {0}: {1}")]
@@ -77,6 +79,8 @@ pub struct Folder {
     manifest: Manifest,
     /// The design file whose report is to be written.
     source: Option<String>,
+    /// Whether all there is of the program's is a recording that was brought here.
+    brought: bool,
     // Last, so that the folder is in order before the next may have it.
     lock: Option<Lock>,
 }
@@ -90,13 +94,20 @@ impl Folder {
         }
         let there_before = path.exists();
         fs::create_dir_all(path).map_err(unwritable)?;
-        let mut folder =
-            Self { path: path.to_path_buf(), there_before, manifest: Manifest::default(), source: None, lock: None };
+        let mut folder = Self {
+            path: path.to_path_buf(),
+            there_before,
+            manifest: Manifest::default(),
+            source: None,
+            brought: false,
+            lock: None,
+        };
         folder.whose()?;
         folder.lock =
             Some(Lock::take(path).map_err(unwritable)?.ok_or_else(|| Refusal::Taken(path.display().to_string()))?);
         // Another run may have ended in between.
         folder.whose()?;
+        folder.brought = folder.manifest.files.keys().eq([recording::FILE]);
         let place = source.and_then(|source| place_beside(source, path));
         if named == Named::ByDefault
             && let (Some(known), Some(place)) = (&folder.manifest.source, &place)
@@ -111,7 +122,6 @@ impl Folder {
         folder.remove_leftovers();
         // Another's report stays another's until this one is written.
         folder.manifest.source = folder.manifest.source.take().or(place.clone());
-        folder.manifest.coming = place.clone().or(folder.manifest.coming.take());
         folder.source = place;
         if folder.manifest.program.is_empty() {
             folder.manifest.program = PROGRAM.to_string();
@@ -120,19 +130,41 @@ impl Folder {
         Ok(folder)
     }
 
-    /// What is written will be the report that was on its way when a run was interrupted.
-    pub fn go_on(&mut self) {
-        self.source = self.manifest.coming.clone();
+    /// What tells the design file whose report is to be written from others of its name.
+    pub fn source(&self) -> Option<&str> {
+        self.source.as_deref()
+    }
+
+    /// What is written will be the report of another design file: of the run that was interrupted.
+    pub fn go_on_with(&mut self, source: Option<String>) {
+        self.source = source;
+    }
+
+    /// The folder, if the report of its own recording may be made again in it.
+    pub fn for_recorded(self, kind: Kind) -> Result<Self, Refusal> {
+        if self.brought { Ok(self) } else { self.for_kind(kind) }
     }
 
     /// The folder, if a report of this kind may be written into it.
     pub fn for_kind(self, kind: Kind) -> Result<Self, Refusal> {
+        let place = || self.path.display().to_string();
+        if self.brought {
+            return Err(Refusal::Foreign(place(), recording::FILE.to_string()));
+        }
+        if kind != Kind::Simulation && self.keeps_a_run() {
+            return Err(Refusal::Interrupted(place()));
+        }
         match Kind::of(self.manifest.files.keys()) {
             Some(there) if !kind.may_replace(there) => {
                 Err(Refusal::OtherKind(self.path.display().to_string(), there.words(), kind.words()))
             }
             _ => Ok(self),
         }
+    }
+
+    /// Whether an interrupted run is kept here, to be resumed.
+    fn keeps_a_run(&self) -> bool {
+        starts_with(&self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER), checkpoint::file::NAME)
     }
 
     /// Takes a folder for what is made from no single design: a comparison, a validation.
@@ -143,10 +175,10 @@ impl Folder {
     }
 
     /// Takes a folder within this one, of a report of its own.
-    pub fn claim_inner(&self, name: &str, kind: Kind) -> Result<Self, Refusal> {
+    pub fn claim_inner(&self, name: &str, source: Option<&Path>, kind: Kind) -> Result<Self, Refusal> {
         let path = inner(&self.path, name)
             .map_err(|error| Refusal::Unwritable(self.path.join(name).display().to_string(), error))?;
-        Self::claim(&path, None, Named::Explicitly)?.for_kind(kind)
+        Self::claim(&path, source, Named::ByDefault)?.for_kind(kind)
     }
 
     pub fn path(&self) -> &Path {
@@ -166,8 +198,7 @@ impl Folder {
         // A recording that was brought here is to have its report; a run that was interrupted is to go on.
         let recording = self.path.join(recording::FILE);
         let recorded = starts_with(&recording, recording::NAME).then(|| digest_in(&recording)).flatten();
-        let order = self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER);
-        let kept = starts_with(&order, checkpoint::file::NAME);
+        let kept = self.keeps_a_run();
         let mut foreign = self.others();
         if fs::symlink_metadata(&place).is_ok() {
             foreign.push(manifest::FILE.to_string());
@@ -222,7 +253,6 @@ impl Folder {
         if placed.is_ok() {
             self.manifest.replaced.clear();
             self.manifest.source = self.source.clone().or(self.manifest.source.take());
-            self.manifest.coming = None;
             self.remove_leftovers();
         }
         self.put_manifest()?;

@@ -17,9 +17,6 @@ pub struct Manifest {
     /// What tells the design file they were made from, by its place beside the folder, from others of the same name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
-    /// The same of the run that is on its way: should it be interrupted, whoever resumes it knows whose it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub coming: Option<String>,
     pub files: BTreeMap<String, String>,
     /// While files are being replaced, what may stand there still.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -50,7 +47,7 @@ impl Manifest {
         for (name, digest) in self.files {
             replaced.entry(name).or_default().push(digest);
         }
-        Self { program, source: self.source, coming: self.coming, files, replaced }
+        Self { program, source: self.source, files, replaced }
     }
 
     /// Names of all files that the program has put there.
