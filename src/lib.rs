@@ -29,6 +29,10 @@
 //! | a warning to the reviewer | a function and a line in [`report::warnings`]; a usual range of an input in [`checks::implausible`] |
 //! | a field of `result.json` | [`report::json`]; raise its `schema_version` where one changes or goes |
 //! | where a rule is from | [`sources`] |
+//! | a part of the program | a module here, and in `WALLS` of `tests/walls.rs` whom it may name |
+//! | a unit | a line in [`units`] |
+//! | a set of factors that a code gives | [`design::factor_sets`] |
+//! | a kind of report | [`report::kind`] |
 //! | a command | a file in [`commands`], its arguments in `src/main.rs` |
 //! | a time series | [`dem::recorders`] and a column in [`report::series`] |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
@@ -43,8 +47,8 @@
 //! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
 //!
 //! # Invariants
-//! * `design` imports nothing above it; `dem` imports no other part; `loads` and `checks` never see `dem`. A test keeps
-//!   these walls.
+//! * The engine is a crate of its own, `crates/dem`, so that the compiler keeps it from the rest. `design` imports nothing above it; `loads`
+//!   and `checks` never see `dem`; no two files need each other. `tests/walls.rs` keeps these walls: it reads every path of the code.
 //! * Everything inside is SI; units live at the borders, in [`units`].
 //! * The same file and seed give the same result bit for bit, on any number of threads: work is cut into blocks by the
 //!   number of grains alone, blocks never write each other's rows, and sums run in a fixed order. Vector instructions
@@ -62,25 +66,28 @@
 //!   [`dem::crew`], [`dem::simd`], [`dem::tables::prefetch`], and around the rows that are moved while others are read
 //!   ([`dem::tables::grain_rows`], [`dem::sweep`]).
 
-pub mod checkpoint;
+// The map above is for those who work on the crate.
+#![allow(rustdoc::private_intra_doc_links)]
+
+mod checkpoint;
 pub mod checks;
 pub mod commands;
 pub mod demand;
 pub mod design;
 pub mod fidelity;
 pub mod load_cases;
-pub mod loads;
+mod loads;
 pub mod pipeline;
-pub mod problem;
-pub mod program;
+mod problem;
+mod program;
 pub mod report;
 pub mod scene;
 pub mod sealed;
-pub mod sensitivity;
+mod sensitivity;
 pub mod simulated;
-pub mod sources;
-pub mod starts;
-pub mod studies;
+mod sources;
+mod starts;
+mod studies;
 pub mod terminal;
-pub mod units;
+mod units;
 pub mod validation;

@@ -6,7 +6,7 @@
 //! ([`dem::simulation::Simulation::at_stop`]), where all that it depends on can be kept; so the result is that of a run that was
 //! never interrupted, bit for bit.
 
-pub mod file;
+pub(crate) mod file;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

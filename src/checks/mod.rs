@@ -1,22 +1,22 @@
 //! Limit states, one file each. Nothing here sees the simulation: demands come ready.
 
-pub mod anchors;
-pub mod bolts;
-pub mod brakes;
+pub(crate) mod anchors;
+pub(crate) mod bolts;
+pub(crate) mod brakes;
 pub mod credibility;
 pub mod detailing;
-pub mod height;
-pub mod implausible;
-pub mod not_covered;
+pub(crate) mod height;
+pub(crate) mod implausible;
+pub(crate) mod not_covered;
 pub mod outcome;
-pub mod range;
-pub mod retained;
-pub mod ropes;
-pub mod total_force;
-pub mod wall;
-pub mod wall_local;
-pub mod wall_moment;
-pub mod wear;
+pub(crate) mod range;
+pub(crate) mod retained;
+pub(crate) mod ropes;
+pub(crate) mod total_force;
+pub(crate) mod wall;
+pub(crate) mod wall_local;
+pub(crate) mod wall_moment;
+pub(crate) mod wear;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;

@@ -2,12 +2,12 @@
 
 pub mod check;
 pub mod compare;
-pub mod input;
-pub mod output;
-pub mod progress;
+pub(crate) mod input;
+pub(crate) mod output;
+pub(crate) mod progress;
 pub mod report;
 pub mod schema;
-pub mod signals;
+pub(crate) mod signals;
 pub mod study;
 pub mod validate;
 

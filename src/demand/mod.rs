@@ -1,9 +1,9 @@
 //! What the barrier must bear: the only place where the two load routes, guideline and simulation, meet.
 
-pub mod coefficients;
+pub(crate) mod coefficients;
 pub mod from_histories;
 pub mod from_loads;
-pub mod larger;
+pub(crate) mod larger;
 
 use self::from_histories::Observed;
 use self::from_loads::{Guideline, RopeLoad};

@@ -1,22 +1,22 @@
 //! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
 
-pub mod document;
+pub(crate) mod document;
 pub mod entries;
-pub mod factor_sets;
-pub mod flow_entries;
-pub mod grain_lengths;
-pub mod grain_multiple;
-pub mod key;
-pub mod net_rules;
+pub(crate) mod factor_sets;
+pub(crate) mod flow_entries;
+pub(crate) mod grain_lengths;
+pub(crate) mod grain_multiple;
+pub(crate) mod key;
+pub(crate) mod net_rules;
 pub mod read;
-pub mod resolve;
-pub mod rope_rules;
-pub mod rules;
-pub mod schema;
-pub mod show;
-pub mod sizes;
-pub mod wall_rules;
-pub mod yaml_faults;
+pub(crate) mod resolve;
+pub(crate) mod rope_rules;
+pub(crate) mod rules;
+pub(crate) mod schema;
+pub(crate) mod show;
+pub(crate) mod sizes;
+pub(crate) mod wall_rules;
+pub(crate) mod yaml_faults;
 
 use self::sizes::SizeCurve;
 

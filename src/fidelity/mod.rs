@@ -1,6 +1,6 @@
 //! How finely to model, and why.
 
-pub mod ladder;
+pub(crate) mod ladder;
 
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, Rope};
 use crate::scene::flow::release::bodies;

@@ -1,11 +1,11 @@
 //! Loads by equations: cases of the guideline, other models, ropes, retention. Knows nothing of the simulation.
 
-pub mod cases;
-pub mod estimates;
-pub mod fill;
-pub mod input;
-pub mod ladder;
-pub mod pressure;
-pub mod rope;
-pub mod run_up;
-pub mod wall;
+pub(crate) mod cases;
+pub(crate) mod estimates;
+pub(crate) mod fill;
+pub(crate) mod input;
+pub(crate) mod ladder;
+pub(crate) mod pressure;
+pub(crate) mod rope;
+pub(crate) mod run_up;
+pub(crate) mod wall;

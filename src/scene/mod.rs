@@ -1,8 +1,8 @@
 //! From a design to bodies: `Design` + `Fidelity` → `dem::Model`.
 
 pub mod build;
-pub mod estimate;
+pub(crate) mod estimate;
 pub mod event;
 pub mod flow;
-pub mod net;
-pub mod patience;
+pub(crate) mod net;
+pub(crate) mod patience;

@@ -1,6 +1,6 @@
 //! How far the verdict of the equations moves when an input does, and how much the flow may grow.
 
-pub mod simulated;
+pub(crate) mod simulated;
 
 use serde::{Deserialize, Serialize};
 

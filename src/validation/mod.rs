@@ -3,11 +3,11 @@
 //! The names A1, B4, C5 … are those of the project's list of verification cases.
 
 pub mod barrier;
-pub mod bulk;
+pub(crate) mod bulk;
 pub mod case;
-pub mod contact;
+pub(crate) mod contact;
 pub mod scenes;
-pub mod wall;
+pub(crate) mod wall;
 
 use case::Case;
 

@@ -1,6 +1,8 @@
 //! The engine: rigid grains, fixed surfaces and a barrier of ropes, stepped in time. SI numbers only; knows
 //! nothing of designs, guidelines or reports.
 
+#![allow(rustdoc::private_intra_doc_links)]
+
 pub mod contact;
 pub mod crew;
 pub mod elements;

@@ -1,17 +1,17 @@
 //! Loads and courses of the event that neither the equations nor the simulation of the first surge cover, one file each: checks that
 //! would pass without them stay open, whatever `limits.outside_range` says, because that lets formulas stand, not gaps.
 
-pub mod drag;
-pub mod full_barrier;
-pub mod harder_flow;
-pub mod known;
-pub mod later_surges;
-pub mod load_factor;
-pub mod not_simulated;
-pub mod rigid_wall;
-pub mod short_peaks;
-pub mod side_strips;
-pub mod thinner_flow;
+pub(crate) mod drag;
+pub(crate) mod full_barrier;
+pub(crate) mod harder_flow;
+pub(crate) mod known;
+pub(crate) mod later_surges;
+pub(crate) mod load_factor;
+pub(crate) mod not_simulated;
+pub(crate) mod rigid_wall;
+pub(crate) mod short_peaks;
+pub(crate) mod side_strips;
+pub(crate) mod thinner_flow;
 
 use self::known::Known;
 use crate::checks::outcome::Outcome;

@@ -2,14 +2,14 @@
 //!
 //! Forces are per metre of width and along the channel; stages after Wendeler 2008 and Volkwein 2014.
 
-pub mod drained;
-pub mod first_surge;
-pub mod full;
-pub mod later_surge;
-pub mod load_case;
-pub mod overtopped;
-pub mod point_load;
-pub mod snow;
+pub(crate) mod drained;
+pub(crate) mod first_surge;
+pub(crate) mod full;
+pub(crate) mod later_surge;
+pub(crate) mod load_case;
+pub(crate) mod overtopped;
+pub(crate) mod point_load;
+pub(crate) mod snow;
 
 use self::load_case::{Extras, LoadCase};
 use crate::loads::input::GuidelineInput;

@@ -1,12 +1,12 @@
 //! Charts as plain SVG, so that the report opens offline and prints sharply.
 
-pub mod elevation;
-pub mod line_chart;
-pub mod pareto;
-pub mod pressure;
-pub mod profile;
-pub mod side_view;
-pub mod utilisation;
+pub(crate) mod elevation;
+pub(crate) mod line_chart;
+pub(crate) mod pareto;
+pub(crate) mod pressure;
+pub(crate) mod profile;
+pub(crate) mod side_view;
+pub(crate) mod utilisation;
 
 /// Text as it may stand in SVG.
 pub(in crate::report) fn escape(text: &str) -> String {

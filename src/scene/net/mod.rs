@@ -1,7 +1,7 @@
 //! The flexible barrier: mesh, main and lateral ropes, dissipators and anchors, as nodes and elements.
 
-pub mod build;
+pub(crate) mod build;
 mod extension;
-pub mod grid;
-pub mod ring_shape;
-pub mod rings;
+pub(crate) mod grid;
+pub(crate) mod ring_shape;
+pub(crate) mod rings;

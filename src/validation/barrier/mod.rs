@@ -1,11 +1,11 @@
 //! Ropes, cylinders, nets and dissipators alone, against closed forms and tests; whole barriers against the thesis.
 
-pub mod beams;
-pub mod brakes;
-pub mod contacts;
-pub mod full_scale;
-pub mod pieces;
-pub mod punching;
-pub mod ropes;
+pub(crate) mod beams;
+pub(crate) mod brakes;
+pub(crate) mod contacts;
+pub(crate) mod full_scale;
+pub(crate) mod pieces;
+pub(crate) mod punching;
+pub(crate) mod ropes;
 pub mod stand;
-pub mod variations;
+pub(crate) mod variations;

@@ -1,5 +1,5 @@
 //! Many grains.
 
-pub mod collapse;
-pub mod packing;
-pub mod silo;
+pub(crate) mod collapse;
+pub(crate) mod packing;
+pub(crate) mod silo;

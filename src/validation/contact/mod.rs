@@ -1,15 +1,15 @@
 //! One contact, or one grain.
 
-pub mod bounces;
-pub mod chain;
-pub mod clump_body;
-pub mod coarse_steps;
-pub mod cooling;
-pub mod energy;
-pub mod gears;
-pub mod oblique;
-pub mod restitution;
-pub mod rolling;
-pub mod transient;
-pub mod wall_restitution;
-pub mod weight;
+pub(crate) mod bounces;
+pub(crate) mod chain;
+pub(crate) mod clump_body;
+pub(crate) mod coarse_steps;
+pub(crate) mod cooling;
+pub(crate) mod energy;
+pub(crate) mod gears;
+pub(crate) mod oblique;
+pub(crate) mod restitution;
+pub(crate) mod rolling;
+pub(crate) mod transient;
+pub(crate) mod wall_restitution;
+pub(crate) mod weight;

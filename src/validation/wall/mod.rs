@@ -1,8 +1,8 @@
 //! Grains on rigid walls.
 
-pub mod calibration;
-pub mod impulse;
-pub mod laboratory;
-pub mod slopes;
-pub mod surge;
-pub mod variants;
+pub(crate) mod calibration;
+pub(crate) mod impulse;
+pub(crate) mod laboratory;
+pub(crate) mod slopes;
+pub(crate) mod surge;
+pub(crate) mod variants;

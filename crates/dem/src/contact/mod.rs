@@ -5,7 +5,7 @@
 
 pub mod grain_pairs;
 pub mod grain_touch;
-pub mod lane_sums;
+pub(crate) mod lane_sums;
 pub mod law;
 pub mod pair_list;
 pub mod restitution;

@@ -1,13 +1,13 @@
 //! Who might touch whom: trees of boxes, and candidate lists with a skin so that they are renewed only
 //! when something has moved far enough.
 
-pub mod alarms;
-pub mod blocks;
+pub(crate) mod alarms;
+pub(crate) mod blocks;
 pub mod broad_phase;
-pub mod candidates;
+pub(crate) mod candidates;
 pub mod clocks;
-pub mod drift;
-pub mod kept;
-pub mod memory_rows;
-pub mod order;
-pub mod renew;
+pub(crate) mod drift;
+pub(crate) mod kept;
+pub(crate) mod memory_rows;
+pub(crate) mod order;
+pub(crate) mod renew;

@@ -1,8 +1,8 @@
 //! What is written down while a model runs.
 
-pub mod bolts;
-pub mod dead_zone;
-pub mod deposit;
+pub(crate) mod bolts;
+pub(crate) mod dead_zone;
+pub(crate) mod deposit;
 pub mod film;
 pub mod gauge;
 pub mod histories;

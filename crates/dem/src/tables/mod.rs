@@ -2,10 +2,10 @@
 
 pub mod barrier;
 pub mod grain_rows;
-pub mod grain_table;
+pub(crate) mod grain_table;
 pub mod grains;
-pub mod load_sheets;
-pub mod moving_rows;
+pub(crate) mod load_sheets;
+pub(crate) mod moving_rows;
 pub mod nodes;
 pub mod prefetch;
 pub mod surfaces;
