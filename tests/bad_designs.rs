@@ -31,6 +31,15 @@ fn the_shipped_designs_are_good() {
 }
 
 #[test]
+fn the_design_of_the_readme_is_good() {
+    let readme = include_str!("../README.md");
+    let design = readme.split("```yaml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a design");
+    if let Err(problems) = read_design("README.md", design.as_bytes()) {
+        panic!("{problems}");
+    }
+}
+
+#[test]
 fn a_huge_file_and_a_byte_order_mark() {
     let huge = vec![b'#'; 3 << 20];
     let problems = read_design("huge.yaml", &huge).expect_err("too large");
