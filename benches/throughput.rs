@@ -23,11 +23,11 @@ use barrier_check::validation::barrier::stand::{cantilever, line, rope};
 use criterion::{Criterion, Throughput, criterion_group};
 use dem::Vec3;
 use dem::contact::law::LawConstants;
-use dem::crew::gather;
 use dem::neighbours::broad_phase::{Box3, BoxTree};
 use dem::net::pull_all;
 use dem::simulation::Simulation;
 use dem::tables::grains::GrainShape;
+use dem::workers::gather;
 use states::{Phase, RADIUS, SKIN, State};
 
 /// Steps before the clock starts.

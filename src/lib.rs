@@ -63,7 +63,7 @@
 //! * A run that is kept at a stop and resumed goes on bit for bit ([`checkpoint`]): whatever a step depends on is either kept or made
 //!   anew at every stop of every run.
 //! * Only [`commands`] and the writers of reports and checkpoints touch files; only one file names the broad-phase library; `unsafe` stands in
-//!   [`dem::crew`], [`dem::simd`], [`dem::tables::prefetch`], and around the rows that are moved while others are read
+//!   [`dem::workers`], [`dem::simd`], [`dem::tables::prefetch`], and around the rows that are moved while others are read
 //!   ([`dem::tables::grain_rows`], [`dem::sweep`]).
 
 // The map above is for those who work on the crate.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process;
 use std::time::Duration;
 
-use barrier_check::commands::check::{MOST_STARTS, Wishes, check, dry_run, loads, resume};
+use barrier_check::commands::check::{MOST_STARTS, Options, check, dry_run, loads, resume};
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
@@ -78,8 +78,8 @@ struct HowArguments {
 }
 
 impl HowArguments {
-    fn wishes(&self) -> Wishes {
-        Wishes { threads: self.threads.map(usize::from), starts: self.seeds, vary: self.vary, vtk: self.vtk }
+    fn options(&self) -> Options {
+        Options { threads: self.threads.map(usize::from), starts: self.seeds, vary: self.vary, vtk: self.vtk }
     }
 }
 
@@ -204,7 +204,7 @@ fn run() -> i32 {
             }
         }
         Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
-        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.wishes()) as i32,
+        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options()) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
         Some(Command::Resume { folder, threads, keep }) => {
             resume(&folder, threads.map(usize::from), keep.every()) as i32
@@ -217,8 +217,8 @@ fn run() -> i32 {
             let CheckArguments { design, dry_run: only_tell, out, how, keep } = arguments.check;
             let design = design.unwrap_or_default();
             match only_tell {
-                true => dry_run(&design, how.wishes()) as i32,
-                false => check(&design, out.as_deref(), how.wishes(), keep.every()) as i32,
+                true => dry_run(&design, how.options()) as i32,
+                false => check(&design, out.as_deref(), how.options(), keep.every()) as i32,
             }
         }
     }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use crate::checkpoint::Shelf;
+use crate::checkpoint::Slot;
 use crate::checks::credibility::{Numerics, doubts};
 use crate::demand::Seen;
 use crate::demand::from_histories::{Observed, Reading};
@@ -18,12 +18,12 @@ use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
 use crate::scene::flow::packing::PackingError;
 use crate::starts::Spread;
-use dem::crew;
 use dem::ledger::Ledger;
 use dem::recorders::histories::Histories;
 use dem::simulation::Simulation;
 use dem::tables::grains::Grain;
 use dem::time::stable_step::StepRatio;
+use dem::workers;
 
 /// What the simulation shows: the first start in full, of every start what was observed.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -160,11 +160,11 @@ impl Halfway<Ongoing> {
         seed: u64,
         stop: &AtomicBool,
         from: Option<Ready>,
-        shelf: Option<&Shelf>,
+        slot: Option<&Slot>,
     ) -> Result<Self, RunError> {
         let mut keep = |prepared: Prepared<&[Grain], &Simulation>, last: bool| {
-            if let Some(shelf) = shelf {
-                shelf.keep(&Kept::<_, Halfway<Ongoing>, Simulated>::Preparing(prepared), last);
+            if let Some(slot) = slot {
+                slot.keep(&Kept::<_, Halfway<Ongoing>, Simulated>::Preparing(prepared), last);
             }
         };
         let watched = Preparing { stop, from, keep: &mut keep };
@@ -199,8 +199,8 @@ pub fn simulate(
     if let Some(reason) = estimate(design, fidelity).too_much() {
         return Err(RunError::TooMuch(reason));
     }
-    let shelf = watch.vault.map(|vault| vault.shelf(&format!("{design:?} {fidelity:?} {seed} {detail:?}")));
-    let (ready, halfway) = match shelf.as_ref().and_then(|shelf| shelf.take()) {
+    let slot = watch.store.map(|store| store.slot(&format!("{design:?} {fidelity:?} {seed} {detail:?}")));
+    let (ready, halfway) = match slot.as_ref().and_then(|slot| slot.take()) {
         Some(Kept::<Ready, _, Simulated>::Done(done)) => return Ok(Simulated { fidelity: fidelity.clone(), ..done }),
         Some(Kept::Halfway(halfway)) => (None, Some(halfway)),
         Some(Kept::Preparing(ready)) => (Some(ready), None),
@@ -209,18 +209,18 @@ pub fn simulate(
     if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
         return Err(RunError::Interrupted);
     }
-    crew::gather(|| {
+    workers::gather(|| {
         let started = Instant::now();
         let Halfway { mut facts, samples, ongoing } = match halfway {
             Some(halfway) => halfway,
-            None => Halfway::begin(design, fidelity, seed, watch.stop, ready, shelf.as_ref())?,
+            None => Halfway::begin(design, fidelity, seed, watch.stop, ready, slot.as_ref())?,
         };
         let before = facts.wall_clock;
         let spent = || before + started.elapsed().as_secs_f64();
         let event = ongoing.go_on(design.simulation.longest, watch, |ongoing, last| {
-            if let Some(shelf) = &shelf {
+            if let Some(slot) = &slot {
                 let facts = Facts { wall_clock: spent(), ..facts.clone() };
-                shelf.keep(&Kept::<Ready, _, Simulated>::Halfway(Halfway { facts, samples, ongoing }), last);
+                slot.keep(&Kept::<Ready, _, Simulated>::Halfway(Halfway { facts, samples, ongoing }), last);
             }
         });
         if event.ending == Ending::Interrupted {
@@ -246,8 +246,8 @@ pub fn simulate(
         let (starts, doubts) = (vec![Start { seed, observed }], doubts(&numerics));
         let factored = Vec::new();
         let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, factored, doubts };
-        if let Some(shelf) = &shelf {
-            shelf.finish(&Kept::<Ready, Halfway<Ongoing>, _>::Done(&simulated));
+        if let Some(slot) = &slot {
+            slot.finish(&Kept::<Ready, Halfway<Ongoing>, _>::Done(&simulated));
         }
         Ok(simulated)
     })
@@ -260,8 +260,8 @@ pub fn numerics(event: &Event) -> Numerics {
         overlap: event.simulation.extremes.overlap_ratio,
         step_ratio: event.simulation.extremes.step_ratio.value,
         crossings: event.simulation.extremes.crossings,
-        strays: event.strays,
-        stray_share: event.stray_share,
+        escaped: event.escaped,
+        escaped_share: event.escaped_share,
         packing_shortfall: 0.0,
         stored_at_release: 0.0,
         stopped_upstream: event.histories.stopped_upstream,

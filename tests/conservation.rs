@@ -5,10 +5,10 @@ use barrier_check::validation::scenes::{ball, cloud, floor, free_model, material
 use dem::Vec3;
 use dem::contact::grain_pairs::Members;
 use dem::contact::pair_list::Separation;
-use dem::crew::gather;
 use dem::model::Model;
 use dem::simulation::{Simulation, Unstable};
 use dem::tables::grains::GrainShape;
+use dem::workers::gather;
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {

@@ -19,7 +19,7 @@ fn file() -> DesignFile {
 }
 
 fn watched<T>(work: impl FnOnce(&Watch) -> T) -> T {
-    work(&Watch { progress: &|_| (), stop: &AtomicBool::new(false), vault: None })
+    work(&Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None })
 }
 
 /// The event with a fault in its scene at the moment of release.

@@ -14,7 +14,7 @@ fn digest(model: BarrierModel, threads: usize, steps: usize) -> String {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {
         let mut simulation = build(&design, &choose(&design), 1).expect("a scene").simulation;
-        dem::crew::gather(|| {
+        dem::workers::gather(|| {
             for _ in 0..steps {
                 simulation.step().expect("stable");
             }

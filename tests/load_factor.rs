@@ -50,7 +50,7 @@ fn course(design: &Design, scale: Option<f64>) -> (f64, Vec<f64>) {
     }
     let mut tensions = Vec::new();
     let mut stroke: f64 = 0.0;
-    dem::crew::gather(|| {
+    dem::workers::gather(|| {
         for number in 0..22_000 {
             scene.simulation.step().expect("stable");
             if number % 100 == 0 {

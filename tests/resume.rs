@@ -100,7 +100,7 @@ fn kill_and_resume(name: &str, times: u64, more: &[&str], seed: u64) {
         std::thread::sleep(Duration::from_millis(random.u64(0..80)));
         let _ = child.kill();
         let _ = child.wait();
-        if !out.join("checkpoint/order.bin").exists() {
+        if !out.join("checkpoint/request.bin").exists() {
             break; // It was done just before.
         }
         let threads = ["1", "2", "3"][time as usize % 3];
@@ -228,7 +228,8 @@ fn spoilt(name: &str, spoil: impl Fn(&Path)) -> (PathBuf, Output) {
 
 fn simulation_in(kept: &Path, end: &str) -> PathBuf {
     let files = std::fs::read_dir(kept).expect("a folder").flatten().map(|file| file.path());
-    let mut ours = files.filter(|path| path.extension().is_some_and(|has| has == end) && !path.ends_with("order.bin"));
+    let mut ours =
+        files.filter(|path| path.extension().is_some_and(|has| has == end) && !path.ends_with("request.bin"));
     ours.next().unwrap_or_else(|| kept.join(format!("none.{end}")))
 }
 
@@ -279,7 +280,7 @@ fn what_is_spoilt_is_told_and_the_one_before_is_used() {
     );
     assert_eq!(whole, numbers(&out));
     // Without the order nobody knows what to go on with.
-    let (out, output) = spoilt("order", |kept| flip_a_bit(&kept.join("order.bin")));
+    let (out, output) = spoilt("order", |kept| flip_a_bit(&kept.join("request.bin")));
     assert_eq!(output.status.code(), Some(2));
     assert!(error(&output).contains("cannot be resumed"), "{}", error(&output));
     assert!(!out.join("result.json").exists());
@@ -359,7 +360,9 @@ fn simulations_of_one_run_are_not_taken_for_each_other() {
     let kept = out.join("checkpoint");
     let files = || -> Vec<PathBuf> {
         let files = std::fs::read_dir(&kept).into_iter().flatten().flatten().map(|file| file.path());
-        files.filter(|path| path.extension().is_some_and(|end| end == "bin") && !path.ends_with("order.bin")).collect()
+        files
+            .filter(|path| path.extension().is_some_and(|end| end == "bin") && !path.ends_with("request.bin"))
+            .collect()
     };
     while files().len() < 2 {
         std::thread::sleep(Duration::from_millis(5));

@@ -1,4 +1,4 @@
-//! The files of a vault: written whole or not at all, checked when read.
+//! The files of a store: written whole or not at all, checked when read.
 //!
 //! Sealed ([`crate::sealed`]), in the wire format of postcard: what kind of file it is, the program that wrote it, the SHA-256 of the
 //! design it belongs to, and the content. A file is written beside its place, synced and renamed; the one it replaces stays as the one before.
@@ -42,7 +42,7 @@ pub enum CheckpointError {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
-    Order,
+    Request,
     Simulation,
 }
 
@@ -119,7 +119,7 @@ pub fn read<T: DeserializeOwned>(path: &Path, kind: Kind, design: Option<[u8; 32
     }
 }
 
-/// Removes a vault's folder with what the program has put there, and nothing else; a link is left alone.
+/// Removes a store's folder with what the program has put there, and nothing else; a link is left alone.
 pub fn clear(folder: &Path) {
     if fs::symlink_metadata(folder).map_or(true, |found| !found.is_dir()) {
         return;
@@ -132,7 +132,7 @@ pub fn clear(folder: &Path) {
     let _ = fs::remove_dir(folder);
 }
 
-/// Removes the simulations of a vault but for those named.
+/// Removes the simulations of a store but for those named.
 pub fn clear_others(folder: &Path, names: &BTreeSet<String>) {
     for name in simulations(folder).into_iter().filter(|name| !names.contains(name)) {
         let path = folder.join(name);
@@ -142,20 +142,20 @@ pub fn clear_others(folder: &Path, names: &BTreeSet<String>) {
     }
 }
 
-/// Names of the files of simulations in a vault's folder.
+/// Names of the files of simulations in a store's folder.
 pub fn simulations(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten().filter(|entry| is_ours(&entry.path()));
     let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| name.ends_with(".bin") && !name.starts_with("order")).collect()
+    names.filter(|name| name.ends_with(".bin") && !name.starts_with("request")).collect()
 }
 
-/// Whether a file is the program's: named `order` or by sixteen hexadecimal digits, with one of three endings, and beginning as all of
+/// Whether a file is the program's: named `request` or by sixteen hexadecimal digits, with one of three endings, and beginning as all of
 /// them do. One that was cut short while it was written may lack its beginning.
 fn is_ours(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let Some((stem, end)) = name.rsplit_once('.') else { return false };
     let hexadecimal = stem.len() == 16 && stem.bytes().all(|letter| letter.is_ascii_hexdigit());
-    let named = ["bin", "before", "tmp"].contains(&end) && (stem == "order" || hexadecimal);
+    let named = ["bin", "before", "tmp"].contains(&end) && (stem == "request" || hexadecimal);
     let mut head = Vec::new();
     let regular = named && fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
     let read = regular && File::open(path).and_then(|file| file.take(NAME.len() as u64).read_to_end(&mut head)).is_ok();
@@ -216,7 +216,7 @@ mod tests {
         let path = place("theirs");
         let folder = path.parent().expect("a folder");
         fs::create_dir_all(folder).expect("a folder");
-        let theirs = ["order.before", "0123456789abcdef.bin", "fedcba9876543210.tmp"].map(|name| folder.join(name));
+        let theirs = ["request.before", "0123456789abcdef.bin", "fedcba9876543210.tmp"].map(|name| folder.join(name));
         theirs.iter().for_each(|path| fs::write(path, "mine").expect("a file"));
         assert!(write(&path, Kind::Simulation, Some([1; 32]), &1_u8).is_err());
         assert!(write(&folder.join("00112233445566aa.bin"), Kind::Simulation, Some([1; 32]), &1_u8).is_ok());
@@ -231,12 +231,12 @@ mod tests {
     #[test]
     fn another_version_is_told_by_name() {
         let path = place("version");
-        let label = Label { kind: Kind::Order, program: "0.0.1 abc".into(), design: None };
+        let label = Label { kind: Kind::Request, program: "0.0.1 abc".into(), design: None };
         let body = postcard::to_stdvec(&(label, 5_u32)).expect("bytes");
         let bytes = seal(NAME, FORMAT, &body);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
         std::fs::write(&path, bytes).expect("a file");
-        let error = read::<u32>(&path, Kind::Order, None).expect_err("another version");
+        let error = read::<u32>(&path, Kind::Request, None).expect_err("another version");
         assert!(error.to_string().contains("kept by 0.0.1 abc, but this is barrier-check "), "{error}");
         clear(path.parent().expect("a folder"));
     }
@@ -244,9 +244,9 @@ mod tests {
     #[test]
     fn a_file_of_another_kind_is_refused() {
         let path = place("kind");
-        write(&path, Kind::Order, None, &vec![1.0]).expect("a file");
+        write(&path, Kind::Request, None, &vec![1.0]).expect("a file");
         assert!(matches!(read::<Vec<f64>>(&path, Kind::Simulation, None), Err(CheckpointError::Design)));
-        assert!(read::<Vec<f64>>(&path, Kind::Order, None).is_ok());
+        assert!(read::<Vec<f64>>(&path, Kind::Request, None).is_ok());
         clear(path.parent().expect("a folder"));
     }
 }

@@ -1,7 +1,7 @@
 //! Runs that can be taken up again: what is kept of them, when, and where.
 //!
-//! A vault is a folder with the order (the design and how to run it) and, for every simulation of the run, a file that is renewed
-//! now and then while it goes on and once it is done. To resume a run is to give the same order again with the same vault: what is
+//! A store is a folder with the request (the design and how to run it) and, for every simulation of the run, a file that is renewed
+//! now and then while it goes on and once it is done. To resume a run is to give the same request again with the same store: what is
 //! done is taken from it, what was under way goes on, the rest is begun. A simulation is kept at its stops alone
 //! ([`dem::simulation::Simulation::at_stop`]), where all that it depends on can be kept; so the result is that of a run that was
 //! never interrupted, bit for bit.
@@ -21,13 +21,13 @@ use sha2::Digest;
 use crate::checkpoint::file::{CheckpointError, Kind, read, write};
 use crate::terminal;
 
-/// Name of a vault's folder within that of the report.
+/// Name of a store's folder within that of the report.
 pub const FOLDER: &str = "checkpoint";
-pub const ORDER: &str = "order.bin";
+pub const REQUEST: &str = "request.bin";
 
 /// What was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Order {
+pub struct Request {
     /// Name of the design file without folder and extension, and its bytes.
     pub name: String,
     pub design: Vec<u8>,
@@ -38,8 +38,8 @@ pub struct Order {
     pub vtk: bool,
 }
 
-impl Order {
-    /// What a file of a vault must have been kept for: the design, and which of its simulations.
+impl Request {
+    /// What a file of a store must have been kept for: the design, and which of its simulations.
     fn print(&self, identity: &str) -> [u8; 32] {
         sha2::Sha256::new().chain_update(&self.design).chain_update([0]).chain_update(identity).finalize().into()
     }
@@ -47,16 +47,16 @@ impl Order {
 
 /// Where a run is kept.
 #[derive(Debug)]
-pub struct Vault {
+pub struct CheckpointStore {
     folder: PathBuf,
-    order: Order,
+    request: Request,
     every: Duration,
     /// Whether simulations are kept when they are done, too: because others follow, or because the report of before must not get lost
     /// while the new one is written.
     keep_done: bool,
     /// Whether what is there is of an earlier run, which goes when first something of this one is kept.
     fresh: bool,
-    /// Whether the order is there; starts that run side by side write it once.
+    /// Whether the request is there; starts that run side by side write it once.
     ordered: Mutex<bool>,
     /// Whether anything has been kept, and whether it was told that nothing can be.
     kept: AtomicBool,
@@ -67,15 +67,15 @@ pub struct Vault {
     written: Mutex<BTreeSet<String>>,
 }
 
-impl Vault {
-    /// A vault in `folder`, which is made when first something is kept; `every` is the time between two times that a simulation is.
+impl CheckpointStore {
+    /// A store in `folder`, which is made when first something is kept; `every` is the time between two times that a simulation is.
     /// A `fresh` one takes nothing of what is there.
-    pub fn new(folder: PathBuf, order: Order, every: Duration, keep_done: bool, fresh: bool) -> Self {
+    pub fn new(folder: PathBuf, request: Request, every: Duration, keep_done: bool, fresh: bool) -> Self {
         let no = || AtomicBool::new(false);
         let (ordered, asked) = (Mutex::new(false), Mutex::default());
         Self {
             folder,
-            order,
+            request,
             every,
             keep_done,
             fresh,
@@ -87,14 +87,14 @@ impl Vault {
         }
     }
 
-    /// The order of the vault in `folder`.
-    pub fn order_in(folder: &Path) -> Result<Order, CheckpointError> {
-        read(&folder.join(ORDER), Kind::Order, None)
+    /// The request of the store in `folder`.
+    pub fn request_in(folder: &Path) -> Result<Request, CheckpointError> {
+        read(&folder.join(REQUEST), Kind::Request, None)
     }
 
     /// Whether there is something of this run to go on with.
     pub fn can_be_resumed(&self) -> bool {
-        self.kept.load(Ordering::Relaxed) || (!self.fresh && Self::order_in(&self.folder).is_ok())
+        self.kept.load(Ordering::Relaxed) || (!self.fresh && Self::request_in(&self.folder).is_ok())
     }
 
     pub fn folder(&self) -> &Path {
@@ -115,20 +115,20 @@ impl Vault {
     }
 
     /// The place of one simulation; `identity` tells it from the others of the run.
-    pub fn shelf(&self, identity: &str) -> Shelf<'_> {
+    pub fn slot(&self, identity: &str) -> Slot<'_> {
         let digest = sha2::Sha256::digest(identity.as_bytes());
         let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-        let (name, print) = (format!("{name}.bin"), self.order.print(identity));
+        let (name, print) = (format!("{name}.bin"), self.request.print(identity));
         self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner).insert(name.clone());
-        Shelf { vault: self, name, print, last: Mutex::new(Instant::now()) }
+        Slot { store: self, name, print, last: Mutex::new(Instant::now()) }
     }
 
-    /// Once something of this run is kept, the order takes the place of the one before, and only then what was kept for that one goes: a
+    /// Once something of this run is kept, the request takes the place of the one before, and only then what was kept for that one goes: a
     /// program that is killed in between leaves one of the two.
-    fn put_order(&self) -> std::io::Result<()> {
+    fn put_request(&self) -> std::io::Result<()> {
         let mut ordered = self.ordered.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if !*ordered {
-            write(&self.folder.join(ORDER), Kind::Order, None, &self.order)?;
+            write(&self.folder.join(REQUEST), Kind::Request, None, &self.request)?;
             *ordered = true;
             if self.fresh {
                 let asked = self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -140,7 +140,7 @@ impl Vault {
 
     fn put<T: Serialize>(&self, name: &str, print: [u8; 32], content: &T) {
         let kept = write(&self.folder.join(name), Kind::Simulation, Some(print), content);
-        let result = kept.and_then(|()| self.put_order());
+        let result = kept.and_then(|()| self.put_request());
         match result {
             Ok(()) => {
                 self.kept.store(true, Ordering::Relaxed);
@@ -162,22 +162,22 @@ impl Vault {
 
 /// Where one simulation is kept.
 #[derive(Debug)]
-pub struct Shelf<'a> {
-    vault: &'a Vault,
+pub struct Slot<'a> {
+    store: &'a CheckpointStore,
     name: String,
     /// What its files must have been kept for.
     print: [u8; 32],
     last: Mutex<Instant>,
 }
 
-impl Shelf<'_> {
+impl Slot<'_> {
     /// What was kept last and can be read. What cannot is told, and the one before it taken, or none.
     pub fn take<T: DeserializeOwned>(&self) -> Option<T> {
         let own = |written: &BTreeSet<String>| written.contains(&self.name);
-        if self.vault.fresh && !self.vault.written.lock().is_ok_and(|written| own(&written)) {
+        if self.store.fresh && !self.store.written.lock().is_ok_and(|written| own(&written)) {
             return None;
         }
-        let path = self.vault.folder.join(&self.name);
+        let path = self.store.folder.join(&self.name);
         let before = file::previous(&path);
         let then = if before.exists() { "the one before it is used" } else { "this simulation begins anew" };
         for (path, otherwise) in [(&path, then), (&before, "this simulation begins anew")] {
@@ -195,21 +195,21 @@ impl Shelf<'_> {
     /// Keeps what goes on, if it is time to or if it is the `last` time.
     pub fn keep<T: Serialize>(&self, content: &T, last: bool) {
         let due = self.last.lock().is_ok_and(|mut kept| {
-            let due = last || kept.elapsed() >= self.vault.every;
+            let due = last || kept.elapsed() >= self.store.every;
             if due {
                 *kept = Instant::now();
             }
             due
         });
         if due {
-            self.vault.put(&self.name, self.print, content);
+            self.store.put(&self.name, self.print, content);
         }
     }
 
     /// Keeps what is done, where that is worth it.
     pub fn finish<T: Serialize>(&self, content: &T) {
-        if self.vault.keep_done {
-            self.vault.put(&self.name, self.print, content);
+        if self.store.keep_done {
+            self.store.put(&self.name, self.print, content);
         }
     }
 }

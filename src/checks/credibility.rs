@@ -11,7 +11,7 @@ pub const OVERLAP_LIMIT: f64 = 0.20;
 pub const STEP_LIMIT: f64 = 1.5;
 
 /// Share of the mass that may go through the bed or a side wall; it counts as lost.
-pub const STRAY_LIMIT: f64 = 0.001;
+pub const ESCAPED_LIMIT: f64 = 0.001;
 /// Density that the packing of the flow may fall short of, as a share of the one asked for.
 pub const PACKING_LIMIT: f64 = 0.03;
 /// Energy stored in the contacts of a moving flow at its release, over its energy of motion.
@@ -28,8 +28,8 @@ pub struct Numerics {
     /// Grains whose centre has gone through a rope.
     pub crossings: u32,
     /// Grains that have gone through the bed or a side wall, and their share of the mass.
-    pub strays: u32,
-    pub stray_share: f64,
+    pub escaped: u32,
+    pub escaped_share: f64,
     /// By how much the packing of the flow falls short of the density asked for, as a share of it.
     pub packing_shortfall: f64,
     /// Energy stored in contacts at the release of a moving flow, over its energy of motion.
@@ -53,8 +53,8 @@ impl Numerics {
             overlap: larger(self.overlap, other.overlap),
             step_ratio: larger(self.step_ratio, other.step_ratio),
             crossings: self.crossings + other.crossings,
-            strays: self.strays + other.strays,
-            stray_share: larger(self.stray_share, other.stray_share),
+            escaped: self.escaped + other.escaped,
+            escaped_share: larger(self.escaped_share, other.escaped_share),
             packing_shortfall: larger(self.packing_shortfall, other.packing_shortfall),
             stored_at_release: larger(self.stored_at_release, other.stored_at_release),
             stopped_upstream: larger(self.stopped_upstream, other.stopped_upstream),
@@ -83,8 +83,8 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     hold("the time step over the critical step", numerics.step_ratio, STEP_LIMIT, finer);
     hold(
         "the share of the mass that has gone through the bed or a side wall",
-        numerics.stray_share,
-        STRAY_LIMIT,
+        numerics.escaped_share,
+        ESCAPED_LIMIT,
         "a larger flow.contact_modulus makes grains stiffer",
     );
     hold(
@@ -141,7 +141,7 @@ mod tests {
             Numerics { overlap: 0.21, ..Numerics::default() },
             Numerics { step_ratio: 2.0, ..Numerics::default() },
             Numerics { crossings: 1, ..Numerics::default() },
-            Numerics { stray_share: 0.002, ..Numerics::default() },
+            Numerics { escaped_share: 0.002, ..Numerics::default() },
             Numerics { packing_shortfall: 0.04, ..Numerics::default() },
             Numerics { stored_at_release: 0.02, ..Numerics::default() },
             Numerics { stopped_upstream: 0.6, ..Numerics::default() },
@@ -156,11 +156,11 @@ mod tests {
 
     #[test]
     fn of_several_starts_counts_add_up_and_every_fault_stays() {
-        let one = Numerics { strays: 2, crossings: 1, unfinished: true, stray_share: 0.1, ..Numerics::default() };
-        let other = Numerics { strays: 3, crossings: 4, stored_at_release: -0.3, ..Numerics::default() };
+        let one = Numerics { escaped: 2, crossings: 1, unfinished: true, escaped_share: 0.1, ..Numerics::default() };
+        let other = Numerics { escaped: 3, crossings: 4, stored_at_release: -0.3, ..Numerics::default() };
         for worst in [one.worst(&other), other.worst(&one)] {
-            assert_eq!((worst.strays, worst.crossings, worst.unfinished, worst.missed), (5, 5, true, false));
-            assert_eq!((worst.stray_share, worst.stored_at_release), (0.1, -0.3));
+            assert_eq!((worst.escaped, worst.crossings, worst.unfinished, worst.missed), (5, 5, true, false));
+            assert_eq!((worst.escaped_share, worst.stored_at_release), (0.1, -0.3));
         }
         let missed = Numerics { missed: true, packing_shortfall: 0.5, step_ratio: 2.0, ..Numerics::default() };
         let worst = Numerics::default().worst(&missed);

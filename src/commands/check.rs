@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::checkpoint::file::CheckpointError;
-use crate::checkpoint::{self, Order, Vault};
+use crate::checkpoint::{self, CheckpointStore, Request};
 use crate::commands::ExitCode;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::{exit_code, hand_over, summarise, write_report};
@@ -31,7 +31,7 @@ pub const MOST_STARTS: u32 = 1000;
 
 /// How to run a design.
 #[derive(Clone, Copy, Debug)]
-pub struct Wishes {
+pub struct Options {
     /// All cores unless given.
     pub threads: Option<usize>,
     /// Number of packings.
@@ -44,35 +44,35 @@ pub struct Wishes {
 
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given. The run is kept every so often, so
 /// that it can be resumed.
-pub fn check(path: &Path, out: Option<&Path>, wishes: Wishes, keep_every: Duration) -> ExitCode {
+pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Duration) -> ExitCode {
     let (file, folder) = match prepare(Purpose::Simulation, path, out) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
     let place = folder.path().to_path_buf();
-    tell_what_auto_leaves_out(&file, wishes);
-    let Wishes { starts, vary, vtk, .. } = wishes;
+    tell_what_auto_leaves_out(&file, options);
+    let Options { starts, vary, vtk, .. } = options;
     let source = folder.source().map(str::to_string);
-    let order = Order { name: file.name.clone(), design: file.text.clone(), source, starts, vary, vtk };
-    let vault = open_vault(&place, order, &file, keep_every, true);
-    if Vault::order_in(vault.folder()).is_ok() {
+    let request = Request { name: file.name.clone(), design: file.text.clone(), source, starts, vary, vtk };
+    let store = open_store(&place, request, &file, keep_every, true);
+    if CheckpointStore::request_in(store.folder()).is_ok() {
         terminal::warn(format_args!(
             "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
-            vault.folder().display(),
+            store.folder().display(),
             as_typed(&place)
         ));
     }
-    run_kept(file, folder, wishes, &vault)
+    run_kept(file, folder, options, &store)
 }
 
 /// The ladder chooses its packings itself, and what it settles without a simulation has none to vary.
-fn tell_what_auto_leaves_out(file: &DesignFile, wishes: Wishes) {
+fn tell_what_auto_leaves_out(file: &DesignFile, options: Options) {
     if file.design.simulation.fidelity != FidelityWish::Auto {
         return;
     }
     let left_out = [
-        (wishes.starts > 1, "--seeds is not used: it chooses the number of packings itself"),
-        (wishes.vary, "--vary is used only where a simulation runs"),
+        (options.starts > 1, "--seeds is not used: it chooses the number of packings itself"),
+        (options.vary, "--vary is used only where a simulation runs"),
     ];
     for (_, what) in left_out.into_iter().filter(|(asked, _)| *asked) {
         terminal::warn(format_args!("note: the design asks for simulation.fidelity: auto, with which {what}"));
@@ -86,8 +86,8 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
         Err(code) => return code,
     };
     let kept = folder.join(checkpoint::FOLDER);
-    let order = match Vault::order_in(&kept) {
-        Ok(order) => order,
+    let request = match CheckpointStore::request_in(&kept) {
+        Ok(request) => request,
         Err(CheckpointError::Missing) => {
             terminal::warn(format_args!("error: {}: no interrupted run is kept there", folder.display()));
             return ExitCode::Undecided;
@@ -100,7 +100,7 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
             return ExitCode::Undecided;
         }
     };
-    let file = match read_design(&format!("{}.yaml", order.name), &order.design) {
+    let file = match read_design(&format!("{}.yaml", request.name), &request.design) {
         Ok(file) => file,
         Err(problems) => {
             terminal::warn(problems.to_string().trim_end());
@@ -108,37 +108,43 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
         }
     };
     let Some(mut claimed) = claimed else { return ExitCode::Undecided };
-    claimed.go_on_with(order.source.clone());
-    if !(1..=MOST_STARTS).contains(&order.starts) {
-        terminal::warn(format_args!("error: the run kept in {} asks for {} packings", kept.display(), order.starts));
+    claimed.go_on_with(request.source.clone());
+    if !(1..=MOST_STARTS).contains(&request.starts) {
+        terminal::warn(format_args!("error: the run kept in {} asks for {} packings", kept.display(), request.starts));
         return ExitCode::Undecided;
     }
-    let Order { starts, vary, vtk, .. } = order;
-    let vault = open_vault(folder, order, &file, keep_every, false);
-    run_kept(file, claimed, Wishes { threads, starts, vary, vtk }, &vault)
+    let Request { starts, vary, vtk, .. } = request;
+    let store = open_store(folder, request, &file, keep_every, false);
+    run_kept(file, claimed, Options { threads, starts, vary, vtk }, &store)
 }
 
-fn open_vault(folder: &Path, order: Order, file: &DesignFile, keep_every: Duration, fresh: bool) -> Vault {
-    let several = order.starts > 1
-        || order.vary
+fn open_store(
+    folder: &Path,
+    request: Request,
+    file: &DesignFile,
+    keep_every: Duration,
+    fresh: bool,
+) -> CheckpointStore {
+    let several = request.starts > 1
+        || request.vary
         || file.design.simulation.fidelity == FidelityWish::Auto
         || factored(&file.design).is_some();
     let reported = folder.join("result.json").exists();
-    Vault::new(folder.join(checkpoint::FOLDER), order, keep_every, several || reported, fresh)
+    CheckpointStore::new(folder.join(checkpoint::FOLDER), request, keep_every, several || reported, fresh)
 }
 
-/// Runs a design whose simulations are kept in `vault`, and writes its report into `folder`.
-fn run_kept(file: DesignFile, mut folder: Folder, wishes: Wishes, vault: &Vault) -> ExitCode {
-    let ran = simulate(file, wishes, Some(vault));
-    match ran.and_then(|run| Ok((write_report(&run, &mut folder, wishes.vtk)?, run))) {
+/// Runs a design whose simulations are kept in `store`, and writes its report into `folder`.
+fn run_kept(file: DesignFile, mut folder: Folder, options: Options, store: &CheckpointStore) -> ExitCode {
+    let ran = simulate(file, options, Some(store));
+    match ran.and_then(|run| Ok((write_report(&run, &mut folder, options.vtk)?, run))) {
         Ok((view, run)) => {
-            vault.clear();
-            summarise(&view, folder.path(), wishes.vtk);
+            store.clear();
+            summarise(&view, folder.path(), options.vtk);
             exit_code(run.verdict)
         }
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
-            if vault.can_be_resumed() {
+            if store.can_be_resumed() {
                 terminal::warn(format_args!(
                     "note: `barrier-check resume {}` goes on where the run was kept last",
                     as_typed(folder.path())
@@ -159,7 +165,7 @@ fn as_typed(path: &Path) -> String {
 }
 
 /// Tells what a run of the design would take, without running it.
-pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
+pub fn dry_run(path: &Path, options: Options) -> ExitCode {
     let file = match load(path) {
         Ok(file) => file,
         Err(problems) => {
@@ -171,12 +177,12 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     let estimate = estimate(&file.design, &fidelity);
     let Estimate { grains, spheres, elements, simulated, steps, seconds, bytes } = estimate;
     let seconds = seconds * slowness();
-    let cores = wishes.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
     let cases = cases(&file.design).len();
-    tell_what_auto_leaves_out(&file, wishes);
+    tell_what_auto_leaves_out(&file, options);
     let auto = file.design.simulation.fidelity == FidelityWish::Auto;
-    let starts = if auto { 1 } else { wishes.starts as usize } * cases;
-    let varied = if wishes.vary { 2 * variants(&file.design).len() } else { 0 };
+    let starts = if auto { 1 } else { options.starts as usize } * cases;
+    let varied = if options.vary { 2 * variants(&file.design).len() } else { 0 };
     let runs = starts + varied;
     let say = |line: String| {
         let _ = terminal::say(line);
@@ -187,7 +193,7 @@ pub fn dry_run(path: &Path, wishes: Wishes) -> ExitCode {
     if runs > 1 {
         let flows = if cases > 1 { ", the flow as it is and with the partial factor on loads" } else { "" };
         let inputs = if varied > 0 { format!(", {varied} with one input changed") } else { String::new() };
-        say(format!("simulations       {runs}: {} packings{flows}{inputs}", wishes.starts));
+        say(format!("simulations       {runs}: {} packings{flows}{inputs}", options.starts));
     }
     let time = duration(seconds * runs as f64);
     say(format!("time              about {time} on one core, to a factor of two"));
@@ -282,21 +288,21 @@ fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
 }
 
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress.
-pub fn simulate(file: DesignFile, wishes: Wishes, vault: Option<&Vault>) -> Result<Run, Failure> {
+pub fn simulate(file: DesignFile, options: Options, store: Option<&CheckpointStore>) -> Result<Run, Failure> {
     listen();
     let progress = Progress::begin();
     let show = |report: ProgressReport| progress.show(&report);
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(wishes.threads.unwrap_or(0))
+        .num_threads(options.threads.unwrap_or(0))
         .build()
         .map_err(|error| format!("the threads could not be started ({error}): ask for fewer with --threads"))?;
-    let watch = Watch { progress: &show, stop: stop(), vault };
+    let watch = Watch { progress: &show, stop: stop(), store };
     let result = pool.install(|| {
         let mut result = match file.design.simulation.fidelity {
-            FidelityWish::Auto => climb(file, wishes.starts, &watch)?,
-            _ => run(file, wishes.starts, &watch)?,
+            FidelityWish::Auto => climb(file, options.starts, &watch)?,
+            _ => run(file, options.starts, &watch)?,
         };
-        if wishes.vary {
+        if options.vary {
             vary(&mut result, &watch)?;
         }
         Ok(result)

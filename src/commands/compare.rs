@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::commands::ExitCode;
 use crate::commands::Failure;
-use crate::commands::check::{Wishes, load, simulate};
+use crate::commands::check::{Options, load, simulate};
 use crate::commands::output::{exit_code, put, write_report};
 use crate::commands::report::{kind_of, read_recording};
 use crate::pipeline::Run;
@@ -15,7 +15,7 @@ use crate::terminal;
 
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report below `out` as soon as it is
 /// there, so that one that is cut short keeps those before it, and the page that holds them side by side. Ends by the worst verdict.
-pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
+pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
     let mut variants = Vec::new();
     // Names of files of the page are no names for folders.
     let mut folders = PAGE_FILES.map(str::to_string).into();
@@ -57,10 +57,10 @@ pub fn compare(paths: &[PathBuf], out: &Path, wishes: Wishes) -> ExitCode {
     };
     for (((path, source), folder), report) in paths.iter().zip(sources).zip(names).zip(&mut reports) {
         terminal::warn(format_args!("{}", path.display()));
-        let ran = source.run(wishes).and_then(|run| {
+        let ran = source.run(options).and_then(|run| {
             // A page of before does not stand beside reports that are not its own.
             put(&mut page, &[])?;
-            write_report(&run, report, wishes.vtk)?;
+            write_report(&run, report, options.vtk)?;
             Ok(run)
         });
         match ran {
@@ -126,9 +126,9 @@ impl Source {
         }
     }
 
-    fn run(self, wishes: Wishes) -> Result<Run, Failure> {
+    fn run(self, options: Options) -> Result<Run, Failure> {
         match self {
-            Self::Design(file) => simulate(*file, wishes, None),
+            Self::Design(file) => simulate(*file, options, None),
             Self::Recorded(run) => Ok(*run),
         }
     }

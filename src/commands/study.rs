@@ -102,7 +102,7 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
             return Ok(Some(point));
         }
         bar.set_message(format!("{}, {}", scenes[task.scene].name, task.setting.word()));
-        let watch = Watch { progress: &|_| (), stop: stop(), vault: None };
+        let watch = Watch { progress: &|_| (), stop: stop(), store: None };
         let point = match make(task, &scenes[task.scene].design, &watch) {
             Ok(point) => point,
             Err(RunError::Preparation(_)) => return Ok(None),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::checks::credibility::{ENERGY_LIMIT, OVERLAP_LIMIT, PACKING_LIMIT, STEP_LIMIT, STORED_LIMIT, STRAY_LIMIT};
+use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PACKING_LIMIT, STEP_LIMIT, STORED_LIMIT};
 use crate::demand::coefficients::Coefficients;
 use crate::demand::from_histories::Observed;
 use crate::design::{BarrierDesign, BarrierModel, Design};
@@ -242,11 +242,11 @@ pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
         ),
         row(
             "Grains outside the channel",
-            numerics.strays.to_string(),
+            numerics.escaped.to_string(),
             format!(
                 "through the bed or a side wall, {:.3} % of the mass, counted as lost; at most {} %",
-                100.0 * numerics.stray_share,
-                100.0 * STRAY_LIMIT
+                100.0 * numerics.escaped_share,
+                100.0 * ESCAPED_LIMIT
             ),
         ),
         row(

@@ -164,7 +164,7 @@ impl Folder {
 
     /// Whether an interrupted run is kept here, to be resumed.
     fn keeps_a_run(&self) -> bool {
-        starts_with(&self.path.join(checkpoint::FOLDER).join(checkpoint::ORDER), checkpoint::file::NAME)
+        starts_with(&self.path.join(checkpoint::FOLDER).join(checkpoint::REQUEST), checkpoint::file::NAME)
     }
 
     /// Takes a folder for what is made from no single design: a comparison, a validation.

@@ -34,7 +34,7 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let list = [
         (
             simulated,
-            "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a dashpot that never pulls, and Coulomb friction with the smaller of the two friction angles.",
+            "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a non-adhesive dashpot, and Coulomb friction with the smaller of the two friction angles.",
             EITHER,
         ),
         (simulated, "The flow is dry: no water pressure, no cohesion, no breakage of grains.", UNSAFE),

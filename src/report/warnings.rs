@@ -1,6 +1,6 @@
 //! What a reviewer should know before the numbers, each with what to do about it. One function for each warning.
 
-use crate::checks::credibility::STRAY_LIMIT;
+use crate::checks::credibility::ESCAPED_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::implausible::implausible;
 use crate::checks::outcome::{CheckVerdict, Outcome};
@@ -24,7 +24,7 @@ const WARNINGS: &[Warning] = &[
     discharge_and_volume,
     grains_that_hide_losses,
     grains_scaled_to_the_mass,
-    strays,
+    escaped,
     force_beyond_the_guideline,
     faster_flow_than_the_guideline_was_given,
     dissipators_used_up,
@@ -238,14 +238,14 @@ fn grains_scaled_to_the_mass(run: &Run) -> Option<String> {
     })
 }
 
-fn strays(run: &Run) -> Option<String> {
+fn escaped(run: &Run) -> Option<String> {
     let numerics = &run.simulated.as_ref()?.numerics;
-    (numerics.strays > 0).then(|| {
+    (numerics.escaped > 0).then(|| {
         format!(
             "{} of the grains, {:.2} % of the mass, have gone through the bed or a side wall. They count as lost; up to {:.1} % of the mass this leaves the verdict alone.",
-            numerics.strays,
-            100.0 * numerics.stray_share,
-            100.0 * STRAY_LIMIT
+            numerics.escaped,
+            100.0 * numerics.escaped_share,
+            100.0 * ESCAPED_LIMIT
         )
     })
 }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::checkpoint::Vault;
+use crate::checkpoint::CheckpointStore;
 use crate::scene::build::Scene;
 use crate::scene::patience::Patience;
 use dem::recorders::histories::{Histories, tail_mean};
@@ -43,7 +43,7 @@ pub struct ProgressReport {
 pub struct Watch<'a> {
     pub progress: &'a (dyn Fn(ProgressReport) + Sync),
     pub stop: &'a AtomicBool,
-    pub vault: Option<&'a Vault>,
+    pub store: Option<&'a CheckpointStore>,
 }
 
 /// A run under way.
@@ -67,8 +67,8 @@ pub struct Event {
     /// Largest energy imbalance met, over the energy put in.
     pub energy_error: f64,
     /// Grains that have left the channel through its bed or a side wall, and their share of the mass.
-    pub strays: u32,
-    pub stray_share: f64,
+    pub escaped: u32,
+    pub escaped_share: f64,
 }
 
 impl Ongoing {
@@ -102,8 +102,8 @@ impl Ongoing {
         };
         self.recorder.finish(&self.simulation);
         let Self { simulation, recorder, energy_error, .. } = self;
-        let (strays, stray_share) = (recorder.strays.len() as u32, recorder.stray_share);
-        Event { histories: recorder.histories, ending, simulation, energy_error, strays, stray_share }
+        let (escaped, escaped_share) = (recorder.escaped.len() as u32, recorder.escaped_share);
+        Event { histories: recorder.histories, ending, simulation, energy_error, escaped, escaped_share }
     }
 
     /// Takes in the sample just made; tells whether the run ends with it.
@@ -114,7 +114,7 @@ impl Ongoing {
         let force = histories.force.last().map_or(0.0, |force| force.norm());
         let time = self.simulation.time;
         (watch.progress)(ProgressReport { time, share: (time / self.expected_time).min(0.99), force });
-        if watch.vault.is_none() && watch.stop.load(Ordering::Relaxed) {
+        if watch.store.is_none() && watch.stop.load(Ordering::Relaxed) {
             return Some(Ending::Interrupted);
         }
         if steady(histories, self.stretch) {

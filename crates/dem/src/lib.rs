@@ -4,7 +4,6 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod contact;
-pub mod crew;
 pub mod elements;
 pub mod geometry;
 pub mod ledger;
@@ -17,6 +16,7 @@ pub mod simulation;
 pub mod sweep;
 pub mod tables;
 pub mod time;
+pub mod workers;
 
 /// A vector in the channel frame: x down the slope, y across, z normal to the bed (m, m/s, N, as used).
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -12,17 +12,17 @@ use crate::contact::grain_touch::PairConstants;
 use crate::contact::law::LawConstants;
 use crate::contact::ropes::RopeContext;
 use crate::contact::surfaces::{SurfaceContext, load_surfaces};
-use crate::crew;
 use crate::model::Model;
 use crate::neighbours::blocks::{Block, Outbox};
 use crate::neighbours::renew::Neighbours;
 use crate::net::{NetForces, pull_all};
 use crate::simd::eight::LANES;
 use crate::tables::barrier::Barrier;
-use crate::tables::grain_rows::{Foresight, GrainRows, RowsInMotion};
+use crate::tables::grain_rows::{GrainRows, Prefetcher, RowsInMotion};
 use crate::tables::grain_table::{GrainLoad, GrainTable};
 use crate::tables::load_sheets::LoadSheets;
 use crate::time::integrate::{Pace, Stretch};
+use crate::workers;
 
 /// Loads all grains and moves them through one step of theirs, that of `law`; pulls at the barrier, which stays where it is,
 /// as at the start of its own step, that of `barrier_law`. Returns the forces within the barrier, without those of the grains,
@@ -39,24 +39,24 @@ pub fn sweep(
     let Neighbours { blocks, outboxes, drift, .. } = neighbours;
     let outboxes = &*outboxes;
     let rows = RowsInMotion::of(grains, drift);
-    let forces = BlockForces { model, grains: rows.seen(), law, hands: crew::hands() };
+    let forces = BlockForces { model, grains: rows.seen(), law, workers: workers::count() };
     let mut net = None;
     let mut paces = vec![Pace::default(); blocks.len()];
     let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &barrier_law, &mut net));
     let turns = blocks.iter_mut().zip(&mut paces).enumerate();
     let turns = turns.map(|(number, (block, pace))| {
-        let foresight = Foresight::none(rows.seen());
-        Part::Block(Turn { number, block, loads: Vec::new(), foresight, pace })
+        let prefetcher = Prefetcher::none(rows.seen());
+        Part::Block(Turn { number, block, loads: Vec::new(), prefetcher, pace })
     });
-    crew::wave(
+    workers::wave(
         elements.into_iter().chain(turns),
         |part| match part {
             Part::Elements(barrier, own, net) => **net = Some(pull_all(barrier, own)),
             Part::Block(turn) => {
                 let mut outbox = outboxes[turn.number].write().unwrap_or_else(PoisonError::into_inner);
                 turn.loads = sheets.take(turn.block.grains.len());
-                turn.foresight = forces.foresight(turn.block);
-                forces.load_block(turn.block, &mut turn.loads, &mut outbox, &mut turn.foresight);
+                turn.prefetcher = forces.prefetcher(turn.block);
+                forces.load_block(turn.block, &mut turn.loads, &mut outbox, &mut turn.prefetcher);
             }
         },
         |part| {
@@ -65,7 +65,7 @@ pub fn sweep(
                 // SAFETY: this block and all before it are loaded. Later blocks read no rows but their own and those of
                 // blocks after them, and every block is moved once.
                 let moving = unsafe { rows.take(&turn.block.grains, &mut turn.loads) };
-                *turn.pace = moving.advance(time, &mut turn.foresight);
+                *turn.pace = moving.advance(time, &mut turn.prefetcher);
                 sheets.give_back(std::mem::take(&mut turn.loads));
             }
         },
@@ -84,7 +84,7 @@ struct Turn<'a> {
     number: usize,
     block: &'a mut Block,
     loads: Vec<GrainLoad>,
-    foresight: Foresight<'a>,
+    prefetcher: Prefetcher<'a>,
     pace: &'a mut Pace,
 }
 
@@ -108,15 +108,15 @@ struct BlockForces<'a> {
     grains: GrainRows<'a>,
     law: LawConstants,
     /// Threads that share the blocks.
-    hands: usize,
+    workers: usize,
 }
 
 impl<'a> BlockForces<'a> {
     /// The rows of the block that this thread is likely to take next, asked for over the time that one block takes.
-    fn foresight(&self, block: &Block) -> Foresight<'a> {
-        let ahead = self.hands * block.grains.len();
+    fn prefetcher(&self, block: &Block) -> Prefetcher<'a> {
+        let ahead = self.workers * block.grains.len();
         let next = block.grains.start + ahead..block.grains.end + ahead;
-        Foresight::of(self.grains, &next, (block.inner.touching.len() + block.grains.len()) / LANES)
+        Prefetcher::of(self.grains, &next, (block.inner.touching.len() + block.grains.len()) / LANES)
     }
 
     fn load_block(
@@ -124,7 +124,7 @@ impl<'a> BlockForces<'a> {
         block: &mut Block,
         loads: &mut [GrainLoad],
         outbox: &mut Outbox,
-        foresight: &mut Foresight<'a>,
+        prefetcher: &mut Prefetcher<'a>,
     ) {
         let Self { model, grains, law, .. } = *self;
         let clocks = block.clocks;
@@ -132,7 +132,7 @@ impl<'a> BlockForces<'a> {
         outbox.clear();
         let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
         let pairs = |clock| PairContext { grains, constants, clock };
-        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, foresight);
+        let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, prefetcher);
         sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
         let surfaces = SurfaceContext {
             grains,

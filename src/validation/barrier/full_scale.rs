@@ -173,7 +173,7 @@ pub fn run_changed(text: &str, starts: u32, change: impl FnOnce(&mut Design)) ->
     let mut file = read_design("design", text.as_bytes()).map_err(|_| scene("the design is not one".to_string()))?;
     change(&mut file.design);
     let stop = AtomicBool::new(false);
-    let watch = Watch { progress: &|_| (), stop: &stop, vault: None };
+    let watch = Watch { progress: &|_| (), stop: &stop, store: None };
     let threads = rayon::ThreadPoolBuilder::new().build().map_err(|error| scene(error.to_string()))?;
     let run = threads.install(|| run(file, starts, &watch)).map_err(|error| scene(error.to_string()))?;
     run.simulated.ok_or_else(|| scene("nothing was simulated".to_string()))

@@ -122,7 +122,7 @@ pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
     let scene = build(&design, &choose(&design), variant.seed).map_err(|error| Broken::Scene(error.to_string()))?;
     let window = SAMPLES_PER_WINDOW as usize;
     let reading = Reading { window, tail: scene.samples_of_rest() };
-    let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false), vault: None };
+    let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false), store: None };
     let event = Ongoing::begin(scene).go_on(design.simulation.longest, &watch, |_, _| ());
     if let Ending::BrokeDown(unstable) = event.ending {
         return Err(unstable.into());

@@ -16,7 +16,7 @@ use crate::neighbours::clocks::Clock;
 use crate::simd::eight::{Eight, Row, each_lane};
 use crate::simd::real::{add_scaled, dot, minus};
 use crate::simd::widest::{Work, with_widest};
-use crate::tables::grain_rows::{Foresight, GrainRows};
+use crate::tables::grain_rows::{GrainRows, Prefetcher};
 use crate::tables::grain_table::{GrainLoad, side};
 use crate::tables::grains::GrainShape;
 
@@ -29,15 +29,15 @@ pub struct PairContext<'a> {
 }
 
 /// Loads both grains of every touching pair inside the block; `loads` holds the rows of `range`. Meanwhile goes on
-/// with `foresight`.
+/// with `prefetcher`.
 pub fn load_inner<'b>(
     list: &mut PairList,
     context: &PairContext<'b>,
     range: &Range<usize>,
     loads: &mut [GrainLoad],
-    foresight: &mut Foresight<'b>,
+    prefetcher: &mut Prefetcher<'b>,
 ) -> ContactSums {
-    load(list, context, loads, range.start, foresight, Here(range.start))
+    load(list, context, loads, range.start, prefetcher, Here(range.start))
 }
 
 /// Loads the first grain of every touching pair across the block's border, and posts the load of the second.
@@ -48,7 +48,7 @@ pub fn load_border(
     loads: &mut [GrainLoad],
     outbox: &mut Outbox,
 ) -> ContactSums {
-    load(list, context, loads, range.start, &mut Foresight::none(context.grains), outbox)
+    load(list, context, loads, range.start, &mut Prefetcher::none(context.grains), outbox)
 }
 
 fn load<'b>(
@@ -56,12 +56,12 @@ fn load<'b>(
     context: &PairContext<'b>,
     loads: &mut [GrainLoad],
     start: usize,
-    foresight: &mut Foresight<'b>,
+    prefetcher: &mut Prefetcher<'b>,
     target: impl Target,
 ) -> ContactSums {
     match context.grains.shape {
-        GrainShape::Sphere => with_widest(LoadPairs::<false, _> { list, context, loads, start, foresight, target }),
-        GrainShape::Clump => with_widest(LoadPairs::<true, _> { list, context, loads, start, foresight, target }),
+        GrainShape::Sphere => with_widest(LoadPairs::<false, _> { list, context, loads, start, prefetcher, target }),
+        GrainShape::Clump => with_widest(LoadPairs::<true, _> { list, context, loads, start, prefetcher, target }),
     }
 }
 
@@ -102,7 +102,7 @@ struct LoadPairs<'a, 'b, const CLUMPS: bool, T> {
     context: &'a PairContext<'b>,
     loads: &'a mut [GrainLoad],
     start: usize,
-    foresight: &'a mut Foresight<'b>,
+    prefetcher: &'a mut Prefetcher<'b>,
     target: T,
 }
 
@@ -121,7 +121,7 @@ impl<const CLUMPS: bool, T: Target> Work for LoadPairs<'_, '_, CLUMPS, T> {
             sums.count(&response, touch.point.overlap * touch.inverse_radius);
             self.scatter(&eight, &touch, &response);
             self.list.remember(&eight, &response.memory, touch.point.overlap);
-            self.foresight.go_on();
+            self.prefetcher.go_on();
             last = Some(eight);
         }
         self.list.end_contacts();

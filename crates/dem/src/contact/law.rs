@@ -1,4 +1,4 @@
-//! The one contact law: linear spring with a dashpot that never pulls, and Coulomb friction.
+//! The one contact law: linear spring with a non-adhesive dashpot, and Coulomb friction.
 //!
 //! Normal force   F_n = max(0, k u + γ u̇),  γ = 2 ζ √(k m_r), ζ from the restitution and the step
 //! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = k × the tangential ratio (2/7), corrected for the step

@@ -1,4 +1,4 @@
-//! From restitution to damping for the linear dashpot that never pulls.
+//! From restitution to damping for the linear non-adhesive dashpot.
 //!
 //! Two bodies of reduced mass m_r meet with k u + γ u̇ ≥ 0. With ζ = γ/(2√(k m_r)) the contact ends when the
 //! force vanishes, and the restitution is

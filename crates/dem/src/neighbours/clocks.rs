@@ -57,7 +57,7 @@ impl Clocks {
         }
     }
 
-    /// Takes a step of length `step` (s) in which no member of any block strays faster than `stray` from its drift and no
+    /// Takes a step of length `step` (s) in which no member of any block escaped faster than `stray` from its drift and no
     /// barrier node moves faster than `nodes` (m/s).
     pub fn tick(&mut self, step: f64, stray: f64, nodes: f64) {
         self.elapsed += step;

@@ -6,10 +6,10 @@
 //! members whose surfaces were a gap g apart has come closer by at most δ_i + δ_j + S τ (2 r + 2 o + g), with r the largest
 //! radius and o the largest distance of a member from its grain's centre.
 
-use crate::crew;
 use crate::simd::quad::Quad;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::moving_rows::Drifting;
+use crate::workers;
 use crate::{Vec3, larger_or_nan};
 
 /// Pieces of the drift along the channel.
@@ -86,7 +86,7 @@ impl Drift {
 pub fn strayed(references: &[Vec3], grains: &GrainTable, drift: &[Drifting], elapsed: f64) -> Strayed {
     let rows = grains.rows();
     let per_grain = grains.shape.members();
-    let parts = crew::map(references.chunks(MEMBERS_IN_PART), |part, references| {
+    let parts = workers::map(references.chunks(MEMBERS_IN_PART), |part, references| {
         let mut squares = [0.0_f64; 2];
         for (index, reference) in (part * MEMBERS_IN_PART..).zip(references) {
             let gone = rows.sphere(index).0 - reference;

@@ -4,7 +4,6 @@ use std::sync::RwLock;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::crew;
 use crate::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
 use crate::neighbours::broad_phase::{Box3, BoxTree};
 use crate::neighbours::candidates::{
@@ -20,6 +19,7 @@ use crate::tables::grain_table::GrainTable;
 use crate::tables::moving_rows::Drifting;
 use crate::tables::surfaces::Surface;
 use crate::time::integrate::Pace;
+use crate::workers;
 use crate::{Vec3, larger_or_nan};
 
 /// Reach of the lists of surfaces and ropes over that of the lists of grains.
@@ -211,7 +211,7 @@ impl Neighbours {
         self.references.resize(grains.members(), Vec3::zeros());
         let (rows, per_grain) = (grains.rows(), grains.shape.members());
         let starts = self.drift.chunks_mut(GRAINS_IN_PART).zip(self.references.chunks_mut(GRAINS_IN_PART * per_grain));
-        crew::for_each(starts, |part, (drifts, references)| {
+        workers::for_each(starts, |part, (drifts, references)| {
             let first = part * GRAINS_IN_PART;
             for (row, drifting) in (first..).zip(drifts) {
                 *drifting = drift.at(rows.place(row).0[0]);
@@ -272,7 +272,7 @@ impl Neighbours {
             self.trees.clear();
             self.trees.resize_with(self.blocks.len(), BoxTree::default);
         }
-        crew::for_each(self.blocks.iter_mut().zip(&mut self.trees), |_, (block, tree)| {
+        workers::for_each(self.blocks.iter_mut().zip(&mut self.trees), |_, (block, tree)| {
             block.reset(skin, fixed_skin);
             let boxes: Vec<Box3> = block.grains.clone().map(|row| grain_box(grains, row, 0.5 * skin)).collect();
             tree.fit(&boxes);
@@ -284,7 +284,7 @@ impl Neighbours {
         let ropes = barrier.map(|barrier| (barrier, BoxTree::new(&line_boxes(barrier, fixed_skin))));
         let starts: Vec<usize> = self.blocks.iter().map(|block| block.grains.start).collect();
         let trees = &self.trees;
-        crew::for_each(&mut self.blocks, |number, block| {
+        workers::for_each(&mut self.blocks, |number, block| {
             for other in number + 1..trees.len() {
                 find_border_pairs([&trees[number], &trees[other]], starts[other], grains, skin, block);
             }

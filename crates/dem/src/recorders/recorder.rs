@@ -76,9 +76,9 @@ pub struct Recorder {
     impact: bool,
     next_passage: f64,
     /// Grains that have left the channel through its bed or a side wall.
-    pub strays: BTreeSet<u32>,
+    pub escaped: BTreeSet<u32>,
     /// Their share of the mass.
-    pub stray_share: f64,
+    pub escaped_share: f64,
     /// Largest force of which a snapshot was taken (N).
     pictured_force: f64,
 }
@@ -117,8 +117,8 @@ impl Recorder {
             lost: [0.0; WAYS],
             impact: false,
             next_passage: 0.0,
-            strays: BTreeSet::new(),
-            stray_share: 0.0,
+            escaped: BTreeSet::new(),
+            escaped_share: 0.0,
             pictured_force: 0.0,
         }
     }
@@ -317,8 +317,8 @@ impl Recorder {
                 entry.insert(Way::Beside);
                 self.lost[Way::Beside as usize] += grain.body.mass / self.setup.mass;
             }
-            if (below || z < self.setup.side_walls) && self.strays.insert(grain.id) {
-                self.stray_share += grain.body.mass / self.setup.mass;
+            if (below || z < self.setup.side_walls) && self.escaped.insert(grain.id) {
+                self.escaped_share += grain.body.mass / self.setup.mass;
             }
         }
     }

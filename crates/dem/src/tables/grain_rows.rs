@@ -111,7 +111,7 @@ impl<'a> GrainRows<'a> {
 
     /// Asks for the given rows to be brought near.
     #[inline(always)]
-    fn foresee(&self, rows: Range<usize>) {
+    fn prefetch_rows(&self, rows: Range<usize>) {
         for row in rows.step_by(ROWS_IN_LINE) {
             for table in [self.place, self.motion, self.spin] {
                 prefetch(table.wrapping_add(row));
@@ -163,14 +163,14 @@ impl GrainTable {
 }
 
 /// Rows that will be wanted next, asked for little by little while other work goes on: all at once they would hold it up.
-pub struct Foresight<'a> {
+pub struct Prefetcher<'a> {
     rows: GrainRows<'a>,
     left: Range<usize>,
     /// Rows at a time.
     portion: usize,
 }
 
-impl<'a> Foresight<'a> {
+impl<'a> Prefetcher<'a> {
     /// Asks for the rows of `wanted`, as far as there are such, in the given number of portions.
     pub fn of(rows: GrainRows<'a>, wanted: &Range<usize>, portions: usize) -> Self {
         let left = wanted.start.min(rows.len)..wanted.end.min(rows.len);
@@ -187,7 +187,7 @@ impl<'a> Foresight<'a> {
     #[inline(always)]
     pub fn go_on(&mut self) {
         let end = (self.left.start + self.portion).min(self.left.end);
-        self.rows.foresee(self.left.start..end);
+        self.rows.prefetch_rows(self.left.start..end);
         self.left.start = end;
     }
 }

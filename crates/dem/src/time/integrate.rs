@@ -10,7 +10,7 @@ use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::simd::quad::Quad;
 use crate::simd::real::{Real, Triple, add_scaled, cross, dot, plus, scaled};
 use crate::simd::widest::{Work, with_widest};
-use crate::tables::grain_rows::Foresight;
+use crate::tables::grain_rows::Prefetcher;
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::moving_rows::MovingRows;
 use crate::tables::nodes::{Frame, Node};
@@ -35,9 +35,9 @@ pub struct Pace {
 }
 
 impl MovingRows<'_> {
-    /// Moves all grains through one step. Meanwhile goes on with `foresight`.
-    pub fn advance(self, time: &Stretch, foresight: &mut Foresight) -> Pace {
-        with_widest(Advance { rows: self, time, foresight })
+    /// Moves all grains through one step. Meanwhile goes on with `prefetcher`.
+    pub fn advance(self, time: &Stretch, prefetcher: &mut Prefetcher) -> Pace {
+        with_widest(Advance { rows: self, time, prefetcher })
     }
 
     /// Parts the first `count` grains from the rest.
@@ -68,7 +68,7 @@ impl MovingRows<'_> {
 struct Advance<'a, 'b, 'c> {
     rows: MovingRows<'a>,
     time: &'b Stretch,
-    foresight: &'b mut Foresight<'c>,
+    prefetcher: &'b mut Prefetcher<'c>,
 }
 
 impl Work for Advance<'_, '_, '_> {
@@ -83,7 +83,7 @@ impl Work for Advance<'_, '_, '_> {
             let count = LANES.min(rest.place.len());
             let (eight, others) = rest.split(count);
             rest = others;
-            self.foresight.go_on();
+            self.prefetcher.go_on();
             let mut eight = UpToEight(eight);
             fastest.see_strays(eight.translate(&steps));
             if eight.0.axis.is_empty() {
@@ -107,7 +107,7 @@ impl UpToEight<'_> {
         let Self(rows) = self;
         let [time, keep, gravity] = [&steps.time, &steps.keep, &steps.gravity].map(E::Row::load);
         let count = rows.place.len();
-        let strays = each_lane!(|lane| {
+        let escaped = each_lane!(|lane| {
             if lane < count {
                 let (place, motion) = (&mut rows.place[lane], &mut rows.motion[lane]);
                 let inverse_mass = E::Row::all(motion.fourth());
@@ -120,7 +120,7 @@ impl UpToEight<'_> {
                 E::Row::all(0.0)
             }
         });
-        let (stray, _) = parted(E::columns(strays));
+        let (stray, _) = parted(E::columns(escaped));
         dot(stray, stray)
     }
 

@@ -4,7 +4,6 @@ use crate::Vec3;
 use crate::contact::law::{LawConstants, Spring, contact_stiffness};
 use crate::contact::pair_list::Separation;
 use crate::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
-use crate::crew;
 use crate::elements::cylinder::Cylinder;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingSide};
@@ -13,6 +12,7 @@ use crate::neighbours::clocks::Clock;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::GrainRows;
 use crate::tables::surfaces::Surface;
+use crate::workers;
 
 /// Velocity and spin of a body, or force and torque on it.
 pub type Twist = [Vec3; 2];
@@ -119,7 +119,7 @@ pub struct Linked<'a> {
 impl Linked<'_> {
     /// All contacts of grains, in a fixed order, with friction springs that stick.
     pub fn contacts(&self) -> Vec<Vec<Link>> {
-        crew::map(self.blocks, |_, block| {
+        workers::map(self.blocks, |_, block| {
             let mut links = Vec::new();
             self.add_pairs(block, &mut links);
             self.add_surfaces(block, &mut links);

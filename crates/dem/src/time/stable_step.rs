@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 use crate::Vec3;
-use crate::crew;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
 use crate::time::links::{Link, Twist};
+use crate::workers;
 
 /// Rounds of the power iteration.
 const ITERATIONS: usize = 16;
@@ -69,7 +69,7 @@ pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, barrier: Option<&Bar
             return StepRatio::default();
         }
         in_barrier = (energy_of(&motion[grains.len()..], &forces[grains.len()..]) / size).max(0.0);
-        let works = crew::map(groups.iter().zip(&mut sheets), |_, (group, sheet)| {
+        let works = workers::map(groups.iter().zip(&mut sheets), |_, (group, sheet)| {
             sheet.fill([Vec3::zeros(); 2]);
             strain(&links[group.clone()], &motion, step, sheet)
         });
@@ -108,7 +108,7 @@ fn groups_of(links: &[Vec<Link>]) -> Vec<Range<usize>> {
 fn next_motion(forces: &[Twist], inertias: &[Inertia], motion: &mut [Twist]) -> f64 {
     let parts =
         motion.chunks_mut(BODIES_IN_PART).zip(forces.chunks(BODIES_IN_PART)).zip(inertias.chunks(BODIES_IN_PART));
-    let energies = crew::map(parts, |_, ((motion, forces), inertias)| {
+    let energies = workers::map(parts, |_, ((motion, forces), inertias)| {
         for ((motion, force), inertia) in motion.iter_mut().zip(forces).zip(inertias) {
             *motion = inertia.moved(force).map(|part| part * 0.25);
         }
@@ -137,7 +137,7 @@ fn strain(links: &[Vec<Link>], motion: &[Twist], step: f64, forces: &mut [Twist]
 
 /// Adds up the forces of all groups, in their order.
 fn add_up(sheets: &[Vec<Twist>], forces: &mut [Twist]) {
-    crew::for_each(forces.chunks_mut(BODIES_IN_PART), |part, forces| {
+    workers::for_each(forces.chunks_mut(BODIES_IN_PART), |part, forces| {
         let from = part * BODIES_IN_PART;
         for (row, force) in forces.iter_mut().enumerate() {
             *force = [Vec3::zeros(); 2];

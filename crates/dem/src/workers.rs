@@ -1,7 +1,7 @@
-//! A standing crew of threads that shares the work of every step.
+//! Standing worker threads that share the work of every step.
 //!
 //! A step has a short stretch of parallel work, some hundred microseconds. Handing it to sleeping threads
-//! costs as much as the work; so the crew stays awake for as long as a run lasts, and takes the parts of a stretch one by one
+//! costs as much as the work; so the workers stay awake for as long as a run lasts, and take the parts of a stretch one by one
 //! until none is left. Which thread takes which part does not matter for the result. Outside [`gather`] every stretch is
 //! worked off by the calling thread alone.
 
@@ -28,9 +28,9 @@ const STRETCH: u64 = 1 << 17;
 type PartWork<'a> = dyn Fn(usize) + Sync + 'a;
 
 /// What helpers and leader share.
-struct Crew {
+struct Workers {
     /// Leader and helpers.
-    hands: usize,
+    count: usize,
     state: AtomicU64,
     /// Part to be taken next, and the number of parts.
     next: AtomicUsize,
@@ -43,18 +43,18 @@ struct Crew {
 
 // SAFETY: `work` is written only while no helper is inside a stretch and read only by helpers inside one; `state` orders
 // the two.
-unsafe impl Sync for Crew {}
+unsafe impl Sync for Workers {}
 
 thread_local! {
-    /// The crew that this thread leads, for as long as [`gather`] lasts.
-    static LED: Cell<Option<&'static Crew>> = const { Cell::new(None) };
+    /// The workers that this thread leads, for as long as [`gather`] lasts.
+    static LED: Cell<Option<&'static Workers>> = const { Cell::new(None) };
 }
 
 /// Calls `body` with all threads of the present rayon pool standing by.
 pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
-    let hands = rayon::current_num_threads();
-    let crew = Crew {
-        hands,
+    let count = rayon::current_num_threads();
+    let workers = Workers {
+        count,
         state: AtomicU64::new(0),
         next: AtomicUsize::new(0),
         parts: AtomicUsize::new(0),
@@ -63,11 +63,11 @@ pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
         dismissed: AtomicBool::new(false),
     };
     rayon::in_place_scope(|scope| {
-        for _ in 1..hands {
-            scope.spawn(|_| crew.help());
+        for _ in 1..count {
+            scope.spawn(|_| workers.help());
         }
-        // SAFETY: the reference is taken away again before `crew` goes, by the guard, also when `body` panics.
-        let leader = Leader::of(unsafe { std::mem::transmute::<&Crew, &'static Crew>(&crew) });
+        // SAFETY: the reference is taken away again before `workers` goes, by the guard, also when `body` panics.
+        let leader = Leader::of(unsafe { std::mem::transmute::<&Workers, &'static Workers>(&workers) });
         let result = body();
         drop(leader);
         result
@@ -75,18 +75,18 @@ pub fn gather<T: Send>(body: impl FnOnce() -> T + Send) -> T {
 }
 
 /// How many threads share the work of the calling one.
-pub fn hands() -> usize {
-    LED.get().map_or(1, |crew| crew.hands)
+pub fn count() -> usize {
+    LED.get().map_or(1, |workers| workers.count)
 }
 
-/// Calls `work` for every item, by all of the crew; items go out in their order.
+/// Calls `work` for every item, by all of the workers; items go out in their order.
 pub fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) + Sync) {
-    let Some(crew) = LED.get() else {
+    let Some(workers) = LED.get() else {
         items.into_iter().enumerate().for_each(|(number, item)| work(number, item));
         return;
     };
     let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
-    crew.share(items.len(), &|number| {
+    workers.share(items.len(), &|number| {
         let item = items[number].lock().ok().and_then(|mut item| item.take());
         if let Some(item) = item {
             work(number, item);
@@ -94,14 +94,14 @@ pub fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize
     });
 }
 
-/// Calls `first` for every item, by all of the crew, and `second` for each once `first` is through with it and all items
+/// Calls `first` for every item, by all of the workers, and `second` for each once `first` is through with it and all items
 /// before it.
 pub fn wave<T: Send>(
     items: impl IntoIterator<Item = T>,
     first: impl Fn(&mut T) + Sync,
     second: impl Fn(&mut T) + Sync,
 ) {
-    let Some(crew) = LED.get() else {
+    let Some(workers) = LED.get() else {
         for mut item in items {
             first(&mut item);
             second(&mut item);
@@ -115,7 +115,7 @@ pub fn wave<T: Send>(
     };
     let front = Front::over(items.len());
     // Whoever finds no item left helps to bring the front to the end.
-    crew.share(items.len() + crew.hands, &|number| {
+    workers.share(items.len() + workers.count, &|number| {
         if number < items.len() {
             let breaking = Breaking(&front);
             turn(number, &first);
@@ -132,7 +132,7 @@ pub fn wave<T: Send>(
     });
 }
 
-/// Calls `work` for every item, by all of the crew; results in the order of the items.
+/// Calls `work` for every item, by all of the workers; results in the order of the items.
 pub fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) -> R + Sync) -> Vec<R> {
     let items: Vec<T> = items.into_iter().collect();
     let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
@@ -187,29 +187,29 @@ impl Drop for Breaking<'_> {
     }
 }
 
-/// Leads a crew until dropped; then dismisses it.
+/// Leads the workers until dropped; then dismisses them.
 struct Leader {
-    crew: &'static Crew,
-    /// The crew that the thread led before.
-    before: Option<&'static Crew>,
+    workers: &'static Workers,
+    /// The workers that the thread led before.
+    before: Option<&'static Workers>,
 }
 
 impl Leader {
-    fn of(crew: &'static Crew) -> Self {
-        Self { crew, before: LED.replace(Some(crew)) }
+    fn of(workers: &'static Workers) -> Self {
+        Self { workers, before: LED.replace(Some(workers)) }
     }
 }
 
 impl Drop for Leader {
     fn drop(&mut self) {
         LED.set(self.before);
-        self.crew.dismissed.store(true, Ordering::Release);
+        self.workers.dismissed.store(true, Ordering::Release);
     }
 }
 
-/// Takes the crew away from its leader while a stretch is open: what a part does in parallel of its own accord, the thread
+/// Takes the workers away from their leader while a stretch is open: what a part does in parallel of its own accord, the thread
 /// that works on it does alone.
-struct Busy(Option<&'static Crew>);
+struct Busy(Option<&'static Workers>);
 
 impl Busy {
     fn new() -> Self {
@@ -224,7 +224,7 @@ impl Drop for Busy {
 }
 
 /// Closes a stretch when dropped and waits until every helper has left it, so that what it borrows outlives its use.
-struct Closing<'a>(&'a Crew);
+struct Closing<'a>(&'a Workers);
 
 impl Drop for Closing<'_> {
     fn drop(&mut self) {
@@ -238,8 +238,8 @@ impl Drop for Closing<'_> {
     }
 }
 
-impl Crew {
-    /// Works off `parts` parts with whoever of the crew comes.
+impl Workers {
+    /// Works off `parts` parts with whoever of the workers comes.
     fn share(&self, parts: usize, work: &PartWork) {
         if parts < 2 {
             (0..parts).for_each(work);
@@ -256,7 +256,7 @@ impl Crew {
         let closing = Closing(self);
         self.take_parts(work);
         drop(closing);
-        assert!(!self.failed.load(Ordering::Relaxed), "a helper of the crew has failed");
+        assert!(!self.failed.load(Ordering::Relaxed), "a helper of the workers has failed");
     }
 
     fn take_parts(&self, work: &PartWork) {
@@ -385,8 +385,8 @@ mod tests {
                     });
                     assert_eq!(worked.load(Ordering::Relaxed), 200);
                 }
-                gather(|| assert_eq!(hands(), 4));
-                assert_eq!(hands(), 4);
+                gather(|| assert_eq!(count(), 4));
+                assert_eq!(count(), 4);
             });
         });
     }
