@@ -11,15 +11,16 @@
 //! |---|---|
 //! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
-//! | a contact law | a file beside [`dem::contact::law`]; its stiffness in [`dem::contact::grain_touch`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and, for the stable step, [`dem::time::links`] and [`fidelity`]; its damping in [`dem::contact::restitution`] |
+//! | a contact law | a file beside [`dem::contact::law`]; its stiffness in [`dem::contact::grain_touch`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and, for the stable step, [`dem::time::links`] and [`fidelity`]; its damping in [`dem::contact::restitution`]; rings and what lies on the ground in [`dem::elements::ring`] and [`dem::elements::ground`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
-//! | a load case | a file in [`loads::cases`] and a line in its list; its words in `report::loads` |
+//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `demand::from_loads`; its words in `report::loads`; a line in `checks::not_covered::not_simulated` |
 //! | another impact model | an entry of [`loads::ladder::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
+//! | a shape of surface | [`dem::tables::surfaces`], what it does to a grain in [`dem::contact::surfaces`], where it stands in [`scene::build`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |

@@ -1,4 +1,4 @@
-//! The run on one page: design → fidelity → scene → histories → demands → outcomes → verdict.
+//! The run on one page: design → load cases → fidelity → scene → histories → demands → outcomes → verdict.
 
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
@@ -27,7 +27,7 @@ use crate::starts::{Spread, side_by_side};
 pub enum Verdict {
     Pass,
     Fail,
-    /// The run cannot be relied on.
+    /// A check is open, or the run cannot be relied on.
     Undecided,
 }
 
