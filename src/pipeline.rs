@@ -393,12 +393,16 @@ mod tests {
             k_effective,
             force_peak: 100e3,
             force_peak_sampled: sampled,
+            moment_peak: 50e3,
+            moment_peak_sampled: 125e3,
             ..arriving(push_peak * 1e-4, 10.0)
         };
         let starts = simulated(vec![seen(40e3, Some(0.8), 150e3), seen(60e3, None, 120e3)]);
         let first = first_surge(&RUNGS[2], &design, &guideline, &starts);
         assert_eq!((first.push, first.velocity, first.earth_pressure), (50e3, 5.0, Some(0.8)));
-        assert_eq!(first.sampled_over_smoothed, 1.5);
+        assert_eq!((first.sampled_over_smoothed, first.moment_sampled_over_smoothed), (1.5, 2.5));
+        // 10 m³/s² of the 0.6 · 4.6² that the design gives.
+        assert!((first.flux_share - 0.78765).abs() < 1e-5, "{}", first.flux_share);
         let band = RUNGS[2].band;
         assert_eq!((first.force_band, first.stroke_band, first.share_band), (band.force, band.stroke, band.share));
         // Where no deposit shows its K, its weight tells, if the barrier fills.

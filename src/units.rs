@@ -327,10 +327,15 @@ pub fn with_a_unit_in(text: &str, wanted: Dimension, low: f64, high: f64) -> Opt
     let usual = wanted.display_symbol();
     let units = UNITS.iter().filter(|(symbol, dimension, _)| *dimension == wanted && *symbol == usual);
     let others = UNITS.iter().filter(|(symbol, dimension, _)| *dimension == wanted && *symbol != usual);
-    // Shares and pressures have hints of their own.
-    let plain = !matches!(wanted, Dimension::Share | Dimension::Pressure);
+    // Shares, pressures and coefficients of friction have hints of their own.
+    let plain = !matches!(wanted, Dimension::Share | Dimension::Pressure) && !is_coefficient(value, wanted);
     let fits = |(_, _, factor): &&(&str, Dimension, f64)| (low..=high).contains(&(value * factor));
     units.chain(others).filter(|_| plain).find(fits).map(|(symbol, _, _)| format!("{} {symbol}", text.trim()))
+}
+
+/// Whether a number where an angle is wanted is rather its tangent.
+fn is_coefficient(value: f64, wanted: Dimension) -> bool {
+    wanted == Dimension::Angle && value > 0.0 && value < 1.5
 }
 
 /// What a number without a unit may have meant.
@@ -338,6 +343,10 @@ fn with_a_unit(number: &str, value: f64, wanted: Dimension) -> String {
     match wanted {
         Dimension::Share if value.abs() <= 1.0 => {
             format!("write for example `{} %`", trim_zeros(&format!("{:.4}", 100.0 * value)))
+        }
+        Dimension::Angle if is_coefficient(value, wanted) => {
+            let angle = trim_zeros(&format!("{:.2}", libm::atan(value).to_degrees()));
+            format!("an angle has a unit: a coefficient of friction, or a slope, of {number} is `{angle} deg`")
         }
         // Pressures of snow and moduli of steel are too far apart for an example to fit both.
         Dimension::Pressure => units_of(wanted),
@@ -375,8 +384,15 @@ fn near_unit(symbol: &str, wanted: Dimension, number: &str) -> Option<String> {
 
 /// A value in SI to nine digits, in the unit in which the dimension is shown.
 fn plainly(si: f64, dimension: Dimension) -> String {
-    let symbol = dimension.display_symbol();
-    let value = si / factor_of(symbol).map_or(1.0, |(_, factor)| factor);
+    let usual = dimension.display_symbol();
+    let value_in = |factor: f64| si / factor;
+    let usual = (usual, factor_of(usual).map_or(1.0, |(_, factor)| factor));
+    // Another unit where the usual one would need many zeros.
+    let readable = |value: f64| (0.1..1e5).contains(&value.abs());
+    let others = UNITS.iter().filter(|(_, of, _)| *of == dimension).map(|(symbol, _, factor)| (*symbol, *factor));
+    let fitting = std::iter::once(usual).chain(others).find(|(_, factor)| readable(value_in(*factor)));
+    let (symbol, factor) = fitting.unwrap_or(usual);
+    let value = value_in(factor);
     let digits = (8 - libm::log10(value.abs().max(1e-30)).floor() as i32).clamp(0, 30) as usize;
     format!("{} {symbol}", trim_zeros(&format!("{value:.digits$}")))
 }
@@ -486,6 +502,9 @@ mod tests {
             let told = error(text, Dimension::Velocity).hint.unwrap();
             assert!(told.contains(hint), "{text}: {told}");
         }
+        assert!(error("0.27", Dimension::Angle).hint.unwrap().contains("`15.11 deg`"));
+        assert_eq!(with_a_unit_in("0.27", Dimension::Angle, 0.0, 1.0), None);
+        assert_eq!(with_a_unit_in("15", Dimension::Angle, 0.0, 1.0).unwrap(), "15 deg");
         let fitting = |text, low, high| with_a_unit_in(text, Dimension::Length, low, high);
         assert_eq!(fitting("260", 1e-4, 10.0).unwrap(), "260 mm");
         assert_eq!(fitting("2.5", 0.1, 20.0).unwrap(), "2.5 m");

@@ -52,6 +52,14 @@ fn main_ropes() {
     at(NET, "0.5 m after 0.9 m", count, "heights: [0 m, 0.9 m, 0.5 m, 1.8 m] ", "heights: [0 m, 0.4 m, 0.9 m, 1.8 m] ");
     // Ropes out of order say nothing of their distance.
     assert!(!said(NET, &[(count, "heights: [0 m, 1.8 m, 0.9 m] ")]).contains("apart with a mesh diagonal"));
+    // The closest two, not all of them: 0.6 diagonals are 170 mm.
+    at(
+        NET,
+        "apart with a mesh diagonal",
+        count,
+        "heights: [0 m, 1.2 m, 1.64 m, 1.8 m] ",
+        "heights: [0 m, 1.2 m, 1.62 m, 1.8 m] ",
+    );
     let spans = "rope(s) from";
     at(NET, spans, count, "heights: [0.1 m, 1.8 m] ", "heights: [0 m, 1.8 m] ");
     at(NET, spans, count, "heights: [0 m, 1.7 m] ", "heights: [0 m, 1.800001 m] ");
@@ -127,6 +135,12 @@ fn flow_and_densities() {
     let volume = "volume: 5 m3 ";
     at(NET, "mass `7 t` and volume `5 m3`", volume, "mass: 7 t\n  volume: 5 m3 ", "mass: 7 t ");
     at(NET, "neither mass nor volume", volume, "# ", volume);
+    // Without a flow that is what is told.
+    assert!(!said(NET, &[("\nflow:", "\nflows:")]).contains("neither mass nor volume"));
+    // A layer thinner than its grains by its depth, and by the length that the volume leaves.
+    let small = |depth: &str| said(NET, &[(volume, "volume: 0.9 m3 "), ("depth: 0.6 m", depth)]);
+    assert!(small("depth: 0.2 m").contains("a layer thinner than themselves"), "{}", small("depth: 0.2 m"));
+    assert!(small("depth: 1.9 m").contains("too thin the other way"), "{}", small("depth: 1.9 m"));
     // A thousandth is rounding.
     at(
         NET,
@@ -164,7 +178,7 @@ fn grain_sizes() {
     let curve = "curve:                           # by mass; any two or more of d10 to d90\n      d10: 170 mm\n      d30: 220 mm\n      d50: 260 mm\n      d70: 300 mm\n      d90: 360 mm\n";
     let uniform = |min: &str, max: &str| format!("uniform: {{min: {min}, max: {max}}}\n");
     at(NET, "above max", curve, &uniform("301 mm", "300 mm"), &uniform("300 mm", "300 mm"));
-    at(NET, "1 quantile(s)", curve, "curve: {d50: 260 mm}\n", "curve: {d50: 260 mm, d90: 300 mm}\n");
+    at(NET, "quantile(s)", curve, "curve: {d50: 260 mm}\n", "curve: {d50: 260 mm, d90: 300 mm}\n");
     let quantile = "d50: 260 mm";
     at(NET, "d50 = 0.22 m, not above d30 = 0.22 m", quantile, "d50: 220 mm", "d50: 221 mm");
     at(NET, "d50 = 0.2 m, not above d30 = 0.22 m", quantile, "d50: 200 mm", quantile);
@@ -284,7 +298,7 @@ fn leaning_barriers_and_walls() {
         )
     };
     let section = "rigid_wall:\n";
-    at(WALL, "a base of 1.9 m", section, &wall("base_width: 1.9 m"), &wall("base_width: 2 m"));
+    at(WALL, "at least the thickness", section, &wall("base_width: 1.9 m"), &wall("base_width: 2 m"));
     let normal = ("tilt: 0 deg ", "# ");
     speaks(
         WALL,

@@ -108,6 +108,9 @@ mod tests {
     fn a_rope_between_bolts_is_pulled_by_its_sag_and_the_bolts_at_its_ends_hold_it() {
         assert_relative_eq!(tension_between(40e3, 12.57e6), 96.4e3, max_relative = 1e-3);
         assert_relative_eq!(tension_under_more(96.4e3, 2.0, 12.57e6), 155.0e3, max_relative = 1e-3);
+        // A soft rope, of which half of the load is most of the tension: 20.41 kN under 40 kN, 40.51 kN under twice that.
+        assert_relative_eq!(tension_between(40e3, 1e3), 20.41e3, max_relative = 1e-3);
+        assert_relative_eq!(tension_under_more(20.41e3, 2.0, 1e3), 40.51e3, max_relative = 1e-3);
         assert!(tension_under_more(f64::NAN, 2.0, 12.57e6).is_nan());
         assert_relative_eq!(end_bolt(40e3, 12.57e6), 96.4e3, max_relative = 1e-3);
         // A soft rope sags so far that a bolt along it holds more.

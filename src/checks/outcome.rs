@@ -47,6 +47,8 @@ pub enum Kind {
     WallStrength,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
+    /// What acts at the base of a wall that stands by its weight, and does not grow in proportion to the load.
+    OnTheBase,
 }
 
 /// Why a check is open, with what would close it, in words.
@@ -98,6 +100,8 @@ pub struct Outcome {
     /// Whether the guideline's demand follows from its pressures.
     pub rests_on_pressures: bool,
     pub kind: Kind,
+    /// What of the demand is there without the flow: a wall's own pull and the water under it.
+    pub fixed: f64,
     pub source: &'static str,
 }
 
@@ -237,6 +241,7 @@ impl Outcome {
             rope: None,
             rests_on_pressures: true,
             kind: Kind::Any,
+            fixed: 0.0,
             source,
         };
         if capacity.is_some() && utilisation.is_none() {

@@ -1,7 +1,7 @@
 //! A wall that stands by its weight: sliding along its base, overturning about the downstream edge, pressure under the base. Per metre of
 //! width.
 
-use crate::checks::outcome::{CheckName, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::demand::from_loads::wall_of;
 use crate::demand::{Demand, Demands, larger};
 use crate::design::{BarrierDesign, Design, Stability};
@@ -77,6 +77,13 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             1.0,
         ),
     ];
+    for outcome in &mut outcomes {
+        match outcome.id.as_str() {
+            "wall_sliding" => outcome.fixed = pull,
+            "wall_overturning" => outcome.fixed = tilt,
+            _ => outcome.kind = Kind::OnTheBase,
+        }
+    }
     leave_open_untold(&stability, &mut outcomes);
     outcomes
 }

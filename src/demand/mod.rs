@@ -514,4 +514,15 @@ mod tests {
         let met = Demands::meet(&guideline(&design), &both, &design.factors);
         assert_eq!((met.broken_pieces.simulation, met.drawn_out.simulation), (Some(2.0), Some(0.3)));
     }
+
+    /// 600 kN on a wall of 15.2 m, by a factor of 1.35: 53.3 kN on each metre.
+    #[test]
+    fn a_metre_of_a_wall_takes_its_share_of_what_is_simulated() {
+        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        (design.factors.load, design.channel.width) = (1.35, 15.2);
+        let observed = Observed { force_peak: 600e3, ..Observed::default() };
+        let seen = Seen { characteristic: vec![&observed], factored: Vec::new() };
+        let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
+        assert_relative_eq!(demands.wall_local.simulation.unwrap(), 1.35 * 600e3 / 15.2, max_relative = 1e-12);
+    }
 }

@@ -57,7 +57,9 @@ pub fn used_under_more(design: &Design, outcome: &Outcome, more: f64, seen: Firs
             let lost = |band: f64| more * (1.0 - demand + band) / (1.0 - capacity).max(1e-9);
             return Some([lost(0.0), lost(seen.share_band)]);
         }
-        Kind::Any | Kind::WallStrength | Kind::Bolts | Kind::BetweenBolts => {}
+        // The equations tell it for the full barrier, from the weight of the wall and the load together.
+        Kind::OnTheBase if outcome.governed_by_equations() => return None,
+        Kind::Any | Kind::WallStrength | Kind::Bolts | Kind::BetweenBolts | Kind::OnTheBase => {}
     }
     // The equations spread the load evenly over the bolts, so theirs is no measure of the worst one.
     let of_bolts = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts);
@@ -69,7 +71,7 @@ pub fn used_under_more(design: &Design, outcome: &Outcome, more: f64, seen: Firs
             BarrierDesign::FlexibleNet(net) if outcome.kind == Kind::BetweenBolts => {
                 tension_under_more(demand, more, net.main_ropes.rope.axial_stiffness())
             }
-            _ => demand * more,
+            _ => outcome.fixed + (demand - outcome.fixed) * more,
         };
         // Asked so that what is not a number stays so.
         (if full > cap { cap } else { full }) / capacity
@@ -216,5 +218,25 @@ mod tests {
         };
         assert!(why(0.0).starts_with("the simulated first surge does not push the barrier"));
         assert!(why(guideline.largest_force / 3.0).contains("3.0 times as much presses on the full barrier"));
+    }
+
+    /// A wall whose own pull and water use 30 % and whose flow uses 20 % uses 70 % under twice the flow; what its base bears is told by the
+    /// equations where they tell more.
+    #[test]
+    fn what_is_there_without_the_flow_does_not_grow_with_it() {
+        use crate::checks::outcome::{CheckName, Resistance};
+        use crate::demand::Demand;
+        let design = small_net();
+        let used = |fixed: f64, kind: Kind, guideline: f64| {
+            let demand = Demand { guideline: Some(guideline), simulation: Some(0.5), ..Demand::default() };
+            let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
+            let outcome = Outcome::at_most(CheckName::new("x", "x", "N/m", "x"), demand, resistance, 1.0);
+            let outcome = Outcome { fixed, kind, ..outcome };
+            used_under_more(&design, &outcome, 2.0, FirstSurge::default()).map(|[used, _]| used)
+        };
+        assert_eq!(used(0.3, Kind::Any, 0.0), Some(0.7));
+        assert_eq!(used(0.0, Kind::Any, 0.0), Some(1.0));
+        assert_eq!(used(0.0, Kind::OnTheBase, 0.6), None);
+        assert_eq!(used(0.0, Kind::OnTheBase, 0.4), Some(1.0));
     }
 }
