@@ -292,6 +292,8 @@ fn leaning_barriers_and_walls() {
     at(NET, leans, "tilt: 0 deg ", "tilt: 50.1 deg ", "tilt: 50 deg ");
     at(WALL, leans, "tilt: 0 deg ", "tilt: 35.1 deg ", "tilt: 35 deg ");
     at(WALL, "parts that add up to", "# segments:", "segments: [2 m, 3.4 m] #", "segments: [2 m, 3.5 m] #");
+    // A millionth is rounding.
+    at(WALL, "parts that add up to", "# segments:", "segments: [2 m, 3.50001 m] #", "segments: [2 m, 3.500003 m] #");
     let wall = |keys: &str| {
         format!(
             "rigid_wall:\n    stability: {{thickness: 2 m, density: 2400 kg/m3, base_friction: 35 deg, sliding_factor: 1.1, overturning_factor: 1.5, {keys}}}\n"

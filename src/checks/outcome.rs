@@ -352,4 +352,18 @@ mod tests {
         let full = Demand { simulation: Some(1.0), ..Demand::default() };
         assert_eq!(Outcome::at_least(name(), full, 1.0).utilisation, Some(0.0));
     }
+
+    #[test]
+    fn no_capacity_holds_nothing_and_a_demand_at_its_capacity_does_not_fail() {
+        let of = |guideline: f64, simulation: f64, characteristic: f64| {
+            let demand = Demand { guideline: Some(guideline), simulation: Some(simulation), ..Demand::default() };
+            let resistance = Resistance { characteristic, factor: 1.0 };
+            Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, resistance, 1.0)
+        };
+        assert_eq!(of(0.0, 0.0, 0.0).utilisation, Some(f64::INFINITY));
+        assert_eq!(of(1.0, 1.0, 1.0).verdict, CheckVerdict::Warn);
+        let by_simulation = of(1.0, 2.0, 1.0);
+        assert!(by_simulation.verdict == CheckVerdict::Fail && !by_simulation.fails_by_equations());
+        assert!(of(1.1, 2.0, 1.0).fails_by_equations());
+    }
 }

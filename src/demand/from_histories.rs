@@ -492,9 +492,11 @@ mod tests {
         assert_relative_eq!(k.unwrap(), 2.0 * 300e3 / (unit * top * (13.0 - top)), max_relative = 1e-9);
         assert_relative_eq!(lambda.unwrap(), 500e3 / (guideline.input.density * 25.0), max_relative = 1e-9);
         assert_eq!(read(1.9 * grain, flow).0, None);
+        assert_eq!(read(2.0 * grain, flow).0, None);
         assert!(read(2.1 * grain, flow).0.is_some());
         assert_eq!(read(0.0, Gauge { depth: 0.9 * grain, ..flow }).1, None);
-        assert!(read(0.0, Gauge { depth: 1.05 * grain, ..flow }).1.is_some());
+        assert_eq!(read(0.0, Gauge { depth: grain, ..flow }).1, None);
+        assert!(read(0.0, Gauge { depth: 1.001 * grain, ..flow }).1.is_some());
         assert_eq!(read(0.0, Gauge { at_rest: 0.02, ..flow }).1, None);
         assert!(read(0.0, Gauge { at_rest: 0.01, ..flow }).1.is_some());
         assert_eq!(read(0.0, Gauge { flux: 0.0, ..flow }).1, None);
