@@ -18,6 +18,7 @@ pub fn quoted(text: &str) -> String {
 /// A value with the unit a person would use.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
+        "-" | "count" if value.is_infinite() => figures(value),
         "N" if value.abs() < 2000.0 => format!("{value:.0} N"),
         "N" => format!("{} kN", figures(value / 1e3)),
         "N/m" if value.abs() < 2000.0 => format!("{value:.0} N/m"),
@@ -54,9 +55,24 @@ pub fn with_scatter(mean: f64, deviation: f64, unit: &str) -> String {
 /// Three significant figures, whole numbers from 100 on.
 pub fn figures(value: f64) -> String {
     match value.abs() {
+        size if size.is_infinite() => if value > 0.0 { "∞" } else { "−∞" }.to_string(),
         size if size >= 100.0 => format!("{value:.0}"),
         size if size >= 10.0 => format!("{value:.1}"),
         size if size >= 0.1 || size == 0.0 => format!("{value:.2}"),
         _ => format!("{value:.4}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_beyond_all_bounds_has_a_sign_for_it() {
+        for (unit, text) in [("Pa", "∞ kPa"), ("N", "∞ kN"), ("m", "∞ m"), ("-", "∞"), ("", "∞")] {
+            assert_eq!(with_unit(f64::INFINITY, unit), text);
+        }
+        assert_eq!(with_unit(f64::NEG_INFINITY, "m"), "−∞ m");
+        assert_eq!(with_unit(152e3, "Pa"), "152 kPa");
     }
 }

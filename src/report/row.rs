@@ -41,14 +41,15 @@ pub fn is_share(outcome: &Outcome) -> bool {
 
 /// How much of the capacity is used; of a share that must be kept, what is kept.
 pub fn used(outcome: &Outcome) -> String {
-    let stroke = outcome.resistance.filter(|_| outcome.unit == "m").map(|(resistance, _)| resistance.characteristic);
+    let is_stroke = outcome.unit == "m" && outcome.kind != Kind::OnTheBase;
+    let stroke = outcome.resistance.filter(|_| is_stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     match (outcome.utilisation, outcome.verdict) {
         (None, CheckVerdict::Pass) => "at plateau, as designed".to_string(),
         (Some(_), _) if is_share(outcome) => {
             outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit))
         }
-        (used, _) if used_up => format!("≥ {}", percent(used)),
+        (used, _) if used_up && used.is_none_or(|used| used <= 10.0) => format!("≥ {}", percent(used)),
         (used, _) => percent(used),
     }
 }
