@@ -2,7 +2,7 @@
 //! width.
 
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
-use crate::demand::from_loads::wall_of;
+use crate::demand::from_loads::{input, wall_of};
 use crate::demand::{Demand, Demands, larger};
 use crate::design::{BarrierDesign, Design, Stability};
 use crate::sources::WALL_BALANCE;
@@ -85,7 +85,21 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         }
     }
     leave_open_untold(&stability, &mut outcomes);
+    leave_open_below_water(design, &stability, &mut outcomes);
     outcomes
+}
+
+/// Water that stands higher than what fills the barrier pushes the wall above it as well, and no load case has that.
+fn leave_open_below_water(design: &Design, stability: &Stability, outcomes: &mut [Outcome]) {
+    let (head, filled) = (stability.water_head.unwrap_or(0.0), input(design).fill_height);
+    if head <= filled {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        outcome.leave_open(Opening::NotGiven(format!(
+            "water with a head of {head:.2} m under the base may stand as high behind the wall, above the {filled:.2} m of the deposit, and its thrust there is in no load case (lower barrier.rigid_wall.stability.water_head by drains, or loads.filling: to_the_top)"
+        )));
+    }
 }
 
 /// A level and dry base is the mildest there is: what holds on one that nobody described stays open.
@@ -126,6 +140,23 @@ mod tests {
 
     fn design() -> Design {
         read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design
+    }
+
+    /// Water above what fills the barrier is in no load case.
+    #[test]
+    fn water_above_the_deposit_is_open() {
+        let verdict = |above: f64| {
+            let mut design = with_stability();
+            let filled = crate::demand::from_loads::input(&design).fill_height;
+            let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+            let stability = wall.stability.as_mut().expect("stability");
+            (stability.thickness, stability.base_width, stability.bearing_resistance) = (40.0, 40.0, Some(1e6));
+            stability.water_head = Some(above * filled);
+            let demands = Demands::by_equations(&guideline(&design), &design.factors);
+            check(&design, &demands).into_iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
+        };
+        assert_eq!(verdict(0.99), [CheckVerdict::Pass; 4]);
+        assert_eq!(verdict(1.01), [CheckVerdict::Open; 4]);
     }
 
     fn with_stability() -> Design {
