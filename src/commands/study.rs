@@ -13,7 +13,7 @@ use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::put;
 use crate::commands::signals::{listen, stop};
 use crate::design::read::DesignFile;
-use crate::report::folder::{Folder, Named, create, folder_name, inner};
+use crate::report::folder::{Folder, KEPT_BY_STUDIES, Named, create, folder_name, inner};
 use crate::report::kind::Kind;
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
@@ -57,7 +57,7 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let scenes = plan.scenes.iter().map(|scene| load(&beside.join(scene)).map_err(|problems| problems.to_string()));
     let scenes = scenes.collect::<Result<Vec<DesignFile>, String>>()?;
     let mut folder = folder_of(&plan.name)?;
-    let kept = inner(folder.path(), "kept")?;
+    let kept = inner(folder.path(), KEPT_BY_STUDIES)?;
     std::fs::create_dir_all(&kept)?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
     put(&mut folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;

@@ -20,6 +20,9 @@ use crate::report::recording;
 /// Bytes of a manifest at the most.
 const LONGEST_MANIFEST: u64 = 16 << 20;
 
+/// Folder of what a study has computed so far, below that of its report.
+pub const KEPT_BY_STUDIES: &str = "kept";
+
 /// The file that is put in place last.
 const RESULT: &str = "result.json";
 
@@ -54,7 +57,9 @@ pub enum Refusal {
     OtherDesign(String),
     #[error("{0} holds {1}, whose place {2} would take: name another folder with --out")]
     OtherKind(String, &'static str, &'static str),
-    #[error("in {0} an interrupted run is kept: resume it first, or name another folder with --out")]
+    #[error(
+        "in {0} an interrupted run is kept, of a design or a study: finish it first, or let the report go to another folder"
+    )]
     Interrupted(String),
     #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
     Taken(String),
@@ -151,7 +156,8 @@ impl Folder {
         if self.brought {
             return Err(Refusal::Foreign(place(), recording::FILE.to_string()));
         }
-        if kind != Kind::Simulation && self.keeps_a_run() {
+        let of_a_study = kind != Kind::Study && self.path.join(KEPT_BY_STUDIES).is_dir();
+        if (kind != Kind::Simulation && self.keeps_a_run()) || of_a_study {
             return Err(Refusal::Interrupted(place()));
         }
         match Kind::of(self.manifest.files.keys()) {
@@ -357,7 +363,9 @@ impl Folder {
 impl Drop for Folder {
     /// A folder into which nothing came is left as it was.
     fn drop(&mut self) {
-        if self.lock.is_some() && self.manifest.files.is_empty() && self.others().is_empty() {
+        // A recording that was brought stays its owner's until its report is made.
+        let brought = self.brought && self.manifest.files.keys().eq([recording::FILE]);
+        if self.lock.is_some() && (brought || self.manifest.files.is_empty() && self.others().is_empty()) {
             let _ = fs::remove_file(self.path.join(manifest::FILE));
         }
         self.lock = None;
