@@ -26,7 +26,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     by_load.chain(against_plateau(net, design, demands, capacity)).collect()
 }
 
-/// Factor on its plateau with which a dissipator may pull; a load factor that is as large covers it.
+/// Factor on its plateau with which a dissipator may pull, assumed; a load factor that is as large covers it.
 const USUAL_OVERSTRENGTH: f64 = 1.15;
 
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.

@@ -56,34 +56,19 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         "Pa",
         "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
     );
+    let held = |name: CheckName, demand: Demand, characteristic: f64, factor: f64| {
+        Outcome::at_most(name, demand, Resistance { characteristic, factor }, 1.0)
+    };
+    let on_the_base = |outcome: Outcome| Outcome { kind: Kind::OnTheBase, ..outcome };
     let mut outcomes = vec![
-        match stability.bearing_resistance {
-            Some(characteristic) => {
-                Outcome::at_most(under, bearing, Resistance { characteristic, factor: stability.bearing_factor }, 1.0)
-            }
+        on_the_base(match stability.bearing_resistance {
+            Some(characteristic) => held(under, bearing, characteristic, stability.bearing_factor),
             None => Outcome::without_resistance(under, bearing, "barrier.rigid_wall.stability.bearing_resistance"),
-        },
-        Outcome::at_most(eccentricity, off, Resistance { characteristic: input.base_width / 3.0, factor: 1.0 }, 1.0),
-        Outcome::at_most(
-            sliding,
-            with_own(force, slides, pull),
-            Resistance { characteristic: holds_back, factor: stability.sliding_factor },
-            1.0,
-        ),
-        Outcome::at_most(
-            overturning,
-            with_own(moment, tips, tilt),
-            Resistance { characteristic: holds_up, factor: stability.overturning_factor },
-            1.0,
-        ),
+        }),
+        on_the_base(held(eccentricity, off, input.base_width / 3.0, 1.0)),
+        Outcome { fixed: pull, ..held(sliding, with_own(force, slides, pull), holds_back, stability.sliding_factor) },
+        Outcome { fixed: tilt, ..held(overturning, tipped, holds_up, stability.overturning_factor) },
     ];
-    for outcome in &mut outcomes {
-        match outcome.id.as_str() {
-            "wall_sliding" => outcome.fixed = pull,
-            "wall_overturning" => outcome.fixed = tilt,
-            _ => outcome.kind = Kind::OnTheBase,
-        }
-    }
     leave_open_untold(&stability, &mut outcomes);
     leave_open_below_water(design, &stability, &mut outcomes);
     outcomes

@@ -4,8 +4,9 @@ use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::design::BarrierDesign;
 
-/// Simulated over the guideline's loads on a wall that the examples come to.
-const SIMULATIONS_REACH: f64 = 1.8;
+/// Simulated over the guideline's loads that may come out. The examples reach 1.8, 3.3 for bolts, and a wall with λ = 0.8 reached 2.2; the
+/// rung of the equations in the ladder of models goes by it as well.
+pub const SIMULATIONS_REACH: f64 = 3.5;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     if known.seen.is_some() || !matches!(known.design.barrier, BarrierDesign::RigidWall(_)) {
@@ -18,7 +19,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     };
     for outcome in outcomes.iter_mut().filter(close) {
         outcome.leave_open(Opening::NeedsSimulation(format!(
-            "the guideline's pressures were measured on flexible barriers, and simulated ones on a rigid wall come to {SIMULATIONS_REACH} times as much (run the simulation)"
+            "the guideline's pressures were measured on flexible barriers, and a simulation may show up to {SIMULATIONS_REACH} times as much on a rigid wall (run the simulation)"
         )));
     }
 }
@@ -47,9 +48,9 @@ mod tests {
     #[test]
     fn a_wall_by_the_equations_alone_needs_much_to_spare() {
         let wall = read_design("x", include_bytes!("../../../designs/rigid_wall.yaml")).unwrap().design;
-        assert_eq!(verdict(&wall, "total_force", 0.55, false), CheckVerdict::Pass);
-        assert_eq!(verdict(&wall, "total_force", 0.56, false), CheckVerdict::Open);
-        assert_eq!(verdict(&wall, "wall_moment", 0.56, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "total_force", 0.28, false), CheckVerdict::Pass);
+        assert_eq!(verdict(&wall, "total_force", 0.29, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "wall_moment", 0.29, false), CheckVerdict::Open);
         assert_eq!(verdict(&wall, "total_force", f64::NAN, false), CheckVerdict::Open);
         assert_eq!(verdict(&wall, "total_force", 0.56, true), CheckVerdict::Pass);
         assert_eq!(verdict(&small_net(), "rope_2_tension", 0.56, false), CheckVerdict::Pass);
