@@ -139,19 +139,22 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
+    /// 2 m high and 1 m thick, on a level and dry base below a level bed.
+    const BLOCK: WallInput = WallInput {
+        height: 2.0,
+        thickness: 1.0,
+        base_width: 1.0,
+        density: 2400.0,
+        base_friction: 0.7,
+        base_slope: 0.0,
+        bed_slope: 0.0,
+        face_lean: 0.0,
+        water_head: 0.0,
+    };
+
     #[test]
     fn a_block_on_level_ground_slides_at_w_tan_phi_and_tips_at_half_its_thickness() {
-        let wall = WallInput {
-            height: 2.0,
-            thickness: 1.0,
-            base_width: 1.0,
-            density: 2400.0,
-            base_friction: 0.5,
-            base_slope: 0.0,
-            bed_slope: 0.0,
-            face_lean: 0.0,
-            water_head: 0.0,
-        };
+        let wall = WallInput { base_friction: 0.5, ..BLOCK };
         assert_relative_eq!(wall.weight(), 2400.0 * 9.81 * 2.0, max_relative = 1e-4);
         assert_eq!(wall.sliding(), [0.5 * wall.weight(), 0.0]);
         assert_eq!(wall.overturning(), [0.5 * wall.weight(), 0.0]);
@@ -160,34 +163,14 @@ mod tests {
     #[test]
     fn a_block_on_its_friction_angle_holds_nothing_more() {
         let slope = 0.4_f64;
-        let wall = WallInput {
-            height: 2.0,
-            thickness: 1.0,
-            base_width: 1.0,
-            density: 2400.0,
-            base_friction: libm::tan(slope),
-            base_slope: slope,
-            bed_slope: slope,
-            face_lean: 0.0,
-            water_head: 0.0,
-        };
+        let wall = WallInput { base_friction: libm::tan(slope), base_slope: slope, bed_slope: slope, ..BLOCK };
         let [hold, pull] = wall.sliding();
         assert_relative_eq!(hold, pull, max_relative = 1e-12);
     }
 
     #[test]
     fn a_plumb_face_is_pushed_level_and_an_overhanging_one_is_lifted() {
-        let wall = |face_lean: f64| WallInput {
-            height: 2.0,
-            thickness: 1.0,
-            base_width: 1.0,
-            density: 2400.0,
-            base_friction: 0.7,
-            base_slope: 0.0,
-            bed_slope: 0.7,
-            face_lean,
-            water_head: 0.0,
-        };
+        let wall = |face_lean: f64| WallInput { bed_slope: 0.7, face_lean, ..BLOCK };
         // Plumb on a level base: a force R along the bed is R / cos α, level, and lifts nothing.
         let plumb = wall(0.7);
         assert_relative_eq!(plumb.sliding_share(), 1.0 / libm::cos(0.7_f64), max_relative = 1e-12);
@@ -205,17 +188,7 @@ mod tests {
     /// bears on 0.8 m of it at rest; leaning upstream likewise, 0.6 m from the edge.
     #[test]
     fn a_leaning_wall_s_weight_acts_where_its_centre_is() {
-        let wall = |lean: f64| WallInput {
-            height: 2.0,
-            thickness: 1.0,
-            base_width: 1.0,
-            density: 2400.0,
-            base_friction: 0.7,
-            base_slope: 0.0,
-            bed_slope: 0.4,
-            face_lean: 0.4 + lean,
-            water_head: 0.0,
-        };
+        let wall = |lean: f64| WallInput { bed_slope: 0.4, face_lean: 0.4 + lean, ..BLOCK };
         let lean = libm::atan(0.1_f64);
         for (lean, arm) in [(-lean, 0.4), (0.0, 0.5), (lean, 0.6)] {
             let wall = wall(lean);
@@ -229,17 +202,7 @@ mod tests {
     /// 2.4 t/m³, 2 m high and 1 m thick: 47.07 kN/m, at rest on no more than the metre below it, and off its centre by 0.2 m on 0.6 m.
     #[test]
     fn the_pressure_under_a_wall_is_its_weight_over_what_bears() {
-        let wall = |base_width: f64| WallInput {
-            height: 2.0,
-            thickness: 1.0,
-            base_width,
-            density: 2400.0,
-            base_friction: 0.7,
-            base_slope: 0.0,
-            bed_slope: 0.4,
-            face_lean: 0.4,
-            water_head: 0.0,
-        };
+        let wall = |base_width: f64| WallInput { base_width, bed_slope: 0.4, face_lean: 0.4, ..BLOCK };
         let weight = wall(1.0).weight();
         assert_relative_eq!(wall(1.0).pressure(0.2, 0.0), weight / 0.6, max_relative = 1e-12);
         assert_relative_eq!(wall(1.0).pressure(0.2, 6e3), (weight + 6e3) / 0.6, max_relative = 1e-12);
@@ -256,17 +219,7 @@ mod tests {
     /// A head of 2 m lifts a base of 3 m with 1000 · 9.81 · 2 · 3/2 = 29.43 kN/m, 2 m from its downstream edge.
     #[test]
     fn water_under_the_base_lifts_the_wall() {
-        let dry = WallInput {
-            height: 2.0,
-            thickness: 1.0,
-            base_width: 3.0,
-            density: 2400.0,
-            base_friction: 0.5,
-            base_slope: 0.0,
-            bed_slope: 0.0,
-            face_lean: 0.0,
-            water_head: 0.0,
-        };
+        let dry = WallInput { base_width: 3.0, base_friction: 0.5, ..BLOCK };
         let wet = WallInput { water_head: 2.0, ..dry };
         assert_relative_eq!(wet.uplift(), 29.43e3, max_relative = 1e-4);
         assert_relative_eq!(wet.bears(), dry.bears() - 29.43e3, max_relative = 1e-3);
