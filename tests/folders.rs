@@ -241,6 +241,12 @@ fn what_was_simulated_is_replaced_by_nothing_else() {
             assert_eq!(std::fs::read(place.join(folder).join("recording.bin")).expect("it stays"), before);
         }
     }
+    // One that was cut short has a manifest and no page yet.
+    for page in ["compare.html", "compare.md"] {
+        std::fs::remove_file(place.join("side").join(page)).expect("a page");
+    }
+    let refused = run(&place, &["loads", "net.yaml", "--out", "side"]);
+    assert!(error(&refused).contains("holds a comparison"), "{}", error(&refused));
     let crossed = run(&place, &["compare", "side/net_2", "side/net", "--out", "side"]);
     assert!(error(&crossed).contains("would be replaced by the report of another"), "{}", error(&crossed));
     let again = run(&place, &["report", "brought"]);

@@ -92,6 +92,11 @@ impl CheckpointStore {
         read(&folder.join(REQUEST), Kind::Request, None)
     }
 
+    /// Whether the run that another request asked for was of the design file that this one is of, be its text another by now.
+    pub fn is_of_the_same_file_as(&self, other: &Request) -> bool {
+        self.request.name == other.name && self.request.source == other.source
+    }
+
     /// Whether there is something of this run to go on with.
     pub fn can_be_resumed(&self) -> bool {
         self.kept.load(Ordering::Relaxed) || (!self.fresh && Self::request_in(&self.folder).is_ok())

@@ -55,7 +55,16 @@ pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Dura
     let source = folder.source().map(str::to_string);
     let request = Request { name: file.name.clone(), design: file.text.clone(), source, starts, vary, vtk };
     let store = open_store(&place, request, &file, keep_every, true);
-    if CheckpointStore::request_in(store.folder()).is_ok() {
+    if let Ok(kept) = CheckpointStore::request_in(store.folder()) {
+        if !store.is_of_the_same_file_as(&kept) {
+            terminal::warn(format_args!(
+                "error: in {} an interrupted run of another design file is kept ({}): go on with it (`barrier-check resume {}`), remove that folder, or name another with --out",
+                store.folder().display(),
+                kept.name,
+                as_typed(&place)
+            ));
+            return ExitCode::Undecided;
+        }
         terminal::warn(format_args!(
             "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
             store.folder().display(),

@@ -9,7 +9,7 @@ use crate::commands::output::{exit_code, put, write_report};
 use crate::commands::report::{kind_of, read_recording};
 use crate::pipeline::Run;
 use crate::report::compare::{PAGE_FILES, Variant, files};
-use crate::report::folder::{Folder, free_name};
+use crate::report::folder::{Folder, OWN_NAMES, free_name};
 use crate::report::kind::Kind;
 use crate::terminal;
 
@@ -17,8 +17,8 @@ use crate::terminal;
 /// there, so that one that is cut short keeps those before it, and the page that holds them side by side. Ends by the worst verdict.
 pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
     let mut variants = Vec::new();
-    // Names of files of the page are no names for folders.
-    let mut folders = PAGE_FILES.map(str::to_string).into();
+    // What may lie in the folder of a page is no name for that of a report.
+    let mut folders = PAGE_FILES.iter().chain(&OWN_NAMES).map(ToString::to_string).collect();
     // All are read before the first runs, so that nobody waits for an error.
     let sources: Vec<_> = paths.iter().map(|path| Source::read(path)).collect();
     let mut refused = false;

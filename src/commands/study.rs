@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sha2::Digest;
 
 use crate::commands::ExitCode;
 use crate::commands::Failure;
@@ -13,17 +12,18 @@ use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::output::put;
 use crate::commands::signals::{listen, stop};
 use crate::design::read::DesignFile;
-use crate::report::folder::{Folder, KEPT_BY_STUDIES, Named, create, folder_name, inner};
+use crate::report::folder::{Folder, Named, folder_name};
 use crate::report::kind::Kind;
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
 use crate::scene::event::Watch;
 use crate::simulated::RunError;
 use crate::starts::side_by_side;
+use crate::studies::kept::KeptResults;
 use crate::studies::knobs::Knob;
 use crate::studies::plan::{Plan, StabilityPlan, Study};
 use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
-use crate::studies::stability::{SCENES, map};
+use crate::studies::stability::{Mapped, SCENES, map};
 use crate::terminal;
 
 /// Runs what is not kept yet, and writes the page below `out`.
@@ -57,17 +57,30 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let scenes = plan.scenes.iter().map(|scene| load(&beside.join(scene)).map_err(|problems| problems.to_string()));
     let scenes = scenes.collect::<Result<Vec<DesignFile>, String>>()?;
     let mut folder = folder_of(&plan.name)?;
-    let kept = inner(folder.path(), KEPT_BY_STUDIES)?;
-    std::fs::create_dir_all(&kept)?;
+    let kept = KeptResults::within(folder.path())?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
     put(&mut folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
     Ok(folder.path().join("study.html"))
 }
 
-/// Maps every scene, side by side, and writes the page.
+/// Maps every scene that is not kept, side by side, and writes the page.
 fn stability_map(plan: &StabilityPlan, mut folder: Folder) -> Result<PathBuf, Failure> {
+    let kept = KeptResults::within(folder.path())?;
     let threads = rayon::current_num_threads();
-    let mapped = side_by_side(threads, SCENES.len(), |index| map(&SCENES[index], &plan.shares, plan.steps));
+    let mapped = side_by_side(threads, SCENES.len(), |index| -> Result<Mapped, String> {
+        let scene = &SCENES[index];
+        let asked = format!("{:?} {}", plan.shares, plan.steps);
+        let of = [scene.name.as_bytes(), asked.as_bytes()];
+        let limits = kept.get(&of).map_or_else(
+            || {
+                let limits = map(scene, &plan.shares, plan.steps);
+                kept.put(&of, &limits).map(|()| limits).map_err(|error| error.to_string())
+            },
+            Ok,
+        )?;
+        Ok(Mapped::new(scene, limits))
+    });
+    let mapped = mapped.into_iter().collect::<Result<Vec<_>, _>>()?;
     put(&mut folder, &map_files(&plan.name, &mapped).map_err(|error| error.to_string())?)?;
     for scene in &mapped {
         let caught = if scene.all_caught() { "all caught" } else { "NOT ALL CAUGHT" };
@@ -82,9 +95,11 @@ fn stability_map(plan: &StabilityPlan, mut folder: Folder) -> Result<PathBuf, Fa
 }
 
 /// Every task with its result, kept or made; nothing where the scene cannot be prepared with that setting.
-fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<(Task, Option<Point>)>, Failure> {
-    let program = sha2::Sha256::digest(std::fs::read(std::env::current_exe()?)?);
-    let file_of = |task: &Task| kept.join(format!("{}.json", key(task, &scenes[task.scene], &program)));
+fn all_points(
+    tasks: &[Task],
+    scenes: &[DesignFile],
+    kept: &KeptResults,
+) -> Result<Vec<(Task, Option<Point>)>, Failure> {
     listen();
     let bar = ProgressBar::new(tasks.len() as u64);
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len}  {msg}  {eta} left");
@@ -93,26 +108,22 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
     let threads = rayon::current_num_threads();
     let results = side_by_side(threads, tasks.len(), |index| -> Result<Option<Point>, String> {
         let task = &tasks[index];
-        let file = file_of(task);
-        if let Some(point) =
-            input::read(&file, LONGEST_TEXT, b"").ok().and_then(|bytes| serde_json::from_slice(&bytes).ok())
-        {
+        let scene = &scenes[task.scene];
+        let turned = format!("{:?} {}", task.setting, task.seed);
+        let of = [&scene.text[..], turned.as_bytes()];
+        if let Some(point) = kept.get(&of) {
             found.fetch_add(1, Ordering::Relaxed);
             bar.inc(1);
             return Ok(Some(point));
         }
-        bar.set_message(format!("{}, {}", scenes[task.scene].name, task.setting.word()));
+        bar.set_message(format!("{}, {}", scene.name, task.setting.word()));
         let watch = Watch { progress: &|_| (), stop: stop(), store: None };
-        let point = match make(task, &scenes[task.scene].design, &watch) {
+        let point = match make(task, &scene.design, &watch) {
             Ok(point) => point,
             Err(RunError::Preparation(_)) => return Ok(None),
             Err(error) => return Err(error.to_string()),
         };
-        let text = serde_json::to_vec(&point).map_err(|error| error.to_string())?;
-        // First beside it, so that nobody reads half a result.
-        let half = file.with_extension("tmp");
-        let written = create(&half, &text).and_then(|()| std::fs::rename(&half, &file));
-        written.map_err(|error| format!("{}: {error}", half.display()))?;
+        kept.put(&of, &point).map_err(|error| error.to_string())?;
         bar.inc(1);
         Ok(Some(point))
     });
@@ -120,15 +131,6 @@ fn all_points(tasks: &[Task], scenes: &[DesignFile], kept: &Path) -> Result<Vec<
     terminal::warn(format_args!("{} runs, {} of them kept from before", tasks.len(), found.load(Ordering::Relaxed)));
     let points = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(tasks.iter().cloned().zip(points).collect())
-}
-
-/// What a result hangs on: program, design, setting, seed.
-fn key(task: &Task, scene: &DesignFile, program: &[u8]) -> String {
-    let mut hash = sha2::Sha256::new();
-    hash.update(program);
-    hash.update(&scene.text);
-    hash.update(format!("{:?} {}", task.setting, task.seed));
-    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn gather(plan: &Plan, files: &[DesignFile], points: Vec<(Task, Option<Point>)>) -> Vec<Scene> {

@@ -61,33 +61,30 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
             return ExitCode::Undecided;
         }
     };
-    let mut ran = Vec::new();
+    let asked = cases.len();
+    let mut rows = Vec::new();
+    let mut written = Ok(());
     for case in cases {
-        let done = Ran::of(case);
-        tell(&done);
-        ran.push(done);
+        let row = Row::of(&Ran::of(case));
+        tell(&row);
+        rows.push(row);
+        // After each, so that one that is cut short keeps those that have run.
+        written = render(&rows, asked)
+            .map_err(|error| error.to_string())
+            .and_then(|files| put(&mut folder, &files).map_err(|error| error.to_string()));
     }
-    let rows: Vec<Row> = ran.iter().map(Row::of).collect();
-    terminal::say(verdict_line(&rows));
-    let written = render(&rows)
-        .map_err(|error| error.to_string())
-        .and_then(|files| put(&mut folder, &files).map_err(|error| error.to_string()));
+    terminal::say(verdict_line(&rows, asked));
     let folder = folder.path();
-    match written {
-        Ok(()) => {
-            terminal::say(format_args!("report: {}", folder.join("validation.html").display()));
-        }
-        Err(error) => {
-            terminal::warn(format_args!("error: the report could not be written to {}: {error}", folder.display()));
-            return ExitCode::Undecided;
-        }
+    if let Err(error) = written {
+        terminal::warn(format_args!("error: the report could not be written to {}: {error}", folder.display()));
+        return ExitCode::Undecided;
     }
-    if ran.iter().all(Ran::passed) { ExitCode::Pass } else { ExitCode::Fail }
+    terminal::say(format_args!("report: {}", folder.join("validation.html").display()));
+    if rows.iter().all(Row::passed) { ExitCode::Pass } else { ExitCode::Fail }
 }
 
 /// One line for the case, and one for each finding.
-fn tell(ran: &Ran) {
-    let row = Row::of(ran);
+fn tell(row: &Row) {
     let head = format!("{:<4} {:<4} {} ({}, {})", row.verdict.to_uppercase(), row.id, row.title, row.tier, row.time);
     let findings = row.findings.iter().map(|finding| {
         format!("     {:<4} {:<52} {:>12}   {}", finding.verdict, finding.what, finding.measured, finding.wanted)

@@ -90,8 +90,8 @@ pub fn brackets_are_too_deep(text: &str) -> bool {
 }
 
 impl Document {
-    /// Parses the bytes of a file. On failure says where and why.
-    pub fn parse(bytes: &[u8]) -> Result<Self, Problem> {
+    /// Parses the bytes of a file, which is to have these `keys`. On failure says where and why.
+    pub fn parse(bytes: &[u8], keys: &str) -> Result<Self, Problem> {
         let whole = |found: &str, allowed: &str| Problem::new("", found, allowed);
         if bytes.len() > MOST_BYTES {
             return Err(whole(
@@ -121,11 +121,9 @@ impl Document {
         BUDGET.set(MOST_VALUES);
         let parsed = serde_yaml::Deserializer::from_str(&text);
         match NodeSeed.deserialize(parsed) {
-            Ok(Node::Nothing) => {
-                Err(whole("an empty file", "a design with the sections project, channel, flow, barrier"))
-            }
             Ok(root @ Node::Map(_)) => Ok(Self { text, root }),
-            Ok(other) => Err(whole(&other.describe(), "a group of keys: project, channel, flow, barrier, …")),
+            Ok(Node::Nothing) => Err(whole("an empty file", keys)),
+            Ok(other) => Err(whole(&other.describe(), keys)),
             Err(error) => Err(unreadable(&error, &text)),
         }
     }

@@ -107,13 +107,15 @@ impl Entries {
 
 /// Reads a whole design by its table of keys; problems go to `problems`.
 pub fn read(root: &Node, keys: &'static [Key], purpose: Purpose, problems: &mut Vec<Problem>) -> Entries {
-    let mut reader = Reader { entries: Entries::default(), purpose, problems };
+    let mut reader = Reader { entries: Entries::default(), all: keys, purpose, problems };
     reader.section(root, keys, "");
     reader.entries
 }
 
 struct Reader<'a> {
     entries: Entries,
+    /// The keys of the whole design.
+    all: &'static [Key],
     purpose: Purpose,
     problems: &'a mut Vec<Problem>,
 }
@@ -162,6 +164,8 @@ impl Reader<'_> {
                     problem = problem.hint("between braces a comma begins another key: is this the end of a number? Write it without commas, as `1200 kN` or `1.8 m`");
                 } else if let Some(near) = nearest(name, keys.iter().map(|key| key.name)) {
                     problem = problem.hint(format!("did you mean `{near}`?"));
+                } else if let [place] = &groups_with(name, self.all, "")[..] {
+                    problem = problem.hint(format!("`{name}` is a key of {place}"));
                 }
                 self.problems.push(problem);
             }
@@ -230,6 +234,20 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// The groups that have a key of this name, by their paths.
+fn groups_with(name: &str, keys: &'static [Key], path: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    if keys.iter().any(|key| key.name == name) {
+        found.push(if path.is_empty() { "the design itself, without indent".to_string() } else { format!("`{path}`") });
+    }
+    for key in keys {
+        if let Kind::Section(keys) | Kind::OneOf(keys) = key.kind {
+            found.extend(groups_with(name, keys, &join(path, key.name)));
+        }
+    }
+    found
 }
 
 fn join(path: &str, name: &str) -> String {

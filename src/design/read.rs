@@ -28,10 +28,13 @@ pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     read_design_for(Purpose::Simulation, file, bytes)
 }
 
+/// What a file has to be, as an error tells it.
+pub(super) const KEYS: &str = "a design with the sections project, channel, flow, barrier";
+
 /// The same for a purpose.
 pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
-    let document = Document::parse(bytes).map_err(|problem| refuse(vec![problem]))?;
+    let document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
     take_remarks(&mut entries, &document, bytes);

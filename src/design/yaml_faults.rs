@@ -44,18 +44,7 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
                 "the keys of a group begin in one column: `{key}` is indented more than the line above it, or that line lacks its colon"
             )
         }
-        _ if said.contains("expected key") && !content.contains(':') && !content.starts_with("- ") => {
-            without_a_colon(content)
-        }
-        _ if said.contains("expected key") && content.starts_with("- ") => {
-            format!("a dash begins an item of a list; a key has none: `{}`", content.trim_start_matches("- "))
-        }
-        _ if said.contains("expected key") && beyond_its_quotes(value) => {
-            format!("the whole value stands between the quotation marks: `{key}: \"{}\"`", value.replace('"', "'"))
-        }
-        _ if said.contains("expected key") => {
-            format!("the keys of a group begin in one column: `{key}` is indented otherwise than those above it")
-        }
+        _ if said.contains("expected key") => where_a_key_belongs(content, key, value),
         _ if said.contains("cannot start any token") || said.contains("alphabetic or numeric character") => {
             let first = value.chars().next().unwrap_or(' ');
             format!("a text that begins with `{first}` needs quotes: `{key}: {}`", quoted(value))
@@ -102,6 +91,24 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
     })
 }
 
+/// The same where a key of a group was expected.
+fn where_a_key_belongs(content: &str, key: &str, value: &str) -> String {
+    match content {
+        _ if content.starts_with("- ") => {
+            format!("a dash begins an item of a list; a key has none: `{}`", content.trim_start_matches("- "))
+        }
+        _ if !content.contains(':') => without_a_colon(content),
+        _ if beyond_its_end(value, ["\"\"", "''"]) => {
+            format!("the whole value stands between the quotation marks: `{key}: \"{}\"`", value.replace('"', "'"))
+        }
+        _ if beyond_its_end(value, ["[]", "{}"]) => {
+            "the bracket that is closed here ends the value; in a list each item has its own unit, as in `[0 m, 0.5 m]`"
+                .to_string()
+        }
+        _ => format!("the keys of a group begin in one column: `{key}` is indented otherwise than those above it"),
+    }
+}
+
 fn without_a_colon(content: &str) -> String {
     match content.split_once(' ') {
         Some((key, value)) => format!("a key is followed by a colon: `{key}: {}`", value.trim()),
@@ -118,10 +125,12 @@ fn quoted(value: &str) -> String {
     }
 }
 
-/// Whether a value begins with a quotation mark that is closed before its end.
-fn beyond_its_quotes(value: &str) -> bool {
-    let mark = value.chars().next().filter(|first| "\"'".contains(*first));
-    mark.is_some_and(|mark| value[1..].find(mark).is_some_and(|end| end + 2 < value.len()))
+/// Whether a value begins with the first of a pair of marks and goes on behind the second.
+fn beyond_its_end(value: &str, pairs: [&str; 2]) -> bool {
+    pairs.iter().any(|pair| {
+        let inside = value.strip_prefix(&pair[..1]);
+        inside.and_then(|inside| inside.split_once(&pair[1..])).is_some_and(|(_, behind)| !behind.trim().is_empty())
+    })
 }
 
 fn without_tag(value: &str) -> &str {
@@ -191,10 +200,11 @@ fn without_comment(line: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use crate::design::document::Document;
+    use crate::design::read::KEYS;
 
     #[test]
     fn a_first_key_that_is_indented_is_told_and_no_dashes_that_are_not_there() {
-        let problem = Document::parse(b"# a design\n project:\n  name: x\nchannel: y\n").expect_err("a fault");
+        let problem = Document::parse(b"# a design\n project:\n  name: x\nchannel: y\n", KEYS).expect_err("a fault");
         assert_eq!(problem.position.map(|place| place.line), Some(2));
         let hint = problem.hint.unwrap_or_default();
         assert!(hint.contains("`project` is indented otherwise than those below it"), "{hint}");
@@ -205,7 +215,7 @@ mod tests {
         let text = "channel:\n  width: 3 m\n  slope: 25 deg\n  notes: none\n";
         let told = |from: &str, to: &str| {
             assert!(text.contains(from));
-            let problem = Document::parse(text.replacen(from, to, 1).as_bytes()).expect_err("a fault");
+            let problem = Document::parse(text.replacen(from, to, 1).as_bytes(), KEYS).expect_err("a fault");
             (problem.position.map(|place| place.line), problem.hint.unwrap_or_default())
         };
         for (from, to, line, hint) in [
@@ -224,6 +234,8 @@ mod tests {
             ("3 m", "[3 m", 2, "the bracket `[`"),
             ("none\n", "none\n---\na: 1\n", 5, "leave out the line `---`"),
             ("none", "\"see\" this", 4, "between the quotation marks: `notes: \"'see' this\"`"),
+            ("3 m", "[3 m, 4 m] wide", 2, "in a list each item has its own unit"),
+            ("3 m", "[3, 4] m", 2, "in a list each item has its own unit"),
             ("3 m", "*wide", 2, "nothing was: a text that begins with it needs quotes, `width: \"*wide\"`"),
             ("none", "\"C:\\qed\"", 4, "use single ones, `notes: 'C:\\qed'`"),
             ("3 m", "!metres 3 m", 2, "which no key of a design takes: `width: 3 m`"),

@@ -23,6 +23,9 @@ const LONGEST_MANIFEST: u64 = 16 << 20;
 /// Folder of what a study has computed so far, below that of its report.
 pub const KEPT_BY_STUDIES: &str = "kept";
 
+/// What the program puts into a folder besides the files of a report.
+pub const OWN_NAMES: [&str; 4] = [manifest::FILE, lock::FILE, checkpoint::FOLDER, KEPT_BY_STUDIES];
+
 /// The file that is put in place last.
 const RESULT: &str = "result.json";
 
@@ -84,6 +87,8 @@ pub struct Folder {
     manifest: Manifest,
     /// The design file whose report is to be written.
     source: Option<String>,
+    /// What is to be written.
+    kind: Option<Kind>,
     /// Whether all there is of the program's is a recording that was brought here.
     brought: bool,
     // Last, so that the folder is in order before the next may have it.
@@ -104,6 +109,7 @@ impl Folder {
             there_before,
             manifest: Manifest::default(),
             source: None,
+            kind: None,
             brought: false,
             lock: None,
         };
@@ -151,7 +157,7 @@ impl Folder {
     }
 
     /// The folder, if a report of this kind may be written into it.
-    pub fn for_kind(self, kind: Kind) -> Result<Self, Refusal> {
+    pub fn for_kind(mut self, kind: Kind) -> Result<Self, Refusal> {
         let place = || self.path.display().to_string();
         if self.brought {
             return Err(Refusal::Foreign(place(), recording::FILE.to_string()));
@@ -160,11 +166,12 @@ impl Folder {
         if (kind != Kind::Simulation && self.keeps_a_run()) || of_a_study {
             return Err(Refusal::Interrupted(place()));
         }
-        match Kind::of(self.manifest.files.keys()) {
-            Some(there) if !kind.may_replace(there) => {
-                Err(Refusal::OtherKind(self.path.display().to_string(), there.words(), kind.words()))
+        match Kind::of(self.manifest.files.keys()).or(self.manifest.kind) {
+            Some(there) if !kind.may_replace(there) => Err(Refusal::OtherKind(place(), there.words(), kind.words())),
+            _ => {
+                self.kind = Some(kind);
+                Ok(self)
             }
-            _ => Ok(self),
         }
     }
 
@@ -253,6 +260,7 @@ impl Folder {
             return Err(error);
         }
         let digests = files.iter().map(|file| (file.name.clone(), digest_of(&file.bytes))).collect();
+        self.manifest.kind = self.kind.or(self.manifest.kind);
         // Should the rest be cut short, both the old files and the new ones are the program's.
         self.manifest = std::mem::take(&mut self.manifest).replaced_by(PROGRAM.to_string(), digests);
         let placed = self.place(files);

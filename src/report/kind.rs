@@ -1,7 +1,10 @@
 //! What a folder holds a report of. A report of one kind does not take the place of one of another, which may have taken hours.
 
+use serde::{Deserialize, Serialize};
+
 /// A kind of report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Of a design, by the equations alone.
     Equations,

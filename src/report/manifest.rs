@@ -6,6 +6,8 @@ use std::path::{Component, Path};
 use serde::{Deserialize, Serialize};
 use sha2::Digest;
 
+use crate::report::kind::Kind;
+
 /// Name of the file.
 pub const FILE: &str = "manifest.json";
 
@@ -17,6 +19,9 @@ pub struct Manifest {
     /// What tells the design file they were made from, by its place beside the folder, from others of the same name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
+    /// What it is a report of, or is to be one of: what its files do not tell before they are written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<Kind>,
     pub files: BTreeMap<String, String>,
     /// While files are being replaced, what may stand there still.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -47,7 +52,7 @@ impl Manifest {
         for (name, digest) in self.files {
             replaced.entry(name).or_default().push(digest);
         }
-        Self { program, source: self.source, files, replaced }
+        Self { program, source: self.source, kind: self.kind, files, replaced }
     }
 
     /// Names of all files that the program has put there.

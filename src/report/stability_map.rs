@@ -55,12 +55,12 @@ pub fn files(name: &str, mapped: &[Mapped]) -> Result<Vec<ReportFile>, tera::Err
 }
 
 fn row(mapped: &Mapped) -> Row {
-    let wrong = mapped.trials.iter().find(|trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling));
+    let wrong = mapped.limits.trials.iter().find(|trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling));
     Row {
         name: mapped.name,
         what: mapped.what,
-        estimated: format!("{:.3e} s", mapped.estimated),
-        sharpness: if mapped.linear && mapped.true_share.is_finite() {
+        estimated: format!("{:.3e} s", mapped.limits.estimated),
+        sharpness: if mapped.linear && mapped.limits.true_share.is_finite() {
             format!("{:.2}", mapped.sharpness())
         } else {
             "–".into()
@@ -78,11 +78,11 @@ const LABEL: f64 = 170.0;
 const TOP: f64 = 22.0;
 
 fn cells(mapped: &[Mapped]) -> String {
-    let columns = mapped.iter().map(|scene| scene.trials.len()).max().unwrap_or(0);
+    let columns = mapped.iter().map(|scene| scene.limits.trials.len()).max().unwrap_or(0);
     let (width, height) = (LABEL + CELL[0] * columns as f64 + 8.0, TOP + CELL[1] * mapped.len() as f64 + 6.0);
     let mut out =
         format!(r#"<svg viewBox="0 0 {width} {height}" role="img" aria-label="What becomes of a run by its step">"#);
-    for (column, trial) in mapped.first().map_or(&[][..], |scene| &scene.trials).iter().enumerate() {
+    for (column, trial) in mapped.first().map_or(&[][..], |scene| &scene.limits.trials).iter().enumerate() {
         let x = LABEL + CELL[0] * (column as f64 + 0.5);
         let _ = write!(out, r#"<text class="tick" text-anchor="middle" x="{x}" y="14">{}</text>"#, trial.share);
     }
@@ -91,7 +91,7 @@ fn cells(mapped: &[Mapped]) -> String {
         let up = y + 0.5 * CELL[1] + 4.0;
         let name = escape(scene.name);
         let _ = write!(out, r#"<text class="tick" text-anchor="end" x="{}" y="{up}">{name}</text>"#, LABEL - 8.0);
-        for (column, trial) in scene.trials.iter().enumerate() {
+        for (column, trial) in scene.limits.trials.iter().enumerate() {
             let x = LABEL + CELL[0] * column as f64;
             let [wide, tall] = CELL.map(|side| side - 2.0);
             let fate = trial.fate.word();
@@ -102,7 +102,8 @@ fn cells(mapped: &[Mapped]) -> String {
                 write!(out, r#"<text class="on {fate}" text-anchor="middle" x="{middle}" y="{up}">{letter}</text>"#);
         }
     }
-    let within = mapped.first().map_or(0, |scene| scene.trials.iter().filter(|trial| trial.share <= 1.0).count());
+    let within =
+        mapped.first().map_or(0, |scene| scene.limits.trials.iter().filter(|trial| trial.share <= 1.0).count());
     let x = LABEL + CELL[0] * within as f64 - 1.0;
     let _ = write!(out, r#"<line class="limit" x1="{x}" x2="{x}" y1="{}" y2="{height}"/></svg>"#, TOP - 6.0);
     out
@@ -111,7 +112,7 @@ fn cells(mapped: &[Mapped]) -> String {
 fn table(mapped: &[Mapped]) -> String {
     let mut text = String::from("scene,share,fate,imbalance,noticed\n");
     for scene in mapped {
-        for trial in &scene.trials {
+        for trial in &scene.limits.trials {
             let noticed = trial.noticed.len();
             let _ = writeln!(
                 text,

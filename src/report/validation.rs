@@ -39,6 +39,10 @@ pub struct FindingRow {
 }
 
 impl Row {
+    pub fn passed(&self) -> bool {
+        self.verdict == "pass"
+    }
+
     pub fn of(ran: &Ran) -> Self {
         let case = ran.case;
         Self {
@@ -132,25 +136,27 @@ impl Kept {
     }
 
     fn of(rows: &[Row]) -> Self {
-        let case =
-            |row: &Row| KeptCase { id: row.id.to_string(), title: row.title.to_string(), held: row.verdict == "pass" };
+        let case = |row: &Row| KeptCase { id: row.id.to_string(), title: row.title.to_string(), held: row.passed() };
         Self { commit: COMMIT.to_string(), cases: rows.iter().map(case).collect() }
     }
 }
 
-/// How many cases hold.
-pub fn verdict_line(rows: &[Row]) -> String {
-    let passed = rows.iter().filter(|row| row.verdict == "pass").count();
-    format!("{passed} of {} cases hold", rows.len())
+/// How many cases hold; of all that were `asked` for some may not have run.
+pub fn verdict_line(rows: &[Row], asked: usize) -> String {
+    let passed = rows.iter().filter(|row| row.passed()).count();
+    match asked.saturating_sub(rows.len()) {
+        0 => format!("{passed} of {} cases hold", rows.len()),
+        missing => format!("{passed} of {} cases hold; {missing} more have not run", rows.len()),
+    }
 }
 
 /// The report as HTML and as Markdown.
-pub fn render(rows: &[Row]) -> Result<Vec<ReportFile>, tera::Error> {
+pub fn render(rows: &[Row], asked: usize) -> Result<Vec<ReportFile>, tera::Error> {
     let mut tera = Tera::default();
     tera.add_raw_templates(vec![("validation.html", HTML), ("validation.md", MARKDOWN)])?;
     let mut context = Context::new();
     context.insert("cases", rows);
-    context.insert("verdict_line", &verdict_line(rows));
+    context.insert("verdict_line", &verdict_line(rows, asked));
     context.insert("version", env!("CARGO_PKG_VERSION"));
     let file = |name| tera.render(name, &context).map(|text| ReportFile::new(name, text));
     let kept = serde_json::to_string_pretty(&Kept::of(rows)).unwrap_or_default() + "\n";

@@ -10,23 +10,46 @@ use crate::problem::Problem;
 use crate::studies::knobs::Knob;
 
 /// What a study is of.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(tag = "kind", rename_all = "snake_case")]
+#[derive(Clone, Debug)]
 pub enum Study {
     SpeedAccuracy(Plan),
     Stability(StabilityPlan),
 }
 
+/// The same as the file names it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    SpeedAccuracy,
+    Stability,
+}
+
+/// The key that tells what the others are; these are not looked at.
+#[derive(Deserialize)]
+struct Head {
+    kind: Kind,
+}
+
+/// What the file of a study has to be, as an error tells it.
+const KEYS: &str = "a study with the keys kind, name and those of its kind, as in designs/studies";
+
 impl Study {
     /// Reads the file's text; tells all that is wrong with it.
     pub fn read(text: &str) -> Result<Self, Vec<String>> {
-        let document = Document::parse(text.as_bytes()).map_err(|problem| vec![told(&problem)])?;
+        let document = Document::parse(text.as_bytes(), KEYS).map_err(|problem| vec![told(&problem)])?;
         let at = |path: &str| document.position(path).map_or(String::new(), |place| format!("line {}, ", place.line));
         let doubled = doubled("", &document.root);
         if !doubled.is_empty() {
             return Err(doubled.iter().map(|path| format!("{}{path}: given twice", at(path))).collect());
         }
-        let study: Self = serde_yaml::from_str(text).map_err(|error| vec![error.to_string()])?;
+        let misread = |error: serde_yaml::Error| vec![plainly(&error.to_string())];
+        // The kind first: the place of a fault is lost where serde has to look ahead for it.
+        let head: Head = serde_yaml::from_str(text).map_err(misread)?;
+        let study = match head.kind {
+            Kind::SpeedAccuracy => serde_yaml::from_str(text).map(Self::SpeedAccuracy),
+            Kind::Stability => serde_yaml::from_str(text).map(Self::Stability),
+        };
+        let study = study.map_err(misread)?;
         let wrong = match &study {
             Self::SpeedAccuracy(plan) => plan.wrong(),
             Self::Stability(plan) => plan.wrong(),
@@ -36,6 +59,29 @@ impl Study {
         }
         Err(wrong.into_iter().map(|[path, wrong]| format!("{}{path}: {wrong}", at(&path))).collect())
     }
+}
+
+/// The words of the reader in those of a file.
+fn plainly(error: &str) -> String {
+    let words = [
+        ("invalid type: ", "found "),
+        ("integer `", "the number `"),
+        ("floating point `", "the number `"),
+        ("string \"", "the text \""),
+        ("sequence", "a list"),
+        ("a a list", "a list"),
+        ("found map", "found a group of keys"),
+        ("expected a map", "expected a group of keys"),
+        ("expected f64", "expected a number"),
+        ("expected u32", "expected a whole number"),
+        ("expected usize", "expected a whole number"),
+        ("expected struct Head", "expected a group of keys"),
+        ("unknown field", "unknown key"),
+        ("missing field", "missing key"),
+        ("unknown variant", "unknown value"),
+        ("path string", "the name of a file"),
+    ];
+    words.iter().fold(error.to_string(), |text, (from, to)| text.replace(from, to))
 }
 
 /// A problem of the whole text in one line.
@@ -63,6 +109,8 @@ fn doubled(path: &str, node: &Node) -> Vec<String> {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StabilityPlan {
+    #[serde(rename = "kind")]
+    _kind: Kind,
     /// What the study is called.
     pub name: String,
     /// Shares of the estimated limit, rising.
@@ -95,6 +143,8 @@ impl StabilityPlan {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
+    #[serde(rename = "kind")]
+    _kind: Kind,
     /// What the study is called.
     pub name: String,
     /// Design files, relative to the study's own.
@@ -172,6 +222,23 @@ mod tests {
         let wrong = Study::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
         assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
         assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
+        for (from, to, wanted) in [
+            ("starts: ", "starts: few # ", "starts: found the text \"few\", expected a whole number at line "),
+            ("name: ", "nam: ", "unknown key `nam`, expected one of"),
+            (
+                "kind: speed_accuracy",
+                "kind: speed",
+                "kind: unknown value `speed`, expected `speed_accuracy` or `stability` at line ",
+            ),
+            ("step: [", "step: [0.1, fast, ", "knobs.step[1]: found the text \"fast\", expected a number at line "),
+        ] {
+            let wrong = Study::read(&text.replacen(from, to, 1)).unwrap_err();
+            assert!(wrong[0].contains(wanted), "{wrong:?}");
+        }
+        for (text, found) in [("", "an empty file"), ("- a", "a list")] {
+            let wrong = Study::read(text).unwrap_err();
+            assert!(wrong[0].starts_with(&format!("found {found}, allowed a study with the keys kind")), "{wrong:?}");
+        }
         assert!(Study::read(&"[".repeat(100_000)).is_err());
         let wrong = Study::read(&text.replace("knobs:\n", "knobs:\n  step: [0.1]\n")).unwrap_err();
         assert!(wrong[0].contains("knobs.step: given twice"), "{wrong:?}");

@@ -44,7 +44,7 @@ impl Fate {
 }
 
 /// One run at a share of the estimated limit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trial {
     pub share: f64,
     pub fate: Fate,
@@ -79,6 +79,12 @@ pub struct Mapped {
     pub name: &'static str,
     pub what: &'static str,
     pub linear: bool,
+    pub limits: Limits,
+}
+
+/// What the runs of a scene have shown. All that is kept of them.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Limits {
     /// Critical step that the program estimates (s).
     pub estimated: f64,
     /// Largest share of it at which a run does not yet make energy from nothing.
@@ -87,14 +93,20 @@ pub struct Mapped {
 }
 
 impl Mapped {
+    /// The scene with what its runs have shown.
+    pub fn new(scene: &Scene, limits: Limits) -> Self {
+        let Scene { name, what, linear, .. } = *scene;
+        Self { name, what, linear, limits }
+    }
+
     /// The estimate is never above the true limit.
     pub fn safe(&self) -> bool {
-        self.true_share >= 1.0
+        self.limits.true_share >= 1.0
     }
 
     /// Estimate over true limit.
     pub fn sharpness(&self) -> f64 {
-        1.0 / self.true_share
+        1.0 / self.limits.true_share
     }
 
     /// What the estimate is worth.
@@ -110,7 +122,7 @@ impl Mapped {
     /// Every run that went wrong was noticed, or stepped so that the audit would have cut the step.
     pub fn all_caught(&self) -> bool {
         let wrong = |trial: &&Trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling);
-        self.trials.iter().filter(wrong).all(|trial| !trial.noticed.is_empty())
+        self.limits.trials.iter().filter(wrong).all(|trial| !trial.noticed.is_empty())
     }
 }
 
@@ -214,7 +226,7 @@ const MADE: f64 = 5.0 * ENERGY_LIMIT;
 const HALVINGS: usize = 7;
 
 /// Maps a scene: `shares` of its estimated limit, `steps` steps each.
-pub fn map(scene: &Scene, shares: &[f64], steps: usize) -> Mapped {
+pub fn map(scene: &Scene, shares: &[f64], steps: usize) -> Limits {
     let estimated = limit(scene, steps);
     let trials: Vec<Trial> = shares.iter().map(|share| trial(scene, *share, estimated, steps)).collect();
     // Between the last share that makes no energy from nothing and the first that does. (A contact that opens may keep what a
@@ -230,8 +242,7 @@ pub fn map(scene: &Scene, shares: &[f64], steps: usize) -> Mapped {
             bracket[usize::from(unstable)] = middle;
         }
     }
-    let Scene { name, what, linear, .. } = *scene;
-    Mapped { name, what, linear, estimated, true_share: bracket[0], trials }
+    Limits { estimated, true_share: bracket[0], trials }
 }
 
 /// Critical step that the program estimates (s): the least over a run in short steps, as the audit of a run sees it.
@@ -578,10 +589,10 @@ mod tests {
     #[test]
     fn the_estimate_of_a_row_is_that_of_the_closed_form() {
         // Balls between walls: ω² = 4 k/m at the most, the walls being twice as stiff a touch more.
-        let mapped = map(&SCENES[0], &[0.5, 1.5], 2000);
+        let mapped = Mapped::new(&SCENES[0], map(&SCENES[0], &[0.5, 1.5], 2000));
         assert!(mapped.safe() && mapped.sharpness() > 0.6, "{mapped:?}");
-        assert_eq!(mapped.trials[0].fate, Fate::Stable);
-        assert_eq!(mapped.trials[1].fate, Fate::Unstable);
+        assert_eq!(mapped.limits.trials[0].fate, Fate::Stable);
+        assert_eq!(mapped.limits.trials[1].fate, Fate::Unstable);
         assert!(mapped.all_caught());
     }
 }
