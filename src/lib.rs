@@ -17,14 +17,15 @@
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
-//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `demand::from_loads`; its words in `report::loads`; a line in `checks::not_covered::not_simulated` |
+//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its words in `report::loads`; a line in `checks::not_covered::not_simulated` |
 //! | another impact model | an entry of [`loads::ladder::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
 //! | a shape of surface | [`dem::tables::surfaces`], what it does to a grain in [`dem::contact::surfaces`], where it stands in [`scene::build`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
-//! | a check | a file in [`checks`] and a line in its list; a new demand first goes through [`dem::recorders`], [`demand::from_histories`] and [`demand`] |
+//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter, comparison and demands follow. One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
+//! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, beside `pipeline::slower_than_designed` |
 //! | a warning to the reviewer | a function and a line in [`report::warnings`]; a usual range of an input in [`checks::implausible`] |
@@ -35,7 +36,7 @@
 //! | a set of factors that a code gives | [`design::factor_sets`] |
 //! | a kind of report | [`report::kind`] |
 //! | a command | a file in [`commands`], its arguments in `src/main.rs` |
-//! | a time series | [`dem::recorders`] and a column in [`report::series`] |
+//! | a time series of the barrier | a channel in the file of its body in [`dem::recorders`] and a line in `CHANNELS` there |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
 //! | a scene of the bench | a line in `benches/throughput.rs`, its state in `benches/states` |
 //! | a row of the report | [`report::findings`] (simulation), [`report::loads`] (equations), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
@@ -76,11 +77,14 @@ pub mod commands;
 pub mod demand;
 pub mod design;
 pub mod fidelity;
+pub mod guideline;
+mod larger;
 pub mod load_cases;
 mod loads;
 pub mod pipeline;
 mod problem;
 mod program;
+pub mod quantities;
 pub mod report;
 pub mod scene;
 pub mod sealed;

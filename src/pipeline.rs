@@ -7,14 +7,16 @@ use crate::checks::not_covered::known::{FirstSurge, Known};
 use crate::checks::not_covered::leave_open_not_covered;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::leave_open_outside_range;
-use crate::demand::from_histories::Observed;
-use crate::demand::from_loads::{Guideline, earth_pressure_by_weight, guideline};
-use crate::demand::{Demands, larger};
+use crate::demand::Demands;
 use crate::design::read::DesignFile;
 use crate::design::{Arrival, Design};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
+use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
+use crate::larger::larger;
 use crate::load_cases::{LoadCase, cases};
+use crate::quantities::observed::Observed;
+use crate::quantities::{earth_pressure, incoming, total_force, wall};
 use crate::scene::estimate::estimate;
 use crate::scene::event::Watch;
 use crate::sensitivity::simulated::{swings, variants};
@@ -83,7 +85,7 @@ fn run_on(rung: Option<&'static Rung>, file: DesignFile, starts: u32, watch: &Wa
         // The first is told in full; of the others what was observed.
         let detail = if index == 0 { Detail::Full } else { Detail::Observed };
         let seed = design.simulation.seed.wrapping_add(u64::from(start));
-        simulate(design, &choose(design), &crate::demand::from_loads::guideline(design), seed, detail, watch)
+        simulate(design, &choose(design), &crate::guideline::guideline(design), seed, detail, watch)
     };
     let runs = if jobs.len() == 1 { vec![one(0)] } else { side_by_side(threads, jobs.len(), one) };
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -171,7 +173,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
         let simulated = simulate(&design, &choose(&design), &guideline, seed, Detail::Observed, watch)?;
         let mut demands = Demands::meet(&guideline, &simulated.seen(), &design.factors);
         demands.leave_out_guideline();
-        let point = Point::of(simulated.first().force_peak, &check_all(&design, &demands));
+        let point = Point::of(simulated.first().one(&total_force::PEAK), &check_all(&design, &demands));
         Ok(if simulated.doubts.is_empty() { point } else { point.unreliable() })
     };
     let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| {
@@ -219,12 +221,13 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
             simulated.starts.iter().map(|start| of(&start.observed)).map(|[sampled, smoothed]| sampled / smoothed);
         ratios.fold(1.0, larger)
     };
-    let at_rest: Vec<f64> = simulated.starts.iter().filter_map(|start| start.observed.k_effective).collect();
+    let at_rest: Vec<f64> =
+        simulated.starts.iter().filter_map(|start| start.observed.known(&earth_pressure::AT_REST)).collect();
     FirstSurge {
-        push: simulated.spread(|seen| seen.push_peak).mean,
-        moment: simulated.spread(|seen| seen.moment_peak).mean,
-        sampled_over_smoothed: short_peaks(|seen| [seen.force_peak_sampled, seen.force_peak]),
-        moment_sampled_over_smoothed: short_peaks(|seen| [seen.moment_peak_sampled, seen.moment_peak]),
+        push: simulated.spread(|seen| seen.one(&total_force::PUSH)).mean,
+        moment: simulated.spread(|seen| seen.one(&wall::MOMENT)).mean,
+        sampled_over_smoothed: short_peaks(|seen| [seen.one(&total_force::PEAK_SAMPLED), seen.one(&total_force::PEAK)]),
+        moment_sampled_over_smoothed: short_peaks(|seen| [seen.one(&wall::MOMENT_SAMPLED), seen.one(&wall::MOMENT)]),
         depth: simulated.spread(|seen| seen.incoming.depth).mean,
         velocity: simulated.spread(|seen| seen.incoming.velocity).mean,
         flux_share: given_flux(&design.flow.arrival)
@@ -242,7 +245,7 @@ const LEAST_FLUX: f64 = 0.55;
 
 /// A simulated flow that arrives more slowly, or thinner, than the design says tells nothing of the design flow.
 fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
-    let arrives = |seen: &Observed| larger(seen.incoming.velocity, seen.front_velocity.unwrap_or(0.0));
+    let arrives = |seen: &Observed| larger(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
     let velocity = simulated.spread(arrives).mean;
     let flux = simulated.spread(|seen| seen.incoming.flux).mean;
     if velocity.is_nan() || flux.is_nan() {
@@ -303,11 +306,13 @@ mod tests {
     use super::*;
     use crate::checks::outcome::{CheckName, Opening, Resistance};
     use crate::demand::Demand;
+    use crate::quantities::quantity::Unit;
+    use crate::quantities::{earth_pressure, incoming, total_force, wall};
 
     fn check(guideline: f64, simulation: f64) -> Outcome {
         let demand = Demand { guideline: Some(guideline), simulation: Some(simulation), ..Demand::default() };
         let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
-        Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, resistance, 1.0)
+        Outcome::at_most(CheckName::new("x", "x", Unit::Newton, "x"), demand, resistance, 1.0)
     }
 
     #[test]
@@ -339,9 +344,9 @@ mod tests {
         }
     }
 
-    use crate::demand::from_loads::guideline as guideline_of;
     use crate::design::read::read_design;
     use crate::fidelity::ladder::RUNGS;
+    use crate::guideline::guideline as guideline_of;
     use crate::simulated::Start;
 
     fn small_net() -> Design {
@@ -356,7 +361,7 @@ mod tests {
 
     /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
     fn arriving(velocity: f64, flux: f64) -> Observed {
-        let mut seen = Observed::of_ropes(3);
+        let mut seen = Observed::of_nothing(3, 0);
         (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
         seen
     }
@@ -370,7 +375,7 @@ mod tests {
         assert_eq!(told(vec![arriving(4.6, 10.6)]), None);
         // The mean of the packings counts, and the front where it is faster.
         assert_eq!(told(vec![arriving(3.0, 10.6), arriving(4.8, 10.6)]), None);
-        assert_eq!(told(vec![Observed { front_velocity: Some(4.0), ..arriving(3.0, 10.6) }]), None);
+        assert_eq!(told(vec![arriving(3.0, 10.6).with(&incoming::FRONT, &[4.0])]), None);
         let slow = told(vec![arriving(3.0, 10.6)]).expect("a doubt");
         assert!(slow.contains("0.40 m deep with 3.00 m/s where the design says 0.60 m with 4.60 m/s"), "{slow}");
         assert!(told(vec![arriving(4.6, 5.0)]).is_some(), "thin");
@@ -388,14 +393,14 @@ mod tests {
     fn what_the_first_surge_shows_is_the_mean_of_its_packings_with_the_band_of_the_rung() {
         let design = small_net();
         let guideline = guideline_of(&design);
-        let seen = |push_peak: f64, k_effective: Option<f64>, sampled: f64| Observed {
-            push_peak,
-            k_effective,
-            force_peak: 100e3,
-            force_peak_sampled: sampled,
-            moment_peak: 50e3,
-            moment_peak_sampled: 125e3,
-            ..arriving(push_peak * 1e-4, 10.0)
+        let seen = |push_peak: f64, k_effective: Option<f64>, sampled: f64| {
+            arriving(push_peak * 1e-4, 10.0)
+                .with(&total_force::PUSH, &[push_peak])
+                .with(&earth_pressure::AT_REST, k_effective.as_slice())
+                .with(&total_force::PEAK, &[100e3])
+                .with(&total_force::PEAK_SAMPLED, &[sampled])
+                .with(&wall::MOMENT, &[50e3])
+                .with(&wall::MOMENT_SAMPLED, &[125e3])
         };
         let starts = simulated(vec![seen(40e3, Some(0.8), 150e3), seen(60e3, None, 120e3)]);
         let first = first_surge(&RUNGS[2], &design, &guideline, &starts);
@@ -408,7 +413,7 @@ mod tests {
         // Where no deposit shows its K, its weight tells, if the barrier fills.
         let hidden = simulated(vec![seen(40e3, None, 1.0)]);
         let by_weight = first_surge(&RUNGS[2], &design, &guideline, &hidden).earth_pressure;
-        assert_eq!(by_weight, crate::demand::from_loads::earth_pressure_by_weight(&design, &guideline));
+        assert_eq!(by_weight, crate::guideline::earth_pressure_by_weight(&design, &guideline));
         assert!(by_weight.is_some());
         let mut one_event = design.clone();
         one_event.loads.to_the_top = false;
@@ -417,7 +422,7 @@ mod tests {
 
     #[test]
     fn a_doubt_says_of_which_packing_and_flow_it_is() {
-        let run = Simulated { doubts: vec!["it broke".into()], ..simulated(vec![Observed::of_ropes(3)]) };
+        let run = Simulated { doubts: vec!["it broke".into()], ..simulated(vec![Observed::of_nothing(3, 0)]) };
         assert_eq!(doubts_of(LoadCase::Characteristic, &run, 1), ["it broke"]);
         assert_eq!(doubts_of(LoadCase::Characteristic, &run, 2), ["seed 7: it broke"]);
         assert_eq!(doubts_of(LoadCase::Factored, &run, 1), ["factored flow: it broke"]);
@@ -442,7 +447,7 @@ mod tests {
     fn a_run_ends_with_what_its_checks_and_doubts_say() {
         let file = || read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap();
         let seen = |doubts: Vec<String>| {
-            let observed = Observed { push_peak: 40e3, ..arriving(4.6, 10.6) };
+            let observed = arriving(4.6, 10.6).with(&total_force::PUSH, &[40e3]);
             Simulated { doubts, ..simulated(vec![observed; 5]) }
         };
         let run = restore(file(), Some(seen(Vec::new())), Vec::new(), Vec::new());

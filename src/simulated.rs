@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 use crate::checkpoint::Slot;
 use crate::checks::credibility::{Numerics, doubts};
 use crate::demand::Seen;
-use crate::demand::from_histories::{Observed, Reading};
-use crate::demand::from_loads::Guideline;
 use crate::design::{Arrival, Design};
 use crate::fidelity::Fidelity;
+use crate::guideline::Guideline;
 use crate::program::PROGRAM;
+use crate::quantities::observed::Observed;
+use crate::quantities::reading::Samples;
 use crate::scene::build::{Prepared, Preparing, SAMPLES_PER_WINDOW, build_watched};
 use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
@@ -238,7 +239,7 @@ pub fn simulate(
             ..numerics(&event)
         };
         let [window, tail] = samples;
-        let observed = Observed::read(&event.histories, design, guideline, Reading { window, tail });
+        let observed = Observed::read(&event.histories, design, guideline, Samples { window, tail });
         let histories = match detail {
             Detail::Full => event.histories,
             Detail::Observed => Histories::default(),

@@ -4,12 +4,15 @@
 use barrier_check::checks::check_all;
 use barrier_check::checks::detailing::{Bearing, Rule, rules};
 use barrier_check::checks::outcome::Outcome;
-use barrier_check::demand::from_histories::Observed;
-use barrier_check::demand::from_loads::{Guideline, guideline};
 use barrier_check::demand::{Demands, Seen};
 use barrier_check::design::Design;
 use barrier_check::design::entries::Purpose;
 use barrier_check::design::read::read_design_for;
+use barrier_check::guideline::{Guideline, guideline};
+use barrier_check::quantities::observed::Observed;
+use barrier_check::quantities::{
+    anchor_load, bed, dissipator, height, mass, other_ropes, rope_tension, total_force, wall,
+};
 
 const NET: &str = "
 project: {name: By hand, barrier: Net}
@@ -106,7 +109,7 @@ fn loads_of_the_net() {
     near(case("overtopped").force_per_width(), 91.047e3);
     // The flow over the full barrier, with the boulder, governs the force, the last surge the moment; both by 1.35. What
     // presses on a face that leans by 25° from the bed's normal is 376.19/cos 25°, and its moment, without a factor, (106.17 − 4.2)/cos² 25° + 4.2.
-    near(demands.total_force.guideline.unwrap(), 560.36e3);
+    near(demands.one(&total_force::PEAK).guideline.unwrap(), 560.36e3);
     near(guideline.largest_force, 376.19e3);
     near(guideline.face_moment, 128.343e3);
 }
@@ -139,7 +142,7 @@ fn ropes_of_the_net() {
     near(guideline.ropes[2].point, 9.737e3);
     assert_eq!((guideline.ropes[0].point, guideline.ropes[3].point, guideline.ropes[0].strip[0]), (0.0, 0.0, 0.0));
     near(guideline.ropes[0].strip[1], 0.45315);
-    near(demands.brake_force.guideline.unwrap(), 150e3);
+    near(demands.one(&dissipator::TENSION).guideline.unwrap(), 150e3);
     near(outcome(&outcomes, "anchor_plateau").demand.guideline.unwrap(), 180e3);
     // The lowest strip, 37.530 kN/m, on 4 m, over six spaces between bolts; along the span H = (P² EA/24)^⅓ = 84.10 kN, at the bolts T = √(H² + (P/2)²).
     near(guideline.bed_force.unwrap(), 150.12e3);
@@ -225,35 +228,33 @@ fn rules_of(design: &Design, guideline: &Guideline) -> Vec<(&'static str, f64)> 
 #[test]
 fn what_a_simulation_without_factors_shows_is_factored() {
     let design = design(NET);
-    let observed = Observed {
-        force_peak: 100e3,
-        rope_tension_peak: vec![0.0, 60e3, 70e3, 80e3],
-        anchor_force_peak: vec![0.0, 50e3, 40e3, 30e3],
-        brake_stroke: vec![0.0, 0.5, 0.4, 0.3],
-        brake_stroke_mean: vec![0.0, 0.1, 0.1, 0.1],
-        brake_force_peak: vec![0.0, 50e3, 40e3, 30e3],
-        lateral_tension_peak: 50e3,
-        net_tension_peak: 40e3,
-        bed_force_peak: 90e3,
-        bolt_force_peak: 20e3,
-        retained: 0.97,
-        residual_height: 0.8,
-        ..Observed::default()
-    };
+    let observed = Observed::of_nothing(0, 0)
+        .with(&total_force::PEAK, &[100e3])
+        .with(&rope_tension::PEAK, &[0.0, 60e3, 70e3, 80e3])
+        .with(&anchor_load::PEAK, &[0.0, 50e3, 40e3, 30e3])
+        .with(&dissipator::STROKE, &[0.0, 0.5, 0.4, 0.3])
+        .with(&dissipator::MEAN_STROKE, &[0.0, 0.1, 0.1, 0.1])
+        .with(&dissipator::TENSION, &[0.0, 50e3, 40e3, 30e3])
+        .with(&other_ropes::LATERAL, &[50e3])
+        .with(&other_ropes::NET, &[40e3])
+        .with(&bed::FORCE, &[90e3])
+        .with(&bed::BOLT, &[20e3])
+        .with(&mass::RETAINED, &[0.97])
+        .with(&height::RESIDUAL, &[0.8]);
     let seen = Seen { characteristic: vec![&observed], factored: Vec::new() };
     let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
     let simulated = |demand: barrier_check::demand::Demand| demand.simulation.expect("a demand");
-    near(simulated(demands.total_force), 135e3);
-    near(simulated(demands.rope_tension[1]), 81e3);
-    near(simulated(demands.rope_tension[3]), 108e3);
-    near(simulated(demands.anchor_force[1]), 67.5e3);
-    near(simulated(demands.lateral_tension), 67.5e3);
-    near(simulated(demands.net_tension), 54e3);
-    near(simulated(demands.bed_force), 121.5e3);
-    near(simulated(demands.bolt_force), 27e3);
-    near(simulated(demands.brake_stroke[1]), 0.5);
-    near(simulated(demands.retained), 0.97);
-    near(simulated(demands.residual_height), 0.8);
+    near(simulated(demands.one(&total_force::PEAK)), 135e3);
+    near(simulated(demands.each(&rope_tension::PEAK)[1]), 81e3);
+    near(simulated(demands.each(&rope_tension::PEAK)[3]), 108e3);
+    near(simulated(demands.each(&anchor_load::PEAK)[1]), 67.5e3);
+    near(simulated(demands.one(&other_ropes::LATERAL)), 67.5e3);
+    near(simulated(demands.one(&other_ropes::NET)), 54e3);
+    near(simulated(demands.one(&bed::FORCE)), 121.5e3);
+    near(simulated(demands.one(&bed::BOLT)), 27e3);
+    near(simulated(demands.each(&dissipator::STROKE)[1]), 0.5);
+    near(simulated(demands.one(&mass::RETAINED)), 0.97);
+    near(simulated(demands.one(&height::RESIDUAL)), 0.8);
     let outcomes = check_all(&design, &demands);
     near(outcome(&outcomes, "net_tension").utilisation.unwrap(), 54.0 / 50.469);
     near(outcome(&outcomes, "lateral_tension").utilisation.unwrap(), 67.5 / 100.94);
@@ -268,25 +269,17 @@ fn what_a_simulation_without_factors_shows_is_factored() {
 #[test]
 fn of_several_packings_the_unfavourable_side_counts() {
     let design = design(NET);
-    let of = |net: f64, held: f64| Observed { net_tension_peak: net, retained: held, ..zero() };
+    let of = |net: f64, held: f64| zero().with(&other_ropes::NET, &[net]).with(&mass::RETAINED, &[held]);
     let [one, other] = [of(40e3, 0.96), of(42e3, 0.97)];
     let seen = Seen { characteristic: vec![&one, &other], factored: Vec::new() };
     let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
     // 41 kN + 7.733 · 1.4142 kN, by 1.35; 0.965 − 7.733 · 0.0070711.
-    near(demands.net_tension.simulation.unwrap(), 1.35 * 51.936e3);
-    near(demands.retained.simulation.unwrap(), 0.91032);
+    near(demands.one(&other_ropes::NET).simulation.unwrap(), 1.35 * 51.936e3);
+    near(demands.one(&mass::RETAINED).simulation.unwrap(), 0.91032);
 }
 
 fn zero() -> Observed {
-    let none = || vec![0.0; 4];
-    Observed {
-        rope_tension_peak: none(),
-        anchor_force_peak: none(),
-        brake_stroke: none(),
-        brake_force_peak: none(),
-        residual_height: 1.0,
-        ..Observed::default()
-    }
+    Observed::of_nothing(4, 0)
 }
 
 /// H = 3 cos 22° = 2.7816 m; the wall stands 2.7816/cos 20° = 2.9601 m high on its base and weighs 104.54 kN/m. The last surge pushes
@@ -370,11 +363,9 @@ fn a_wall_that_falls_over_without_the_flow_does_not_pass() {
     let text = text.replace("thickness: 1.5 m, base_width: 2 m", "thickness: 0.88 m, base_width: 0.88 m");
     let text = text.replace("base_slope: 5 deg", "base_slope: 0 deg");
     let design = design(&text);
-    let nothing = Demands {
-        wall_overturning: barrier_check::demand::Demand { simulation: Some(0.0), ..Default::default() },
-        wall_press: barrier_check::demand::Demand { simulation: Some(0.0), ..Default::default() },
-        ..Demands::default()
-    };
+    let nothing = Demands::default()
+        .with(&wall::OVERTURNING, &[barrier_check::demand::Demand { simulation: Some(0.0), ..Default::default() }])
+        .with(&wall::PRESS, &[barrier_check::demand::Demand { simulation: Some(0.0), ..Default::default() }]);
     let outcomes = check_all(&design, &nothing);
     near(outcome(&outcomes, "wall_eccentricity").demand.simulation.unwrap(), 0.44694);
     assert!(outcome(&outcomes, "wall_eccentricity").utilisation.unwrap() > 1.5);

@@ -54,7 +54,7 @@ fn course(design: &Design, scale: Option<f64>) -> (f64, Vec<f64>) {
         for number in 0..22_000 {
             scene.simulation.step().expect("stable");
             if number % 100 == 0 {
-                tensions.push(scene.simulation.sums.net.brakes[0]);
+                tensions.push(scene.simulation.sums.net.dissipators[0]);
             }
         }
     });

@@ -3,6 +3,8 @@
 use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, FlexibleNet, LateralTo};
+use crate::quantities::quantity::Unit;
+use crate::quantities::{anchor_load, other_ropes};
 use crate::sources::ANCHOR_FACTOR;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
@@ -10,11 +12,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         return Vec::new();
     };
     let capacity = Resistance { characteristic: net.anchor_resistance, factor: design.factors.anchor };
-    let loads = demands.anchor_force.iter().enumerate().skip(net.ropes_held_by_bed());
+    let loads = demands.each(&anchor_load::PEAK).iter().enumerate().skip(net.ropes_held_by_bed());
     let by_load = loads.map(|(index, demand)| {
-        let rope = index + 1;
-        let title = format!("Load of the anchors of main rope {rope}");
-        let name = CheckName::new(format!("anchor_{rope}_load"), title, "N", ANCHOR_FACTOR);
+        let name = CheckName::of(&anchor_load::PEAK, index, format!("anchor_{}_load", index + 1), ANCHOR_FACTOR);
         let outcome = Outcome::at_most(name, *demand, capacity, design.limits.anchor_utilisation).of_rope(index);
         match net.lateral_to {
             LateralTo::RopeEnds => outcome,
@@ -32,9 +32,14 @@ const USUAL_OVERSTRENGTH: f64 = 1.15;
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
 fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capacity: Resistance) -> Option<Outcome> {
     let plateau = net.dissipators?.plateau;
-    let name = CheckName::new("anchor_plateau", "Anchors against the plateau of their dissipators", "N", ANCHOR_FACTOR);
+    let name = CheckName::new(
+        "anchor_plateau",
+        "Anchors against the plateau of their dissipators",
+        Unit::Newton,
+        ANCHOR_FACTOR,
+    );
     let own = design.factors.overstrength * plateau;
-    let lateral = demands.lateral_tension.simulation;
+    let lateral = demands.one(&other_ropes::LATERAL).simulation;
     let (demand, tied) = match net.lateral_to {
         LateralTo::RopeEnds => (Demand { guideline: Some(own), ..Demand::default() }, false),
         // What the lateral ropes bring comes on top, in the worst case in the same direction.
@@ -62,15 +67,17 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capaci
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::demand::from_loads::guideline;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
+    use crate::quantities::other_ropes;
 
     /// The check against the plateau of 150 kN, with a simulated tension of the lateral ropes (N).
     fn plateau(change: impl Fn(&mut Design), lateral: Option<f64>) -> Outcome {
         let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         change(&mut design);
         let lateral_tension = Demand { simulation: lateral, ..Demand::default() };
-        let demands = Demands { lateral_tension, ..Demands::by_equations(&guideline(&design), &design.factors) };
+        let demands =
+            Demands::by_equations(&guideline(&design), &design.factors).with(&other_ropes::LATERAL, &[lateral_tension]);
         check(&design, &demands).into_iter().find(|outcome| outcome.id == "anchor_plateau").expect("a check")
     }
 

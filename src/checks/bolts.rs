@@ -9,6 +9,8 @@ use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::checks::ropes::resistance;
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Bottom, Design};
+use crate::quantities::bed;
+use crate::quantities::quantity::Unit;
 use crate::sources::{ANCHOR_FACTOR, NO_LIMIT, ROPE_FACTOR};
 
 /// Ring spacings between two bolts up to which the lowest rope counts as held along its length.
@@ -19,21 +21,22 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if net.bottom != Bottom::Fixed {
         return Vec::new();
     }
-    let name = CheckName::new("bed_bolts", "Load of the worst bolt of the lowest rope", "N", ANCHOR_FACTOR);
+    let name = CheckName::of(&bed::BOLT, 0, "bed_bolts", ANCHOR_FACTOR);
     let Some((bolts, characteristic)) = net.bed_bolts.and_then(|bolts| Some((bolts, bolts.resistance?))) else {
         let title = "Load on what holds the lowest rope to the bed, in all";
         let name = CheckName { title: title.into(), source: NO_LIMIT, ..name };
         let wanted = "anchors.bed_bolt_spacing and anchors.bed_bolt_resistance";
-        return vec![Outcome::without_resistance(name, demands.bed_force, wanted)];
+        return vec![Outcome::without_resistance(name, demands.one(&bed::FORCE), wanted)];
     };
     let width = design.channel.width;
     let spacing = width / bolts.spaces(width) as f64;
     let axial = net.main_ropes.rope.axial_stiffness();
-    let at_an_end = each(demands.bolt_force, |load| end_bolt(load, axial));
-    let between = each(demands.bolt_force, |load| tension_between(load, axial));
+    let at_an_end = each(demands.one(&bed::BOLT), |load| end_bolt(load, axial));
+    let between = each(demands.one(&bed::BOLT), |load| tension_between(load, axial));
     let bolt = Resistance { characteristic, factor: design.factors.anchor };
     let rope = resistance(design, &net.main_ropes.rope);
-    let rope_name = CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", "N", ROPE_FACTOR);
+    let rope_name =
+        CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", Unit::Newton, ROPE_FACTOR);
     let outcomes = [
         (Kind::Bolts, Outcome::at_most(name, at_an_end, bolt, design.limits.anchor_utilisation)),
         (Kind::BetweenBolts, Outcome::at_most(rope_name, between, rope, design.limits.rope_utilisation)),
@@ -97,8 +100,9 @@ fn each(demand: Demand, change: impl Fn(f64) -> f64) -> Demand {
 mod tests {
     use super::*;
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
+    use crate::quantities::bed;
     use approx::assert_relative_eq;
 
     /// By hand: 40 kN on a space, EA of 12.57 MN: H³ = 1.6e9 · 12.57e6/24 = 8.38e14, H = 94.3 kN, sag over span 40/(8 · 94.3) = 5.3 %,
@@ -131,7 +135,7 @@ mod tests {
         let verdicts = |design: &Design, load: f64| {
             let demand = Demand { simulation: Some(load), ..Demand::default() };
             let guideline = guideline(design);
-            let demands = Demands { bolt_force: demand, ..Demands::by_equations(&guideline, &design.factors) };
+            let demands = Demands::by_equations(&guideline, &design.factors).with(&bed::BOLT, &[demand]);
             check(design, &demands).iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
         };
         assert_eq!(verdicts(&design, 40e3), [CheckVerdict::Pass; 2]);
@@ -149,7 +153,7 @@ mod tests {
         let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         let outcomes = |design: &Design| {
             let bolt_force = Demand { simulation: Some(20e3), ..Demand::default() };
-            check(design, &Demands { bolt_force, ..Demands::default() })
+            check(design, &Demands::default().with(&bed::BOLT, &[bolt_force]))
         };
         let mut verdict = |bolts: f64, rings: f64| {
             let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
@@ -162,7 +166,7 @@ mod tests {
         assert_eq!(verdict(1.5, 0.3), [CheckVerdict::Open; 2]);
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.bed_bolts = None;
-        let held = Demands { bed_force: Demand { simulation: Some(1.0), ..Demand::default() }, ..Demands::default() };
+        let held = Demands::default().with(&bed::FORCE, &[Demand { simulation: Some(1.0), ..Demand::default() }]);
         let outcome = &check(&design, &held)[0];
         assert_eq!((outcome.verdict, outcome.source), (CheckVerdict::Open, NO_LIMIT));
         assert!(outcome.title.ends_with("in all"));

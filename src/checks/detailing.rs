@@ -1,7 +1,7 @@
 //! Rules of detailing, and the range in which the guideline has been used. They warn; they do not fail a design.
 
-use crate::demand::from_loads::{Guideline, event_fill};
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
+use crate::guideline::{Guideline, event_fill};
 use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
 use crate::loads::input::GuidelineInput;
@@ -322,8 +322,8 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::demand::from_loads::guideline;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
 
     fn broken(change: impl Fn(&mut Design)) -> Vec<&'static str> {
         let mut design = read_design("x", include_bytes!("../../designs/site_a.yaml")).unwrap().design;

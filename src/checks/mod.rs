@@ -2,9 +2,9 @@
 
 pub(crate) mod anchors;
 pub(crate) mod bolts;
-pub(crate) mod brakes;
 pub mod credibility;
 pub mod detailing;
+pub(crate) mod dissipators;
 pub(crate) mod height;
 pub(crate) mod implausible;
 pub(crate) mod not_covered;
@@ -35,8 +35,8 @@ const CHECKS: &[Check] = &[
     ropes::check_lateral,
     wear::check_broken,
     wear::tell_drawn_out,
-    brakes::check_stroke,
-    brakes::check_plateau,
+    dissipators::check_stroke,
+    dissipators::check_plateau,
     anchors::check,
     bolts::check,
     retained::check,

@@ -2,6 +2,7 @@
 //! prints this object and never recomputes.
 
 use crate::demand::Demand;
+use crate::quantities::quantity::{Quantity, Unit};
 
 /// Share of its limit from which a passing check warns.
 const WARN_FROM: f64 = 0.9;
@@ -90,8 +91,8 @@ pub struct Outcome {
     pub resistance: Option<(Resistance, f64)>,
     /// Governing demand over capacity; for a least share, what is missing over what may be missing. At most 1 to pass.
     pub utilisation: Option<f64>,
-    /// SI unit of demand and capacity; `-` for shares.
-    pub unit: &'static str,
+    /// Of demand and capacity.
+    pub unit: Unit,
     pub verdict: CheckVerdict,
     /// Why the check is open; nothing for any other verdict.
     pub open: Option<Opening>,
@@ -117,12 +118,17 @@ pub struct Resistance {
 pub struct CheckName {
     pub id: String,
     pub title: String,
-    pub unit: &'static str,
+    pub unit: Unit,
     pub source: &'static str,
 }
 
 impl CheckName {
-    pub fn new(id: impl Into<String>, title: impl Into<String>, unit: &'static str, source: &'static str) -> Self {
+    /// The check of a quantity, of a rope that of its number, by the quantity's own title.
+    pub fn of(quantity: &Quantity, index: usize, id: impl Into<String>, source: &'static str) -> Self {
+        Self::new(id, quantity.title_of(index), quantity.unit, source)
+    }
+
+    pub fn new(id: impl Into<String>, title: impl Into<String>, unit: Unit, source: &'static str) -> Self {
         Self { id: id.into(), title: title.into(), unit, source }
     }
 }
@@ -258,7 +264,7 @@ mod tests {
     use super::*;
 
     fn name() -> CheckName {
-        CheckName::new("x", "x", "N", "x")
+        CheckName::new("x", "x", Unit::Newton, "x")
     }
 
     fn verdict(value: f64) -> CheckVerdict {
@@ -282,7 +288,7 @@ mod tests {
     fn a_least_share_is_used_up_by_what_is_missing() {
         let outcome = |value, least| {
             let demand = Demand { simulation: Some(value), ..Demand::default() };
-            Outcome::at_least(CheckName::new("x", "x", "-", "x"), demand, least)
+            Outcome::at_least(CheckName::new("x", "x", Unit::Share, "x"), demand, least)
         };
         assert!((outcome(0.95, 0.9).utilisation.unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(outcome(0.85, 0.9).verdict, CheckVerdict::Fail);
@@ -316,7 +322,8 @@ mod tests {
         let outcome = Outcome::at_most(name(), simulated, capacity, 1.0).only_by_simulation("why");
         assert_eq!((outcome.verdict, outcome.open), (CheckVerdict::Pass, None));
         // A least share needs the simulation, but for one of nothing.
-        let least = |least| Outcome::at_least(CheckName::new("x", "x", "-", "x"), Demand::default(), least).verdict;
+        let least =
+            |least| Outcome::at_least(CheckName::new("x", "x", Unit::Share, "x"), Demand::default(), least).verdict;
         assert_eq!((least(0.9), least(0.0)), (CheckVerdict::Open, CheckVerdict::Info));
     }
 
@@ -358,7 +365,7 @@ mod tests {
         let of = |guideline: f64, simulation: f64, characteristic: f64| {
             let demand = Demand { guideline: Some(guideline), simulation: Some(simulation), ..Demand::default() };
             let resistance = Resistance { characteristic, factor: 1.0 };
-            Outcome::at_most(CheckName::new("x", "x", "N", "x"), demand, resistance, 1.0)
+            Outcome::at_most(CheckName::new("x", "x", Unit::Newton, "x"), demand, resistance, 1.0)
         };
         assert_eq!(of(0.0, 0.0, 0.0).utilisation, Some(f64::INFINITY));
         assert_eq!(of(1.0, 1.0, 1.0).verdict, CheckVerdict::Warn);

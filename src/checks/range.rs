@@ -5,8 +5,8 @@
 
 use crate::checks::detailing::{Bearing, LARGEST_SAG, LARGEST_STRAIN, rules};
 use crate::checks::outcome::{Opening, Outcome};
-use crate::demand::from_loads::Guideline;
 use crate::design::{BarrierDesign, Design, OutsideRange};
+use crate::guideline::Guideline;
 
 /// Leaves open what would hold by a formula that is used outside its range.
 pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes: &mut [Outcome]) {
@@ -92,8 +92,9 @@ mod tests {
     use crate::checks::check_all;
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::Demands;
-    use crate::demand::from_loads::guideline;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
+    use crate::quantities::other_ropes;
 
     fn design() -> Design {
         read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design
@@ -144,7 +145,7 @@ mod tests {
         let verdict = |design: &Design| {
             let guideline = guideline(design);
             let net_tension = Demand { simulation: Some(7.2e3), ..Demand::default() };
-            let demands = Demands { net_tension, ..Demands::by_equations(&guideline, &design.factors) };
+            let demands = Demands::by_equations(&guideline, &design.factors).with(&other_ropes::NET, &[net_tension]);
             let mut outcomes = check_all(design, &demands);
             leave_open_outside_range(design, &guideline, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "net_tension").expect("a check").verdict

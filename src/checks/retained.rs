@@ -2,16 +2,18 @@
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome};
 use crate::demand::Demands;
-use crate::demand::from_loads::{event_fill, height_over_bed, held_below, input};
 use crate::design::{BarrierDesign, Bottom, Design};
+use crate::guideline::{event_fill, height_over_bed, held_below, input};
+use crate::quantities::mass;
+use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = CheckName::new("retained_mass", "Mass held by the barrier", "-", DESIGN_LIMIT);
-    let mut outcome = Outcome::at_least(name, demands.retained, design.limits.retained_mass);
+    let name = CheckName::new("retained_mass", "Mass held by the barrier", Unit::Share, DESIGN_LIMIT);
+    let mut outcome = Outcome::at_least(name, demands.one(&mass::RETAINED), design.limits.retained_mass);
     outcome.kind = Kind::MassHeld;
     if matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn)
-        && let Some(why) = unseen(design, demands.retained.simulation)
+        && let Some(why) = unseen(design, demands.one(&mass::RETAINED).simulation)
     {
         outcome.leave_open(why);
     }
@@ -86,12 +88,13 @@ mod tests {
     use super::*;
     use crate::demand::Demand;
     use crate::design::read::read_design;
+    use crate::quantities::mass;
 
     #[test]
     fn an_event_that_more_than_fills_the_barrier_is_not_held_because_one_surge_is() {
         let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         let retained = Demand { simulation: Some(1.0), ..Demand::default() };
-        let demands = Demands { retained, ..Demands::default() };
+        let demands = Demands::default().with(&mass::RETAINED, &[retained]);
         assert_eq!(check(&design, &demands)[0].verdict, CheckVerdict::Pass);
         design.flow.event_volume = 40.0 * design.flow.volume();
         assert_eq!(check(&design, &demands)[0].verdict, CheckVerdict::Open);
@@ -108,7 +111,7 @@ mod tests {
         let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         change(&mut design);
         let retained = Demand { simulation: Some(held), ..Demand::default() };
-        check(&design, &Demands { retained, ..Demands::default() })[0].verdict
+        check(&design, &Demands::default().with(&mass::RETAINED, &[retained]))[0].verdict
     }
 
     /// Of the whole flow 6 % are finer than the mesh, or than the gap below the net where that is wider.

@@ -4,11 +4,13 @@
 use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
+use crate::quantities::quantity::Unit;
+use crate::quantities::total_force;
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = |source| CheckName::new("total_force", "Total force on the barrier", "N", source);
-    let demand = demands.total_force;
+    let name = |source| CheckName::new("total_force", "Total force on the barrier", Unit::Newton, source);
+    let demand = demands.one(&total_force::PEAK);
     let BarrierDesign::RigidWall(wall) = &design.barrier else {
         return vec![Outcome::informative(name(NO_LIMIT), demand)];
     };
@@ -41,6 +43,7 @@ mod tests {
     use crate::demand::Demand;
     use crate::design::Stability;
     use crate::design::read::read_design;
+    use crate::quantities::total_force;
 
     /// Verdict of a wall under 100 kN with this resistance, over a factor of 1.3, and this base, of 2 m thickness.
     fn verdict(resistance: Option<f64>, base_width: Option<f64>) -> CheckVerdict {
@@ -60,7 +63,7 @@ mod tests {
             water_head: Some(0.0),
         });
         let total_force = Demand { guideline: Some(100e3), ..Demand::default() };
-        check(&design, &Demands { total_force, ..Demands::default() })[0].verdict
+        check(&design, &Demands::default().with(&total_force::PEAK, &[total_force]))[0].verdict
     }
 
     #[test]

@@ -2,9 +2,12 @@
 //! width.
 
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
-use crate::demand::from_loads::{input, wall_of};
-use crate::demand::{Demand, Demands, larger};
+use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Stability};
+use crate::guideline::{input, wall_of};
+use crate::larger::larger;
+use crate::quantities::quantity::Unit;
+use crate::quantities::wall as quantity;
 use crate::sources::WALL_BALANCE;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
@@ -15,18 +18,23 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         characteristic: demand.characteristic.map(|value| value + own),
         cap: None,
     };
-    let (force, moment) = (demands.wall_sliding, demands.wall_overturning);
+    let (force, moment) = (demands.one(&quantity::SLIDING), demands.one(&quantity::OVERTURNING));
     let slides = force.guideline.map(|load| load * input.sliding_share());
     let tips = moment.guideline.zip(force.guideline);
     let tips = tips.map(|(moment, load)| moment + load * input.lift_share() * input.base_width);
     let [holds_back, pull] = input.sliding();
     let [holds_up, tilt] = input.overturning();
-    let sliding = CheckName::new("wall_sliding", "Sliding of the wall, per width", "N/m", WALL_BALANCE);
-    let overturning = CheckName::new("wall_overturning", "Overturning of the wall, per width", "N m/m", WALL_BALANCE);
+    let sliding = CheckName::new("wall_sliding", "Sliding of the wall, per width", Unit::NewtonPerMetre, WALL_BALANCE);
+    let overturning = CheckName::new(
+        "wall_overturning",
+        "Overturning of the wall, per width",
+        Unit::NewtonMetrePerMetre,
+        WALL_BALANCE,
+    );
     let eccentricity = CheckName::new(
         "wall_eccentricity",
         "Eccentricity of the pressure under the wall",
-        "m",
+        Unit::Metre,
         "EN 1997-1, 6.5.4, from memory: beyond a third of the base special precautions are needed",
     );
     // The resultant stands holds_up − demand over what bears from the downstream edge; the lift of the load, which makes that less, is left
@@ -41,7 +49,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         simulation: tipped.simulation.map(off_centre),
         ..Demand::default()
     };
-    let press = demands.wall_press;
+    let press = demands.one(&quantity::PRESS);
     let bears = |tips: Option<f64>, press: Option<f64>| {
         Some(input.pressure(0.5 * input.base_width - (holds_up - tips?) / normal, press?))
     };
@@ -53,7 +61,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let under = CheckName::new(
         "wall_bearing",
         "Pressure under the wall",
-        "Pa",
+        Unit::Pascal,
         "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
     );
     let held = |name: CheckName, demand: Demand, characteristic: f64, factor: f64| {
@@ -119,8 +127,9 @@ mod tests {
     use super::*;
     use crate::checks::check_all;
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
+    use crate::quantities::wall;
     use approx::assert_relative_eq;
 
     fn design() -> Design {
@@ -132,7 +141,7 @@ mod tests {
     fn water_above_the_deposit_is_open() {
         let verdict = |above: f64| {
             let mut design = with_stability();
-            let filled = crate::demand::from_loads::input(&design).fill_height;
+            let filled = crate::guideline::input(&design).fill_height;
             let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
             let stability = wall.stability.as_mut().expect("stability");
             (stability.thickness, stability.base_width, stability.bearing_resistance) = (40.0, 40.0, Some(1e6));
@@ -200,12 +209,10 @@ mod tests {
         let input = wall_of(&design).expect("a wall");
         let simulated =
             |value: f64| Demand { simulation: Some(value), characteristic: Some(0.5 * value), ..Demand::default() };
-        let demands = Demands {
-            wall_sliding: simulated(40e3),
-            wall_overturning: simulated(60e3),
-            wall_press: simulated(10e3),
-            ..Demands::default()
-        };
+        let demands = Demands::default()
+            .with(&wall::SLIDING, &[simulated(40e3)])
+            .with(&wall::OVERTURNING, &[simulated(60e3)])
+            .with(&wall::PRESS, &[simulated(10e3)]);
         let outcomes = check(&design, &demands);
         let of = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).expect("a check").demand;
         let ([_, pull], [holds, tilt]) = (input.sliding(), input.overturning());

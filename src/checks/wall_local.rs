@@ -3,6 +3,8 @@
 use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
+use crate::quantities::quantity::Unit;
+use crate::quantities::total_force;
 use crate::sources::DESIGN_LIMIT;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
@@ -11,19 +13,22 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let name = CheckName::new(
         "wall_local_force",
         "Force on the metre of the wall that the point load hits, per width",
-        "N/m",
+        Unit::NewtonPerMetre,
         DESIGN_LIMIT,
     );
     let resistance =
         Resistance { characteristic: characteristic / design.channel.width, factor: wall.resistance_factor };
-    vec![Outcome { kind: Kind::WallStrength, ..Outcome::at_most(name, demands.wall_local, resistance, 1.0) }]
+    vec![Outcome {
+        kind: Kind::WallStrength,
+        ..Outcome::at_most(name, demands.one(&total_force::ON_A_METRE), resistance, 1.0)
+    }]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::demand::from_loads::guideline;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
     use approx::assert_relative_eq;
 
     /// 3 MN at 1 m spread at 45° to one side over half the height of the wall, not over the whole width.

@@ -4,12 +4,16 @@
 use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
+use crate::quantities::quantity::Unit;
+use crate::quantities::wall;
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
-    let name = |source| CheckName::new("wall_moment", "Moment at the foot of the wall, per width", "N m/m", source);
-    let demand = demands.wall_moment;
+    let name = |source| {
+        CheckName::new("wall_moment", "Moment at the foot of the wall, per width", Unit::NewtonMetrePerMetre, source)
+    };
+    let demand = demands.one(&wall::MOMENT);
     vec![match (wall.moment_resistance, wall.stability) {
         (Some(characteristic), _) => {
             let resistance = Resistance { characteristic, factor: wall.resistance_factor };
@@ -37,6 +41,7 @@ mod tests {
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::Demand;
     use crate::design::read::read_design;
+    use crate::quantities::wall;
 
     /// Verdict of a wall under 100 kN m/m with this resistance, over a factor of 1.3, and, if it has one, this base under 2 m of wall.
     fn verdict(moment_resistance: Option<f64>, base_width: Option<f64>) -> CheckVerdict {
@@ -51,7 +56,7 @@ mod tests {
         let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
         (wall.moment_resistance, wall.resistance_factor) = (moment_resistance, 1.3);
         let wall_moment = Demand { simulation: Some(100e3), ..Demand::default() };
-        check(&design, &Demands { wall_moment, ..Demands::default() })[0].verdict
+        check(&design, &Demands::default().with(&wall::MOMENT, &[wall_moment]))[0].verdict
     }
 
     #[test]

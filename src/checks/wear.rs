@@ -3,6 +3,7 @@
 use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, FlexibleNet, Rope};
+use crate::quantities::wear;
 use crate::sources::{NO_LIMIT, NOTHING_BREAKS};
 
 fn any_rope(design: &Design, allows: impl Fn(&Rope) -> bool) -> bool {
@@ -15,8 +16,8 @@ pub fn check_broken(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if !any_rope(design, |rope| rope.breaks) {
         return Vec::new();
     }
-    let name = CheckName::new("broken_pieces", "Pieces of rope that broke", "", NOTHING_BREAKS);
-    let mut outcome = Outcome::informative(name, demands.broken_pieces);
+    let name = CheckName::of(&wear::BROKEN, 0, "broken_pieces", NOTHING_BREAKS);
+    let mut outcome = Outcome::informative(name, demands.one(&wear::BROKEN));
     match outcome.demand.simulation {
         None => outcome.leave_open(Opening::NeedsSimulation(
             "whether ropes break is seen in the simulation alone (run it)".into(),
@@ -36,8 +37,8 @@ pub fn tell_drawn_out(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if !any_rope(design, |rope| rope.elastic_limit.is_some()) {
         return Vec::new();
     }
-    let title = "Largest permanent elongation of a rope";
-    let mut outcome = Outcome::informative(CheckName::new("drawn_out", title, "-", NO_LIMIT), demands.drawn_out);
+    let name = CheckName::of(&wear::DRAWN_OUT, 0, "drawn_out", NO_LIMIT);
+    let mut outcome = Outcome::informative(name, demands.one(&wear::DRAWN_OUT));
     match outcome.demand.simulation {
         None => outcome.leave_open(Opening::NeedsSimulation(
             "whether ropes draw out is seen in the simulation alone (run it)".into(),
@@ -61,6 +62,7 @@ mod tests {
     use super::*;
     use crate::demand::Demand;
     use crate::design::read::read_design;
+    use crate::quantities::wear;
 
     /// The net of the example, whose net ropes break or draw out.
     fn design(breaks: bool, elastic_limit: Option<f64>) -> Design {
@@ -72,7 +74,7 @@ mod tests {
 
     fn demands(broken: Option<f64>, drawn_out: Option<f64>) -> Demands {
         let seen = |simulation| Demand { simulation, ..Demand::default() };
-        Demands { broken_pieces: seen(broken), drawn_out: seen(drawn_out), ..Demands::default() }
+        Demands::default().with(&wear::BROKEN, &[seen(broken)]).with(&wear::DRAWN_OUT, &[seen(drawn_out)])
     }
 
     #[test]
@@ -109,7 +111,7 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.net_rope.breaks = true;
         let broken_pieces = crate::demand::Demand { simulation: Some(3.0), ..Default::default() };
-        let outcomes = check_broken(&design, &Demands { broken_pieces, ..Demands::default() });
+        let outcomes = check_broken(&design, &Demands::default().with(&wear::BROKEN, &[broken_pieces]));
         assert_eq!(outcomes[0].utilisation, Some(4.0));
     }
 }

@@ -3,6 +3,7 @@
 pub mod check;
 pub mod compare;
 pub(crate) mod input;
+pub(crate) mod kept;
 pub(crate) mod output;
 pub(crate) mod progress;
 pub mod report;

@@ -71,7 +71,13 @@ fn properties(keys: &[Key]) -> Map<String, Value> {
         }
         (key.name.to_string(), schema)
     };
-    keys.iter().map(entry).collect()
+    let former = |key: &Key| {
+        let former = key.former?;
+        let mut schema = kind(&key.kind);
+        schema["description"] = json!(format!("former name of {}", key.name));
+        Some((former.to_string(), schema))
+    };
+    keys.iter().map(entry).chain(keys.iter().filter_map(former)).collect()
 }
 
 /// A number as a pattern.

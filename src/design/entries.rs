@@ -145,8 +145,25 @@ impl Reader<'_> {
                     self.entries.mentioned.push(here.clone());
                     self.value(node, key, &here, Origin::File);
                 }
-                None => self.absent(key, path, &here),
+                None => match map.iter().find(|(name, _)| key.former == Some(name)) {
+                    Some((former, node)) => self.under_a_former_name(node, key, path, former),
+                    None => self.absent(key, path, &here),
+                },
             }
+        }
+    }
+
+    /// A key under the name that it had before: problems are told where it stands.
+    fn under_a_former_name(&mut self, node: &Node, key: &'static Key, path: &str, former: &str) {
+        let here = join(path, key.name);
+        self.entries.mentioned.push(here.clone());
+        let told = self.problems.len();
+        self.value(node, key, &here, Origin::File);
+        for problem in &mut self.problems[told..] {
+            problem.path = join(path, former);
+        }
+        if let Some(entry) = self.entries.values.get_mut(&here) {
+            entry.remark = format!("given as `{former}`, its former name");
         }
     }
 
@@ -157,7 +174,13 @@ impl Reader<'_> {
                 self.problems
                     .push(Problem::new(&here, format!("the key `{name}` a second time"), "each key once").again());
             }
-            if !keys.iter().any(|key| key.name == name) {
+            let named_twice =
+                keys.iter().find(|key| key.former == Some(name) && map.iter().any(|(other, _)| other == key.name));
+            if let Some(key) = named_twice {
+                let found = format!("the key `{}` a second time, under its former name `{name}`", key.name);
+                self.problems.push(Problem::new(&here, found, "each key once").again());
+            }
+            if !keys.iter().any(|key| key.name == name || key.former == Some(name)) {
                 let mut problem =
                     Problem::new(&here, format!("the unknown key `{name}`"), format!("the keys {}", names(keys)));
                 if name.starts_with(|first: char| first.is_ascii_digit()) {

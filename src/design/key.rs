@@ -11,6 +11,8 @@ pub struct Key {
     pub need: Need,
     /// Meaning, for documentation and messages.
     pub meaning: &'static str,
+    /// What it was called before; designs that call it so are read, with a note.
+    pub former: Option<&'static str>,
 }
 
 /// What stands behind a key.
@@ -64,19 +66,24 @@ pub enum Need {
 
 impl Key {
     pub const fn required(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
-        Self { name, kind, need: Need::Required, meaning }
+        Self { name, kind, need: Need::Required, meaning, former: None }
     }
 
     pub const fn for_grains(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
-        Self { name, kind, need: Need::ForGrains, meaning }
+        Self { name, kind, need: Need::ForGrains, meaning, former: None }
     }
 
     pub const fn optional(name: &'static str, kind: Kind, meaning: &'static str) -> Self {
-        Self { name, kind, need: Need::Optional, meaning }
+        Self { name, kind, need: Need::Optional, meaning, former: None }
+    }
+
+    /// The same, read under the name that it had before as well.
+    pub const fn formerly(self, name: &'static str) -> Self {
+        Self { former: Some(name), ..self }
     }
 
     pub const fn default(name: &'static str, kind: Kind, typed: &'static str, meaning: &'static str) -> Self {
-        Self { name, kind, need: Need::Default(typed), meaning }
+        Self { name, kind, need: Need::Default(typed), meaning, former: None }
     }
 }
 

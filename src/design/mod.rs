@@ -326,7 +326,7 @@ pub struct Limits {
     pub rope_utilisation: f64,
     pub anchor_utilisation: f64,
     /// Greatest share of the stroke that may be used.
-    pub brake_utilisation: f64,
+    pub dissipator_utilisation: f64,
     pub outside_range: OutsideRange,
 }
 

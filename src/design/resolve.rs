@@ -233,7 +233,7 @@ fn limits(e: &Entries) -> Option<Limits> {
         residual_height: value("residual_height")?,
         rope_utilisation: value("rope_utilisation")?,
         anchor_utilisation: value("anchor_utilisation")?,
-        brake_utilisation: value("brake_utilisation")?,
+        dissipator_utilisation: value("dissipator_utilisation")?,
         outside_range: match e.text("limits.outside_range")? {
             "warn" => OutsideRange::Warn,
             _ => OutsideRange::Undecided,

@@ -375,7 +375,13 @@ const LIMITS: &[Key] = &[
     Key::default("residual_height", quantity(D::Share, 0.0, 1.0), "50 %", "least height left over initial height"),
     Key::default("rope_utilisation", UTILISATION, "100 %", "greatest tension over design resistance of ropes and net"),
     Key::default("anchor_utilisation", UTILISATION, "100 %", "greatest load over design resistance of anchors"),
-    Key::default("brake_utilisation", UTILISATION, "90 %", "greatest share of the stroke that may be used"),
+    Key::default(
+        "dissipator_utilisation",
+        UTILISATION,
+        "90 %",
+        "greatest share of a dissipator's stroke that may be used",
+    )
+    .formerly("brake_utilisation"),
     Key::default(
         "outside_range",
         Kind::Choice(&["undecided", "warn"]),

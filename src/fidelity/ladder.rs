@@ -10,6 +10,7 @@ use crate::checks::not_covered::rigid_wall::SIMULATIONS_REACH;
 use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
 use crate::fidelity::{needed_pieces, net_pieces};
+use crate::quantities::quantity::Unit;
 
 /// How far off a rung may be: what a finer one may say over what this one says, less one, upwards and downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -201,12 +202,13 @@ impl Rung {
             None => used - self.above.share / (1.0 - capacity).max(1e-9) > 1.0,
             // A stroke that is used up would be longer if there were more of it.
             Some((resistance, _))
-                if outcome.unit == "m" && outcome.demand.simulation >= Some(0.999 * resistance.characteristic) =>
+                if outcome.unit == Unit::Metre
+                    && outcome.demand.simulation >= Some(0.999 * resistance.characteristic) =>
             {
                 true
             }
             Some(_) => {
-                let above = if outcome.unit == "m" { self.above.stroke } else { self.above.force };
+                let above = if outcome.unit == Unit::Metre { self.above.stroke } else { self.above.force };
                 used / (1.0 + above) > 1.0
             }
         }
@@ -231,7 +233,7 @@ impl Rung {
         if self.starts == 0 && outcome.verdict == CheckVerdict::Open {
             return Answer::Open;
         }
-        let band = if outcome.unit == "m" { self.band.stroke } else { self.band.force };
+        let band = if outcome.unit == Unit::Metre { self.band.stroke } else { self.band.force };
         let used_by = |demand: Option<f64>| demand.map(|demand| demand / capacity);
         let (guideline, simulation) = (used_by(outcome.demand.guideline), used_by(outcome.demand.simulation));
         if guideline.is_some_and(|used| used > 1.0) || capacity <= 0.0 {
@@ -294,7 +296,7 @@ mod tests {
     fn force(guideline: Option<f64>, simulation: Option<f64>) -> Outcome {
         let resistance = Resistance { characteristic: 100.0, factor: 1.0 };
         Outcome::at_most(
-            CheckName::new("x", "x", "N", "x"),
+            CheckName::new("x", "x", Unit::Newton, "x"),
             Demand { guideline, simulation, ..Demand::default() },
             resistance,
             1.0,
@@ -339,14 +341,14 @@ mod tests {
     fn shares_have_a_band_of_their_own() {
         let held = |share| {
             let demand = Demand { simulation: Some(share), ..Demand::default() };
-            Outcome::at_least(CheckName::new("x", "x", "-", "x"), demand, 0.9)
+            Outcome::at_least(CheckName::new("x", "x", Unit::Share, "x"), demand, 0.9)
         };
         let grains = rung("grains");
         assert_eq!(grains.answer(&held(0.99)), Answer::Holds);
         assert_eq!(grains.answer(&held(0.91)), Answer::Open);
         assert_eq!(grains.answer(&held(0.80)), Answer::Fails);
         let demand = Demand::default();
-        let untold = Outcome::at_least(CheckName::new("x", "x", "-", "x"), demand, 0.9);
+        let untold = Outcome::at_least(CheckName::new("x", "x", Unit::Share, "x"), demand, 0.9);
         assert_eq!(rung("equations").answer(&untold), Answer::Open);
     }
 
@@ -377,7 +379,7 @@ mod tests {
         // A used-up stroke is used up.
         let demand = Demand { simulation: Some(2.5), ..Demand::default() };
         let stroke = Resistance { characteristic: 2.5, factor: 1.0 };
-        let used_up = Outcome::at_most(CheckName::new("x", "x", "m", "x"), demand, stroke, 0.9);
+        let used_up = Outcome::at_most(CheckName::new("x", "x", Unit::Metre, "x"), demand, stroke, 0.9);
         assert_eq!(after(rung("grains"), used_up), CheckVerdict::Fail);
     }
 

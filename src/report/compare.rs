@@ -6,13 +6,15 @@ use serde::Serialize;
 
 use crate::checks::outcome::Outcome;
 use crate::pipeline::Run;
-use crate::report::findings::over_starts;
+use crate::quantities::quantity::Unit;
+use crate::quantities::total_force;
 use crate::report::folder::ReportFile;
 use crate::report::numbers::{with_scatter, with_unit};
 use crate::report::pictures::Chart;
 use crate::report::plots::line_chart::{LineChart, Series, resampled};
 use crate::report::render::{Rendered, render_as};
 use crate::report::row::{is_share, used};
+use crate::report::spreads::{Observable, over_packings};
 use crate::report::view::summary;
 use crate::scene::build::SAMPLES_PER_WINDOW;
 use crate::simulated::Simulated;
@@ -166,14 +168,14 @@ fn check_cell(outcome: &Option<Outcome>) -> Cell {
         Some(_) => (outcome.demand.largest(), ", simulation"),
         None => (outcome.demand.simulation.or(outcome.demand.guideline), ""),
     };
-    let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit) + by);
+    let text = demand.map_or(String::new(), |demand| with_unit(demand, outcome.unit.symbol()) + by);
     let change = if is_share(outcome) { String::new() } else { used(outcome) };
     Cell { text, class: outcome.verdict.word(), change, marked: false }
 }
 
 fn observed_lines(variants: &[Variant]) -> Vec<Line> {
-    type Told = Vec<(crate::report::findings::Observable, Spread)>;
-    let told = |variant: &Variant| variant.run.simulated.as_ref().map_or_else(Vec::new, over_starts);
+    type Told = Vec<(Observable, Spread)>;
+    let told = |variant: &Variant| variant.run.simulated.as_ref().map_or_else(Vec::new, over_packings);
     let told: Vec<Told> = variants.iter().map(told).collect();
     let ids = all_ids(told.iter().flatten().map(|(observable, _)| observable.id.clone()));
     let line = |id: String| {
@@ -182,7 +184,7 @@ fn observed_lines(variants: &[Variant]) -> Vec<Line> {
             .iter()
             .flatten()
             .next()
-            .map_or((String::new(), ""), |(observable, _)| (observable.title.clone(), observable.unit));
+            .map_or((String::new(), Unit::Number), |(observable, _)| (observable.title.clone(), observable.unit));
         let first = found[0].map(|(_, spread)| *spread);
         let cell = |found: &Option<&(_, Spread)>| match found {
             None => Cell { text: "–".into(), ..Cell::default() },
@@ -193,13 +195,13 @@ fn observed_lines(variants: &[Variant]) -> Vec<Line> {
     ids.into_iter().map(line).collect()
 }
 
-fn observed_cell(spread: Spread, first: Option<Spread>, unit: &str) -> Cell {
+fn observed_cell(spread: Spread, first: Option<Spread>, unit: Unit) -> Cell {
     let text = match spread.starts {
-        1 => with_unit(spread.mean, unit),
-        _ => with_scatter(spread.mean, spread.deviation, unit),
+        1 => with_unit(spread.mean, unit.symbol()),
+        _ => with_scatter(spread.mean, spread.deviation, unit.symbol()),
     };
     let change = first.filter(|first| differs(&spread, first)).map_or(String::new(), |first| match unit {
-        "-" => format!("{:+.1} points", 100.0 * (spread.mean - first.mean)),
+        Unit::Share => format!("{:+.1} points", 100.0 * (spread.mean - first.mean)),
         _ => format!("{:+.0} %", 100.0 * (spread.mean / first.mean - 1.0)),
     });
     Cell { text, class: if change.is_empty() { "" } else { "differs" }, change, marked: false }
@@ -265,7 +267,7 @@ fn charts(variants: &[Variant]) -> Vec<Chart> {
         smoothed(&force, SAMPLES_PER_WINDOW as usize)
     };
     let held = |seen: &Simulated| seen.histories.lost.iter().map(|lost| 1.0 - lost.iter().sum::<f64>()).collect();
-    let largest = seen.iter().map(|(_, seen)| seen.first().force_peak).fold(0.0, f64::max);
+    let largest = seen.iter().map(|(_, seen)| seen.first().one(&total_force::PEAK)).fold(0.0, f64::max);
     let (unit, factor) = if largest < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
     vec![
         chart("Force on the barrier", FORCE_CHART, ("total force", unit, factor), &time, &seen, &force),

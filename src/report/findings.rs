@@ -3,18 +3,19 @@
 use serde::Serialize;
 
 use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PACKING_LIMIT, STEP_LIMIT, STORED_LIMIT};
-use crate::demand::coefficients::Coefficients;
-use crate::demand::from_histories::Observed;
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, Verdict};
 use crate::program::COMMIT;
+use crate::quantities::coefficients::Coefficients;
+use crate::quantities::observed::Observed;
+use crate::quantities::{earth_pressure, incoming, mass, rope_tension, total_force, wall};
 use crate::report::numbers::with_unit;
 use crate::report::row::Row;
 use crate::report::validation::Kept;
 use crate::report::warnings::pinned_fidelity;
 use crate::simulated::Simulated;
-use crate::starts::{Spread, k_n};
+use crate::starts::k_n;
 use crate::units::GRAVITY;
 
 fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) -> Row {
@@ -37,14 +38,14 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     let downhill = with_unit(weight * libm::sin(design.channel.slope), "N");
     let incoming =
         format!("{} deep, {}", with_unit(seen.incoming.depth, "m"), with_unit(seen.incoming.velocity, "m/s"));
-    let fastest = format!("at {:.2} s", seen.velocity_peak_time);
+    let fastest = format!("at {:.2} s", seen.one(&mass::VELOCITY_TIME));
     vec![
         row(
             "Mass of the flow",
             with_unit(design.flow.mass, "kg"),
             format!("weight {}, its component along the bed {downhill}", with_unit(weight, "N")),
         ),
-        row("Highest mean velocity", with_unit(seen.velocity_peak, "m/s"), fastest),
+        row("Highest mean velocity", with_unit(seen.one(&mass::VELOCITY), "m/s"), fastest),
         row(
             "Incoming flow",
             incoming,
@@ -52,10 +53,14 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         ),
         row(
             "Velocity of the front",
-            seen.front_velocity.map_or("not seen".to_string(), |front| with_unit(front, "m/s")),
+            seen.known(&incoming::FRONT).map_or("not seen".to_string(), |front| with_unit(front, "m/s")),
             "over the last 0.4 barrier heights before the gauge; of the position that 2 % of the mass has passed",
         ),
-        row("Depth of the deposit at the barrier", with_unit(seen.deposit_depth, "m"), "at the end, at bulk density"),
+        row(
+            "Depth of the deposit at the barrier",
+            with_unit(seen.one(&incoming::DEPOSIT), "m"),
+            "at the end, at bulk density",
+        ),
     ]
 }
 
@@ -63,19 +68,19 @@ fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     vec![
         row(
             "Largest force within a sampling interval",
-            with_unit(seen.force_peak_sampled, "N"),
+            with_unit(seen.one(&total_force::PEAK_SAMPLED), "N"),
             "mean over one sampling interval only; what responds faster than the smoothing window, such as a stiff wall, feels this",
         ),
         row(
             "Largest total force",
-            with_unit(seen.force_peak, "N"),
+            with_unit(seen.one(&total_force::PEAK), "N"),
             format!(
                 "at {:.2} s; {}; length of the vector, mean over the smoothing window",
-                seen.force_peak_time,
-                per_width(seen.force_peak, design)
+                seen.one(&total_force::PEAK_TIME),
+                per_width(seen.one(&total_force::PEAK), design)
             ),
         ),
-        row("Total force at rest", with_unit(seen.force_residual, "N"), at_rest_remark(design, seen)),
+        row("Total force at rest", with_unit(seen.one(&total_force::RESIDUAL), "N"), at_rest_remark(design, seen)),
     ]
     .into_iter()
     .chain(extension_row(seen))
@@ -84,8 +89,9 @@ fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
 
 /// How far the net bulges: the room it needs downstream.
 fn extension_row(seen: &Observed) -> Option<Row> {
-    let most = seen.extension.iter().copied().fold(0.0, f64::max);
-    let ropes: Vec<String> = seen.extension.iter().map(|extension| with_unit(*extension, "m")).collect();
+    let most = seen.each(&rope_tension::BULGE).iter().copied().fold(0.0, f64::max);
+    let ropes: Vec<String> =
+        seen.each(&rope_tension::BULGE).iter().map(|extension| with_unit(*extension, "m")).collect();
     (most > 0.0).then(|| {
         let remark = format!(
             "downstream, in the simulated surge; of main ropes from the bottom: {}. Keep free the larger of this and the sag by the equations",
@@ -97,18 +103,18 @@ fn extension_row(seen: &Observed) -> Option<Row> {
 
 /// The force at rest beside the weight of what is held.
 fn at_rest_remark(design: &Design, seen: &Observed) -> String {
-    let downhill = seen.retained * design.flow.mass * GRAVITY * libm::sin(design.channel.slope);
+    let downhill = seen.one(&mass::RETAINED) * design.flow.mass * GRAVITY * libm::sin(design.channel.slope);
     let springs = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
-    let why = if seen.force_residual > downhill && springs {
+    let why = if seen.one(&total_force::RESIDUAL) > downhill && springs {
         "; more, because the barrier has sprung back and presses the deposit up the slope, against the friction of the bed"
-    } else if seen.force_residual > downhill {
+    } else if seen.one(&total_force::RESIDUAL) > downhill {
         "; more, because the flow that was stopped last has pressed the deposit against the wall, and friction on the bed holds it there"
     } else {
         "; the rest is borne by the bed"
     };
     format!(
         "{}; the component of the held mass's weight along the bed is {}{why}",
-        per_width(seen.force_residual, design),
+        per_width(seen.one(&total_force::RESIDUAL), design),
         with_unit(downhill, "N")
     )
 }
@@ -117,11 +123,11 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
     let input = &run.guideline.input;
     let told = &seen.coefficients;
     let of = |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.2}"));
-    let k = seen.k_effective.map(|k| {
+    let k = seen.known(&earth_pressure::AT_REST).map(|k| {
         let remark = format!("from the force at rest along the channel; the design takes {}", input.earth_pressure);
         row("K at rest", format!("{k:.2}"), remark)
     });
-    let lambda = seen.lambda_effective.map(|lambda| {
+    let lambda = seen.known(&earth_pressure::DYNAMIC).map(|lambda| {
         let remark = format!(
             "from the largest force along the channel less the static part with the design's K, over ρ v² h of the incoming flow; the design takes {}",
             input.dynamic_pressure
@@ -186,24 +192,24 @@ fn side_row(told: &Coefficients) -> Row {
 }
 
 fn loss_rows(seen: &Observed) -> Vec<Row> {
-    let [through, under, beside, over] = seen.lost.map(|share| with_unit(share, "-"));
+    let [through, under, beside, over] = seen.lost().map(|share| with_unit(share, "-"));
     let ways = format!("through {through}, under {under}, beside {beside}, over {over}");
-    let stopped = with_unit(seen.stopped_upstream, "-");
+    let stopped = with_unit(seen.one(&mass::STOPPED_UPSTREAM), "-");
     vec![
-        row("Mass lost", with_unit(seen.lost.iter().sum(), "-"), ways),
+        row("Mass lost", with_unit(seen.lost().iter().sum(), "-"), ways),
         row("Mass that stopped upstream", stopped, "came to rest without leaning on the barrier; not counted as held"),
     ]
 }
 
 fn wall_rows(seen: &Observed) -> Vec<Row> {
-    if seen.segment_peak.is_empty() {
+    if seen.each(&wall::SEGMENT).is_empty() {
         return Vec::new();
     }
     let list = |values: &[f64]| values.iter().map(|value| with_unit(*value, "N/m")).collect::<Vec<_>>().join(", ");
     vec![
-        row("Wall segments, largest", list(&seen.segment_peak), "from the bottom up"),
-        row("Wall segments, at rest", list(&seen.segment_residual), "from the bottom up"),
-        row("Moment about the toe, largest", with_unit(seen.moment_peak, "N m/m"), ""),
+        row("Wall segments, largest", list(&seen.each(&wall::SEGMENT)), "from the bottom up"),
+        row("Wall segments, at rest", list(&seen.each(&wall::SEGMENT_RESIDUAL)), "from the bottom up"),
+        row("Moment about the toe, largest", with_unit(seen.one(&wall::MOMENT), "N m/m"), ""),
     ]
 }
 
@@ -400,61 +406,4 @@ fn seed_row(run: &Simulated) -> Row {
         }
     };
     row(if seeds.len() > 1 { "Seeds" } else { "Seed" }, seeds.join(", "), remark)
-}
-
-/// An observable that is compared over starts.
-pub struct Observable {
-    pub id: String,
-    pub title: String,
-    pub unit: &'static str,
-}
-
-/// Main observables with their mean and scatter.
-pub fn over_starts(run: &Simulated) -> Vec<(Observable, Spread)> {
-    let mut list = Vec::new();
-    let mut add = |id: String, title: String, unit, quantity: &dyn Fn(&Observed) -> f64| {
-        list.push((Observable { id, title, unit }, run.spread(quantity)));
-    };
-    add("force_total_peak".into(), "Largest total force".into(), "N", &|seen| seen.force_peak);
-    add("force_total_residual".into(), "Total force at rest".into(), "N", &|seen| seen.force_residual);
-    add("velocity_mean_peak".into(), "Highest mean velocity".into(), "m/s", &|seen| seen.velocity_peak);
-    add("retained".into(), "Mass held".into(), "-", &|seen| seen.retained);
-    let first = run.first();
-    if !first.segment_peak.is_empty() {
-        add("moment_peak".into(), "Moment about the toe, largest".into(), "N m/m", &|seen| seen.moment_peak);
-    }
-    for rope in 0..first.anchor_force_peak.len() {
-        if first.anchor_force_peak[rope] > 0.0 {
-            let name = format!("Load of the anchors of main rope {}", rope + 1);
-            add(format!("anchor_{}", rope + 1), name, "N", &|seen| seen.anchor_force_peak[rope]);
-        }
-        if first.brake_stroke.get(rope).is_some_and(|stroke| *stroke > 0.0) {
-            let name = format!("Stroke of the dissipators of main rope {}", rope + 1);
-            add(format!("brake_stroke_{}", rope + 1), name, "m", &|seen| seen.brake_stroke[rope]);
-        }
-    }
-    if first.net_tension_peak > 0.0 {
-        add("net_tension".into(), "Tension of the net's ropes".into(), "N", &|seen| seen.net_tension_peak);
-    }
-    let mut coefficient = |id: &str, title: &str, read: fn(&Observed) -> Option<f64>| {
-        let values: Vec<f64> = run.starts.iter().filter_map(|start| read(&start.observed)).collect();
-        if values.len() == run.starts.len() {
-            list.push((Observable { id: id.into(), title: title.into(), unit: "" }, Spread::of(&values)));
-        }
-    };
-    coefficient("k_effective", "K at rest", |seen| seen.k_effective);
-    coefficient("lambda_effective", "λ from the largest force", |seen| seen.lambda_effective);
-    coefficient("k_split", "K by the split, when F₁ is largest", |seen| {
-        let told = &seen.coefficients;
-        Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead)
-    });
-    coefficient("lambda_split_upstream", "λ by the split, when F₂ is largest, velocity upstream", |seen| {
-        let told = &seen.coefficients;
-        Coefficients::at_peak_of(&told.dynamic_upstream, &told.force_moving)
-    });
-    coefficient("lambda_split_mean", "λ by the split, when F₂ is largest, mean velocity", |seen| {
-        let told = &seen.coefficients;
-        Coefficients::at_peak_of(&told.dynamic_mean, &told.force_moving)
-    });
-    list
 }

@@ -4,11 +4,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::checks::outcome::Outcome;
-use crate::demand::from_loads::Guideline;
 use crate::fidelity::ladder::{RUNGS, Step};
+use crate::guideline::Guideline;
 use crate::pipeline::Run;
 use crate::program::PROGRAM;
-use crate::report::findings::over_starts;
+use crate::report::measured::Measured;
+use crate::report::spreads::over_packings;
 use crate::simulated::Simulated;
 
 /// Version of this contract.
@@ -109,49 +110,8 @@ pub struct SimulationPart {
     pub ended_steady: bool,
     pub smoothing_s: f64,
     pub sampling_s: f64,
-    pub force_total_peak_n: f64,
-    pub force_total_peak_time_s: f64,
-    /// Largest mean over one sampling interval.
-    pub force_total_peak_sampled_n: f64,
-    pub force_total_residual_n: f64,
-    pub velocity_mean_peak_m_s: f64,
-    pub velocity_mean_peak_time_s: f64,
-    /// Of the mass that has come to the barrier.
-    pub retained_fraction: f64,
-    /// Of the mass, what came to rest upstream without leaning on the barrier.
-    pub stopped_upstream_fraction: f64,
-    pub lost: LostPart,
-    pub residual_height_m: Option<f64>,
-    pub rope_tension_peak_n: Vec<f64>,
-    pub rope_tension_mean_peak_n: Vec<f64>,
-    pub rope_tension_mean_residual_n: Vec<f64>,
-    pub anchor_force_peak_n: Vec<f64>,
-    /// How far downstream each main rope bulged at the most.
-    pub rope_extension_m: Vec<f64>,
-    pub brake_stroke_m: Vec<f64>,
-    pub brake_stroke_mean_m: Vec<f64>,
-    pub lateral_tension_peak_n: f64,
-    /// On what holds the lowest main rope to the bed.
-    pub bed_force_peak_n: f64,
-    /// On its worst bolt, and the largest lift of one; 0 where anchors.bed_bolt_spacing is not given.
-    pub bolt_force_peak_n: f64,
-    pub bolt_lift_peak_n: f64,
-    pub net_tension_peak_n: f64,
-    pub wall: Option<WallPart>,
-    /// Of the flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there; depth at bulk
-    /// density.
-    pub incoming_depth_m: f64,
-    pub incoming_velocity_m_s: f64,
-    /// Of the front, on the last 0.4 barrier heights before the gauge just upstream of the barrier.
-    pub front_velocity_m_s: Option<f64>,
-    /// Of the flow a barrier's height upstream when the total force peaked; 90 % of the centres and half a grain.
-    pub incoming_thickness_at_peak_m: f64,
-    pub incoming_velocity_at_peak_m_s: f64,
-    pub deposit_depth_m: f64,
-    /// K that the residual force means for the depth of the deposit.
-    pub k_effective: Option<f64>,
-    /// lambda that the peak force means for the incoming flow.
-    pub lambda_effective: Option<f64>,
+    #[serde(flatten)]
+    pub measured: Measured,
 }
 
 /// An observable over the starts, in the SI unit named by `unit`.
@@ -163,23 +123,6 @@ pub struct SpreadPart {
     pub mean: f64,
     /// Standard deviation; 0 for a single start.
     pub deviation: f64,
-}
-
-/// Shares of the mass.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct LostPart {
-    pub through: f64,
-    pub under: f64,
-    pub beside: f64,
-    pub over: f64,
-}
-
-/// Segments in order from the bottom.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct WallPart {
-    pub segment_force_peak_n_per_m: Vec<f64>,
-    pub segment_force_residual_n_per_m: Vec<f64>,
-    pub moment_peak_n_m_per_m: f64,
 }
 
 #[derive(Debug, Serialize, JsonSchema)]
@@ -236,7 +179,7 @@ fn check_part(outcome: &Outcome) -> CheckPart {
         demand_characteristic: outcome.demand.characteristic,
         capacity: outcome.capacity,
         utilisation: outcome.utilisation,
-        unit: outcome.unit.to_string(),
+        unit: outcome.unit.symbol().to_string(),
         verdict: outcome.verdict.word().to_string(),
         open: outcome.open.as_ref().map_or(String::new(), |open| open.words().to_string()),
         source: outcome.source.to_string(),
@@ -261,13 +204,7 @@ fn guideline_part(guideline: &Guideline) -> GuidelinePart {
 }
 
 fn simulation_part(run: &Simulated) -> SimulationPart {
-    let (seen, facts) = (run.first(), &run.facts);
-    let [through, under, beside, over] = seen.lost;
-    let wall = (!seen.segment_peak.is_empty()).then(|| WallPart {
-        segment_force_peak_n_per_m: seen.segment_peak.clone(),
-        segment_force_residual_n_per_m: seen.segment_residual.clone(),
-        moment_peak_n_m_per_m: seen.moment_peak,
-    });
+    let facts = &run.facts;
     SimulationPart {
         program: run.facts.program.clone(),
         fidelity: run.fidelity.name.to_string(),
@@ -280,37 +217,7 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
         ended_steady: facts.steady,
         smoothing_s: facts.smoothing,
         sampling_s: facts.sampling,
-        force_total_peak_n: seen.force_peak,
-        force_total_peak_time_s: seen.force_peak_time,
-        force_total_peak_sampled_n: seen.force_peak_sampled,
-        force_total_residual_n: seen.force_residual,
-        velocity_mean_peak_m_s: seen.velocity_peak,
-        velocity_mean_peak_time_s: seen.velocity_peak_time,
-        retained_fraction: seen.retained,
-        stopped_upstream_fraction: seen.stopped_upstream,
-        lost: LostPart { through, under, beside, over },
-        residual_height_m: run.histories.top_rope_height.last().copied(),
-        rope_tension_peak_n: seen.rope_tension_peak.clone(),
-        rope_tension_mean_peak_n: seen.rope_mean_peak.clone(),
-        rope_tension_mean_residual_n: seen.rope_mean_residual.clone(),
-        anchor_force_peak_n: seen.anchor_force_peak.clone(),
-        rope_extension_m: seen.extension.clone(),
-        brake_stroke_m: seen.brake_stroke.clone(),
-        brake_stroke_mean_m: seen.brake_stroke_mean.clone(),
-        lateral_tension_peak_n: seen.lateral_tension_peak,
-        bed_force_peak_n: seen.bed_force_peak,
-        bolt_force_peak_n: seen.bolt_force_peak,
-        bolt_lift_peak_n: seen.bolt_lift_peak,
-        net_tension_peak_n: seen.net_tension_peak,
-        wall,
-        incoming_depth_m: seen.incoming.depth,
-        incoming_velocity_m_s: seen.incoming.velocity,
-        front_velocity_m_s: seen.front_velocity,
-        incoming_thickness_at_peak_m: seen.incoming_at_peak.thickness,
-        incoming_velocity_at_peak_m_s: seen.incoming_at_peak.velocity,
-        deposit_depth_m: seen.deposit_depth,
-        k_effective: seen.k_effective,
-        lambda_effective: seen.lambda_effective,
+        measured: Measured::of(run.first()),
     }
 }
 
@@ -324,11 +231,11 @@ fn rung_part(step: &Step) -> RungPart {
 }
 
 fn spread_parts(run: &Simulated) -> Vec<SpreadPart> {
-    over_starts(run)
+    over_packings(run)
         .into_iter()
         .map(|(observable, spread)| SpreadPart {
             id: observable.id,
-            unit: observable.unit.to_string(),
+            unit: observable.unit.symbol().to_string(),
             starts: spread.starts,
             mean: spread.mean,
             deviation: spread.deviation,

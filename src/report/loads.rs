@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::demand::from_loads::{RopeLoad, event_fill, wall_of};
+use crate::guideline::{RopeLoad, event_fill, wall_of};
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};

@@ -6,6 +6,7 @@ use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::BarrierDesign;
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
+use crate::quantities::{mass, total_force};
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::escape;
@@ -20,6 +21,7 @@ use dem::elements::segment::SegmentKind;
 use dem::ledger::Ledger;
 use dem::recorders::histories::smoothed;
 use dem::recorders::snapshots::{Moment, Snapshot};
+use dem::recorders::{of_anchors, of_dissipators, of_ropes, of_wall};
 
 #[derive(Debug, Serialize)]
 pub struct Chart {
@@ -66,10 +68,10 @@ fn file_name(title: &str) -> String {
 
 pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let mut charts = vec![force_chart(run, seen), mass_chart(run, seen)];
-    if seen.histories.strokes.iter().flatten().any(|stroke| *stroke > 0.0) {
+    if seen.histories.barrier.rows(&of_dissipators::STROKE).iter().flatten().any(|stroke| *stroke > 0.0) {
         charts.push(stroke_chart(run, seen));
     }
-    if !seen.histories.rope_mean.is_empty() {
+    if !seen.histories.barrier.rows(&of_ropes::MEAN).is_empty() {
         charts.push(rope_chart(run, seen));
     }
     charts.extend(anchor_chart(run, seen));
@@ -124,7 +126,7 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         unit: "kN",
         factor: 1e-3,
         time: &seen.histories.time,
-        series: rope_series(&seen.histories.anchors),
+        series: rope_series(seen.histories.barrier.rows(&of_anchors::LOAD)),
         levels: vec![Level {
             label: "design resistance".into(),
             value: net.anchor_resistance / run.file.design.factors.anchor,
@@ -138,14 +140,14 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
 /// Force on the segments of a rigid wall, and its moment.
 fn wall_charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let histories = &seen.histories;
-    if histories.segments.is_empty() {
+    if histories.barrier.rows(&of_wall::SEGMENTS).is_empty() {
         return Vec::new();
     }
     let width = run.file.design.channel.width;
     let window = crate::scene::build::SAMPLES_PER_WINDOW as usize;
-    let per_width = |row: &Vec<f64>| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
-    let segments: Vec<Vec<f64>> = histories.segments.iter().map(per_width).collect();
-    let moment = per_width(&histories.moment);
+    let per_width = |row: &[f64]| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
+    let segments: Vec<Vec<f64>> = histories.barrier.rows(&of_wall::SEGMENTS).iter().map(|row| per_width(row)).collect();
+    let moment = per_width(histories.barrier.series(&of_wall::MOMENT));
     let chart = |title: &'static str, label, units: [&'static str; 2], series: Vec<Series>, note: &str| {
         let largest = series.iter().flat_map(|series| series.values).copied().fold(0.0, f64::max);
         let (unit, factor) = if largest < 2000.0 { (units[0], 1.0) } else { (units[1], 1e-3) };
@@ -214,7 +216,7 @@ pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
             }
             BarrierDesign::FlexibleNet(_) => None,
         },
-        fastest: seen.first().velocity_peak,
+        fastest: seen.first().one(&mass::VELOCITY),
     };
     let chart = |snapshot: &Snapshot| {
         let title = match snapshot.moment {
@@ -370,7 +372,7 @@ fn force_chart(run: &Run, seen: &Simulated) -> Chart {
     let force = smoothed(&force, crate::scene::build::SAMPLES_PER_WINDOW as usize);
     let width = run.file.design.channel.width;
     let levels = run.guideline.cases.iter();
-    let (unit, factor) = if seen.first().force_peak < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
+    let (unit, factor) = if seen.first().one(&total_force::PEAK) < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
     let chart = LineChart {
         title: "total force",
         unit,
@@ -419,7 +421,7 @@ fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
         unit: "m",
         factor: 1.0,
         time: &seen.histories.time,
-        series: rope_series(&seen.histories.strokes),
+        series: rope_series(seen.histories.barrier.rows(&of_dissipators::STROKE)),
         levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
         band: None,
     };
@@ -439,7 +441,7 @@ fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
         unit: "kN",
         factor: 1e-3,
         time: &seen.histories.time,
-        series: rope_series(&seen.histories.rope_largest),
+        series: rope_series(seen.histories.barrier.rows(&of_ropes::LARGEST)),
         levels: resistance.map(|value| Level { label: "design resistance".into(), value }).into_iter().collect(),
         band: None,
     };

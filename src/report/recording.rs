@@ -19,7 +19,7 @@ pub const FILE: &str = "recording.bin";
 
 pub const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever anything that is recorded changes.
-pub const FORMAT: u32 = 9;
+pub const FORMAT: u32 = 10;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]

@@ -2,6 +2,7 @@
 
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::pipeline::Run;
+use crate::quantities::quantity::Unit;
 use crate::report::numbers::{percent, with_unit};
 use serde::Serialize;
 
@@ -36,18 +37,18 @@ fn rank(verdict: CheckVerdict) -> u8 {
 
 /// Whether a share must be kept, which reads as what is there, not as what is missing.
 pub fn is_share(outcome: &Outcome) -> bool {
-    outcome.unit == "-" && outcome.resistance.is_none() && outcome.capacity.is_some()
+    outcome.unit == Unit::Share && outcome.resistance.is_none() && outcome.capacity.is_some()
 }
 
 /// How much of the capacity is used; of a share that must be kept, what is kept.
 pub fn used(outcome: &Outcome) -> String {
-    let is_stroke = outcome.unit == "m" && outcome.kind != Kind::OnTheBase;
+    let is_stroke = outcome.unit == Unit::Metre && outcome.kind != Kind::OnTheBase;
     let stroke = outcome.resistance.filter(|_| is_stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     match (outcome.utilisation, outcome.verdict) {
         (None, CheckVerdict::Pass) => "at plateau, as designed".to_string(),
         (Some(_), _) if is_share(outcome) => {
-            outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit))
+            outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit.symbol()))
         }
         (used, _) if used_up && used.is_none_or(|used| used <= 10.0) => format!("≥ {}", percent(used)),
         (used, _) => percent(used),
@@ -63,7 +64,7 @@ pub fn is_stop(outcome: &Outcome) -> bool {
 pub fn in_a_line(outcome: &Outcome) -> String {
     let title = lower_first(&outcome.title);
     match outcome.capacity.filter(|_| is_share(outcome)) {
-        Some(least) => format!("{title} ({}, at least {})", used(outcome), with_unit(least, outcome.unit)),
+        Some(least) => format!("{title} ({}, at least {})", used(outcome), with_unit(least, outcome.unit.symbol())),
         None => format!("{title} ({})", used(outcome)),
     }
 }

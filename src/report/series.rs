@@ -9,6 +9,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
+use dem::recorders::CHANNELS;
+use dem::recorders::channels::{Channel, Rows};
 use dem::recorders::histories::Histories;
 
 /// Columns by name, each with its values.
@@ -21,30 +23,18 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     }
     add("force_x_largest_of_a_step_n".into(), histories.force_instant.clone());
     add("force_x_scatter_of_steps_n".into(), histories.force_scatter.clone());
-    add("wall_moment_n_m".into(), histories.moment.clone());
-    let groups = [
-        ("wall_segment", "n", &histories.segments),
-        ("rope_mean", "n", &histories.rope_mean),
-        ("rope_largest", "n", &histories.rope_largest),
-        ("anchor", "n", &histories.anchors),
-        ("rope_extension", "m", &histories.extension),
-        ("brake_stroke", "m", &histories.strokes),
-        ("brake_stroke_mean", "m", &histories.strokes_mean),
-        ("brake", "n", &histories.brakes),
-    ];
-    for (name, unit, rows) in groups {
-        for (index, row) in rows.iter().enumerate() {
-            add(format!("{name}_{}_{unit}", index + 1), row.clone());
+    for channel in CHANNELS {
+        let Channel { name, unit, rows } = channel;
+        let with_unit = |name: String| if unit.is_empty() { name } else { format!("{name}_{unit}") };
+        match rows {
+            Rows::One => add(with_unit(name.to_string()), histories.barrier.series(channel).to_vec()),
+            Rows::EachRope | Rows::EachSegment => {
+                for (index, row) in histories.barrier.rows(channel).iter().enumerate() {
+                    add(with_unit(format!("{name}_{}", index + 1)), row.clone());
+                }
+            }
         }
     }
-    add("lateral_largest_n".into(), histories.lateral_largest.clone());
-    add("bed_force_n".into(), histories.bed_force.clone());
-    add("bolt_largest_n".into(), histories.bolt_largest.clone());
-    add("bolt_lift_n".into(), histories.bolt_lift.clone());
-    add("net_largest_n".into(), histories.net_largest.clone());
-    add("broken_pieces".into(), histories.broken_pieces.clone());
-    add("drawn_out_share".into(), histories.drawn_out.clone());
-    add("top_rope_height_m".into(), histories.top_rope_height.clone());
     add("velocity_mean_x_m_s".into(), histories.velocity.iter().map(|velocity| velocity[0]).collect());
     add("velocity_mean_z_m_s".into(), histories.velocity.iter().map(|velocity| velocity[1]).collect());
     add("push_at_rest_n".into(), histories.push_at_rest.clone());

@@ -10,6 +10,7 @@ use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
+use crate::quantities::quantity::Unit;
 use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, with_scatter, with_unit};
@@ -284,9 +285,10 @@ pub fn summary(run: &Run) -> String {
 }
 
 fn check_row(outcome: &Outcome) -> CheckRow {
-    let show = |value: Option<f64>| value.map_or("–".to_string(), |value| with_unit(value, outcome.unit));
+    let show = |value: Option<f64>| value.map_or("–".to_string(), |value| with_unit(value, outcome.unit.symbol()));
     // A stroke ends where there is no more of it: the demand is at least that.
-    let stroke = outcome.resistance.filter(|_| outcome.unit == "m").map(|(resistance, _)| resistance.characteristic);
+    let stroke =
+        outcome.resistance.filter(|_| outcome.unit == Unit::Metre).map(|(resistance, _)| resistance.characteristic);
     let used_up = |demand: Option<f64>| stroke.zip(demand).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     let demand =
         |demand: Option<f64>| if used_up(demand) { format!("≥ {}, used up", show(demand)) } else { show(demand) };
@@ -296,7 +298,7 @@ fn check_row(outcome: &Outcome) -> CheckRow {
         simulation: demand(outcome.demand.simulation),
         characteristic: outcome.demand.characteristic.map_or(String::new(), |value| demand(Some(value))),
         capacity: match (is_share(outcome), outcome.capacity) {
-            (true, Some(least)) => format!("at least {}", with_unit(least, outcome.unit)),
+            (true, Some(least)) => format!("at least {}", with_unit(least, outcome.unit.symbol())),
             _ => show(outcome.capacity),
         },
         working: working(outcome),
@@ -312,7 +314,7 @@ fn working(outcome: &Outcome) -> String {
     if resistance.factor == 1.0 && share == 1.0 {
         return String::new();
     }
-    let mut text = with_unit(resistance.characteristic, outcome.unit);
+    let mut text = with_unit(resistance.characteristic, outcome.unit.symbol());
     if resistance.factor != 1.0 {
         text += &format!(" / {}", figures(resistance.factor));
     }
@@ -407,12 +409,12 @@ fn start_rows(run: &Simulated) -> Vec<Row> {
     if run.starts.len() < 2 {
         return Vec::new();
     }
-    let row = |(observable, spread): (super::findings::Observable, crate::starts::Spread)| Row {
+    let row = |(observable, spread): (super::spreads::Observable, crate::starts::Spread)| Row {
         name: observable.title,
-        value: with_scatter(spread.mean, spread.deviation, observable.unit),
+        value: with_scatter(spread.mean, spread.deviation, observable.unit.symbol()),
         remark: format!("mean ± standard deviation of {} starts", spread.starts),
     };
-    super::findings::over_starts(run).into_iter().map(row).collect()
+    super::spreads::over_packings(run).into_iter().map(row).collect()
 }
 
 fn input_rows(run: &Run) -> Vec<InputRow> {

@@ -8,9 +8,12 @@ use crate::checks::range::rope_outside;
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet, OutsideRange};
 use crate::fidelity::ladder::rung_of;
 use crate::pipeline::Run;
+use crate::quantities::quantity::Unit;
+use crate::quantities::{incoming, mass, total_force, wear};
 use crate::report::numbers::{figures, with_unit};
 use crate::report::row::{in_a_line, is_share, lower_first};
 use crate::report::validation::Kept;
+use dem::recorders::of_dissipators;
 
 type Warning = fn(&Run) -> Option<String>;
 
@@ -122,9 +125,9 @@ const LEAK: f64 = 0.1;
 fn flow_not_stopped(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref()?;
     let all = seen.starts.iter().chain(&seen.factored).map(|start| &start.observed);
-    let worst = all.max_by(|a, b| a.lost.iter().sum::<f64>().total_cmp(&b.lost.iter().sum::<f64>()))?;
-    let lost: f64 = worst.lost.iter().sum();
-    let ways = ["through", "under", "beside", "over"].into_iter().zip(worst.lost).filter(|(_, share)| *share > 0.0005);
+    let worst = all.max_by(|a, b| a.lost().iter().sum::<f64>().total_cmp(&b.lost().iter().sum::<f64>()))?;
+    let lost: f64 = worst.lost().iter().sum();
+    let ways = mass::WAYS.iter().map(|(way, _)| way).zip(worst.lost()).filter(|(_, share)| *share > 0.0005);
     let ways = ways.map(|(way, share)| format!("{} {way} it", with_unit(share, "-"))).collect::<Vec<_>>().join(", ");
     (lost > LEAK).then(|| {
         format!(
@@ -138,7 +141,7 @@ fn flow_not_stopped(run: &Run) -> Option<String> {
 const STOPPED: f64 = 0.02;
 
 fn flow_that_stopped_upstream(run: &Run) -> Option<String> {
-    let stopped = run.simulated.as_ref()?.first().stopped_upstream;
+    let stopped = run.simulated.as_ref()?.first().one(&mass::STOPPED_UPSTREAM);
     (stopped > STOPPED).then(|| {
         format!(
             "{} of the mass came to rest upstream and never leant on the barrier. The mass held is counted of the rest alone, and no force is of the whole flow.",
@@ -155,7 +158,7 @@ fn slows_on_its_way(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref().map_or(String::new(), |seen| {
         let front = seen
             .first()
-            .front_velocity
+            .known(&incoming::FRONT)
             .map_or(String::new(), |front| format!("its front arrives with {}, ", with_unit(front, "m/s")));
         format!(
             " ({front}its densest part with {}, given were {})",
@@ -252,7 +255,7 @@ fn escaped(run: &Run) -> Option<String> {
 
 fn force_beyond_the_guideline(run: &Run) -> Option<String> {
     let (design, simulated) = (&run.file.design, run.simulated.as_ref()?);
-    let simulated = simulated.spread(|seen| seen.force_peak).mean;
+    let simulated = simulated.spread(|seen| seen.one(&total_force::PEAK)).mean;
     let guideline = run.guideline.first_surge();
     let ratio = simulated / guideline;
     let later = if design.loads.to_the_top {
@@ -275,7 +278,7 @@ fn faster_flow_than_the_guideline_was_given(run: &Run) -> Option<String> {
     let given = run.guideline.input.velocity;
     let velocity = seen.incoming.velocity;
     (given > 0.0 && seen.incoming.depth > 0.0 && velocity > 1.05 * given).then(|| {
-        let front = seen.front_velocity.map_or(String::new(), |front| format!(" (its front with {})", with_unit(front, "m/s")));
+        let front = seen.known(&incoming::FRONT).map_or(String::new(), |front| format!(" (its front with {})", with_unit(front, "m/s")));
         format!(
             "The simulated flow arrives just upstream of the barrier with {}{front} where the guideline was given {}: its dynamic pressure would be {:.0} % higher with that. Give the velocity of the front at the barrier, not the mean of the flow.",
             with_unit(velocity, "m/s"),
@@ -288,12 +291,13 @@ fn faster_flow_than_the_guideline_was_given(run: &Run) -> Option<String> {
 /// When the dissipators of a rope were used up in the first start, and when the force was largest.
 fn dissipators_used_up(run: &Run) -> Option<String> {
     let (seen, dissipators) = (run.simulated.as_ref()?, net(run)?.dissipators?);
-    let used_up = seen.histories.strokes.iter().enumerate().filter_map(|(rope, strokes)| {
-        let at = strokes.iter().position(|stroke| *stroke >= 0.999 * dissipators.stroke)?;
-        Some((rope + 1, *seen.histories.time.get(at)?))
-    });
+    let used_up =
+        seen.histories.barrier.rows(&of_dissipators::STROKE).iter().enumerate().filter_map(|(rope, strokes)| {
+            let at = strokes.iter().position(|stroke| *stroke >= 0.999 * dissipators.stroke)?;
+            Some((rope + 1, *seen.histories.time.get(at)?))
+        });
     let (rope, time) = used_up.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let peak = seen.first().force_peak_time;
+    let peak = seen.first().one(&total_force::PEAK_TIME);
     let after = if peak > time {
         format!(
             "; the largest force follows {:.2} s later, when this rope stops what still moves, not when the front hits: λ from the largest force is no measure of the front then",
@@ -318,7 +322,7 @@ fn sag_beyond_the_equations(run: &Run) -> Option<String> {
 
 /// From when on ropes have broken in the first start.
 fn ropes_broken(run: &Run) -> Option<String> {
-    let first = run.simulated.as_ref()?.first().first_break?;
+    let first = run.simulated.as_ref()?.first().known(&wear::FIRST_BREAK)?;
     Some(format!(
         "From {first:.2} s on ropes have broken: what the simulation shows later is no load of the barrier as it was designed. Strengthen what broke first and run again."
     ))
@@ -371,7 +375,7 @@ pub fn left_by_simulation(run: &Run) -> Option<String> {
     }
     let (most, share) = used.into_iter().filter(|(_, used)| *used > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
     let grow = match most.unit {
-        "N" | "N/m" | "N m/m" => format!(
+        Unit::Newton | Unit::NewtonPerMetre | Unit::NewtonMetrePerMetre => format!(
             ": it may grow by {:.0} % until it fails, and if it grows with the square of the velocity, the velocity by {:.0} %",
             100.0 * (1.0 / share - 1.0),
             100.0 * ((1.0 / share).sqrt() - 1.0)

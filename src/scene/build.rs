@@ -16,7 +16,7 @@ use dem::elements::ground::{Ground, Plane};
 use dem::model::{Material, Model};
 use dem::recorders::gauge::GaugeWindow;
 use dem::recorders::passage::WallFace;
-use dem::recorders::recorder::RecorderSetup;
+use dem::recorders::setup::RecorderSetup;
 use dem::simulation::Simulation;
 use dem::tables::barrier::Barrier;
 use dem::tables::grains::Grain;

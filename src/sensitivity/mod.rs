@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::checks::check_all;
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
-use crate::demand::from_loads::{guideline_for, input};
 use crate::design::{BarrierDesign, Design};
+use crate::guideline::{guideline_for, input};
 use crate::loads::input::GuidelineInput;
 
 /// What one set of inputs comes to, by the equations or by a simulation.

@@ -1,6 +1,5 @@
 //! Studies: many runs of a few scenes, each with one choice of the model changed, to see what it costs and what it changes.
 
-pub(crate) mod kept;
 pub(crate) mod knobs;
 pub(crate) mod plan;
 pub(crate) mod speed_accuracy;

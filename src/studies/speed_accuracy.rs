@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::demand::from_loads::guideline;
 use crate::design::Design;
 use crate::design::read::DesignFile;
+use crate::guideline::guideline;
+use crate::quantities::{anchor_load, dissipator, mass, total_force, wall};
 use crate::scene::event::Watch;
 use crate::simulated::{Detail, RunError, Simulated, simulate};
 use crate::starts::Spread;
@@ -50,12 +51,12 @@ impl Point {
         let facts = &seen.facts;
         let steps = facts.steps as f64;
         Self {
-            force_peak: first.force_peak,
-            force_residual: first.force_residual,
-            moment_peak: first.moment_peak,
-            anchor_peak: largest(&first.anchor_force_peak),
-            stroke: largest(&first.brake_stroke_mean),
-            retained: first.retained,
+            force_peak: first.one(&total_force::PEAK),
+            force_residual: first.one(&total_force::RESIDUAL),
+            moment_peak: first.one(&wall::MOMENT),
+            anchor_peak: largest(&first.each(&anchor_load::PEAK)),
+            stroke: largest(&first.each(&dissipator::MEAN_STROKE)),
+            retained: first.one(&mass::RETAINED),
             energy_error: seen.numerics.energy_error,
             reliable: seen.doubts.is_empty(),
             sphere_steps: steps * facts.spheres as f64,

@@ -18,7 +18,7 @@ pub struct NetForces {
     /// Tension of each segment (N).
     pub tensions: Vec<f64>,
     /// Tension of each dissipator (N).
-    pub brakes: Vec<f64>,
+    pub dissipators: Vec<f64>,
     /// Torque on each node that turns (N m).
     pub torques: Vec<Vec3>,
     /// Axial force of each cylinder (N), tension positive.
@@ -103,7 +103,7 @@ impl NetForces {
             self.forces[end] -= force;
             self.stored += result.stored;
             self.lost_dissipators += result.lost;
-            self.brakes.push(result.tension);
+            self.dissipators.push(result.tension);
         }
     }
 
@@ -229,7 +229,7 @@ impl NetForces {
         let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         self.forces.iter_mut().zip(&later.forces).for_each(|(sum, more)| *sum += more);
         add(&mut self.tensions, &later.tensions);
-        add(&mut self.brakes, &later.brakes);
+        add(&mut self.dissipators, &later.dissipators);
         add(&mut self.axial, &later.axial);
     }
 
@@ -237,7 +237,7 @@ impl NetForces {
     pub fn share_out(&mut self, parts: u32) {
         let share = 1.0 / f64::from(parts);
         self.forces.iter_mut().for_each(|force| *force *= share);
-        for sums in [&mut self.tensions, &mut self.brakes, &mut self.axial] {
+        for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial] {
             sums.iter_mut().for_each(|sum| *sum *= share);
         }
     }

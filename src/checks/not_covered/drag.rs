@@ -4,7 +4,7 @@ use super::known::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::demand::Demands;
-use crate::demand::from_loads::guideline_for;
+use crate::guideline::guideline_for;
 use crate::loads::cases::overtopped::DEFAULT_FRICTION;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
@@ -48,8 +48,9 @@ mod tests {
     use super::*;
     use crate::checks::not_covered::tests::{pushing, small_net, verdict, verdict_after};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::design::Design;
+    use crate::guideline::guideline;
+    use crate::quantities::other_ropes;
 
     #[test]
     fn a_flow_over_the_barrier_without_its_drag_leaves_pressures_open() {
@@ -93,7 +94,7 @@ mod tests {
         design.loads.overflow_depth = Some(0.05);
         let guideline = guideline(&design);
         let net_tension = Demand { simulation: Some(1.0), ..Demand::default() };
-        let demands = Demands { net_tension, ..Demands::by_equations(&guideline, &design.factors) };
+        let demands = Demands::by_equations(&guideline, &design.factors).with(&other_ropes::NET, &[net_tension]);
         let mut outcomes = check_all(&design, &demands);
         leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
         let verdict = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict;

@@ -5,8 +5,9 @@
 use super::known::{FirstSurge, Known};
 use crate::checks::bolts::tension_under_more;
 use crate::checks::outcome::{Kind, Opening, Outcome};
-use crate::demand::larger;
 use crate::design::{BarrierDesign, Design};
+use crate::larger::larger;
+use crate::quantities::quantity::Unit;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
@@ -18,7 +19,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         false => ("the barrier", "give it more resistance"),
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        let more = if outcome.unit == "N m/m" { more_moment } else { more };
+        let more = if outcome.unit == Unit::NewtonMetrePerMetre { more_moment } else { more };
         if more <= 1.0 {
             continue;
         }
@@ -79,7 +80,7 @@ pub fn used_under_more(design: &Design, outcome: &Outcome, more: f64, seen: Firs
     // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them.
     let band = match outcome.unit {
         _ if known => 0.0,
-        "m" => seen.stroke_band,
+        Unit::Metre => seen.stroke_band,
         _ => seen.force_band,
     };
     Some([used(0.0), used(band)])
@@ -92,8 +93,9 @@ mod tests {
     use crate::checks::not_covered::tests::{net_holds, net_verdict, pushing, simulated_verdict, small_net};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::Demands;
-    use crate::demand::from_histories::Observed;
-    use crate::demand::from_loads::guideline;
+    use crate::guideline::guideline;
+    use crate::quantities::observed::Observed;
+    use crate::quantities::{bed, height, other_ropes, rope_tension};
 
     #[test]
     fn what_would_not_hold_the_full_barrier_in_proportion_is_open() {
@@ -113,7 +115,7 @@ mod tests {
     #[test]
     fn the_full_barrier_is_open_where_the_simulation_is_not_accurate_enough_for_it() {
         let design = small_net();
-        let observed = Observed { net_tension_peak: 0.3 * net_holds(&design), ..Observed::of_ropes(3) };
+        let observed = Observed::of_nothing(3, 0).with(&other_ropes::NET, &[0.3 * net_holds(&design)]);
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |force_band: f64| {
             simulated_verdict(&design, "net_tension", &observed, FirstSurge { force_band, ..pushing(first) })
@@ -134,7 +136,7 @@ mod tests {
         let verdict = |used: f64| {
             // The load on a space whose rope is pulled along its span with that share of what it holds: H³ = P² EA/24.
             let load = ((used * holds).powi(3) * 24.0 / rope.axial_stiffness()).sqrt();
-            let observed = Observed { bolt_force_peak: load, ..Observed::of_ropes(3) };
+            let observed = Observed::of_nothing(3, 0).with(&bed::BOLT, &[load]);
             simulated_verdict(&design, "rope_1_tension", &observed, pushing(first))
         };
         assert_eq!(verdict(0.59), CheckVerdict::Pass);
@@ -147,7 +149,7 @@ mod tests {
         let design = small_net();
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |residual_height: f64, share_band: f64| {
-            let observed = Observed { residual_height, ..Observed::of_ropes(3) };
+            let observed = Observed::of_nothing(3, 0).with(&height::RESIDUAL, &[residual_height]);
             simulated_verdict(&design, "residual_height", &observed, FirstSurge { share_band, ..pushing(first) })
         };
         assert_eq!(verdict(0.8, 0.0), CheckVerdict::Pass);
@@ -165,7 +167,7 @@ mod tests {
         let holds = net.main_ropes.rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let tension = 0.95 * holds;
         assert!(tension > guideline.ropes[2].state.tension);
-        let observed = Observed { rope_tension_peak: vec![0.0, 0.0, tension], ..Observed::of_ropes(3) };
+        let observed = Observed::of_nothing(3, 0).with(&rope_tension::PEAK, &[0.0, 0.0, tension]);
         let first = guideline.largest_force / 1.2;
         assert_eq!(simulated_verdict(&design, "rope_3_tension", &observed, pushing(first)), CheckVerdict::Open);
         let mut capped = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
@@ -210,7 +212,7 @@ mod tests {
         let why = |push: f64| {
             let net_tension =
                 crate::demand::Demand { simulation: Some(0.9 * net_holds(&design)), ..Default::default() };
-            let demands = Demands { net_tension, ..Demands::by_equations(&guideline, &design.factors) };
+            let demands = Demands::by_equations(&guideline, &design.factors).with(&other_ropes::NET, &[net_tension]);
             let mut outcomes = check_all(&design, &demands);
             leave_open(Known { design: &design, guideline: &guideline, seen: Some(pushing(push)) }, &mut outcomes);
             let net = outcomes.into_iter().find(|outcome| outcome.id == "net_tension").expect("a check");
@@ -230,7 +232,8 @@ mod tests {
         let used = |fixed: f64, kind: Kind, guideline: f64| {
             let demand = Demand { guideline: Some(guideline), simulation: Some(0.5), ..Demand::default() };
             let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
-            let outcome = Outcome::at_most(CheckName::new("x", "x", "N/m", "x"), demand, resistance, 1.0);
+            let outcome =
+                Outcome::at_most(CheckName::new("x", "x", Unit::NewtonPerMetre, "x"), demand, resistance, 1.0);
             let outcome = Outcome { fixed, kind, ..outcome };
             used_under_more(&design, &outcome, 2.0, FirstSurge::default()).map(|[used, _]| used)
         };

@@ -5,8 +5,9 @@ use super::known::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
-use crate::demand::from_loads::guideline_for;
-use crate::demand::{Demands, larger};
+use crate::demand::Demands;
+use crate::guideline::guideline_for;
+use crate::larger::larger;
 use crate::loads::input::GuidelineInput;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
@@ -56,8 +57,8 @@ mod tests {
     use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::not_covered::tests::small_net;
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::design::{BarrierDesign, Design};
+    use crate::guideline::guideline;
 
     #[test]
     fn what_the_equations_would_fail_with_the_velocity_or_the_k_that_is_seen_is_open() {

@@ -1,7 +1,7 @@
 //! What the rules of this folder go by.
 
-use crate::demand::from_loads::Guideline;
 use crate::design::Design;
+use crate::guideline::Guideline;
 
 /// What a simulation shows of the first surge, without partial factors.
 #[derive(Clone, Copy, Debug, Default)]

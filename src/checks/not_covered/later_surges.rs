@@ -36,7 +36,8 @@ mod tests {
     use super::leave_open;
     use crate::checks::not_covered::tests::{pushing, small_net, verdict, verdict_after};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
+    use crate::guideline::guideline;
+    use crate::quantities::{dissipator, other_ropes, rope_tension};
 
     #[test]
     fn later_surges_are_open_where_the_first_hits_harder_than_the_guideline_has_it() {
@@ -61,11 +62,14 @@ mod tests {
         use crate::demand::{Demand, Demands};
         let design = small_net();
         let guideline = guideline(&design);
-        let mut demands = Demands::by_equations(&guideline, &design.factors);
+        let by_equations = Demands::by_equations(&guideline, &design.factors);
         let simulated = |value: f64| Demand { simulation: Some(value), ..Demand::default() };
-        (demands.net_tension, demands.brake_force) =
-            (simulated(1.0), Demand { guideline: Some(1.0), ..simulated(1.0) });
-        demands.rope_tension[1].guideline = Some(1e9);
+        let mut ropes = by_equations.each(&rope_tension::PEAK).to_vec();
+        ropes[1].guideline = Some(1e9);
+        let demands = by_equations
+            .with(&other_ropes::NET, &[simulated(1.0)])
+            .with(&dissipator::TENSION, &[Demand { guideline: Some(1.0), ..simulated(1.0) }])
+            .with(&rope_tension::PEAK, &ropes);
         let mut outcomes = check_all(&design, &demands);
         let seen = Some(pushing(2.0 * guideline.first_surge()));
         leave_open(Known { design: &design, guideline: &guideline, seen }, &mut outcomes);

@@ -20,7 +20,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 mod tests {
     use crate::checks::not_covered::tests::{small_net, verdict};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
+    use crate::guideline::guideline;
 
     #[test]
     fn a_partial_factor_on_loads_that_is_not_given_is_not_one() {

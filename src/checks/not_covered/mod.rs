@@ -41,11 +41,12 @@ pub mod tests {
     use crate::checks::check_all;
     use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_histories::Observed;
-    use crate::demand::from_loads::guideline;
     use crate::demand::{Demands, Seen};
     use crate::design::Design;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
+    use crate::quantities::observed::Observed;
+    use crate::quantities::other_ropes;
 
     pub fn small_net() -> Design {
         read_design("x", include_bytes!("../../../designs/small_net.yaml")).unwrap().design
@@ -86,7 +87,7 @@ pub mod tests {
 
     /// Verdict of the net's tension, which the simulation alone judges, where the first surge pulls it with a tension (N).
     pub fn net_verdict(design: &Design, tension: f64, first_surge: f64) -> CheckVerdict {
-        let observed = Observed { net_tension_peak: tension, ..Observed::of_ropes(3) };
+        let observed = Observed::of_nothing(3, 0).with(&other_ropes::NET, &[tension]);
         simulated_verdict(design, "net_tension", &observed, pushing(first_surge))
     }
 

@@ -37,8 +37,9 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 mod tests {
     use crate::checks::not_covered::tests::{net_holds, net_verdict, small_net};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::design::{Design, OutsideRange};
+    use crate::guideline::guideline;
+    use crate::quantities::{dissipator, mass, other_ropes, rope_tension};
 
     #[test]
     fn what_the_simulation_governs_is_open_where_it_lacks_a_load_that_the_design_asks_for() {
@@ -72,11 +73,15 @@ mod tests {
         design.flow.event_volume = design.flow.volume() + 0.5;
         let guideline = guideline(&design);
         let simulated = |simulation: f64| Demand { simulation: Some(simulation), ..Demand::default() };
-        let mut demands = Demands::by_equations(&guideline, &design.factors);
-        (demands.retained, demands.net_tension) = (simulated(1.0), simulated(0.4 * net_holds(&design)));
-        demands.lateral_tension = simulated(1e9);
-        demands.rope_tension[2].simulation = Some(1.0);
-        demands.brake_force = simulated(1.0);
+        let by_equations = Demands::by_equations(&guideline, &design.factors);
+        let mut ropes = by_equations.each(&rope_tension::PEAK).to_vec();
+        ropes[2].simulation = Some(1.0);
+        let demands = by_equations
+            .with(&mass::RETAINED, &[simulated(1.0)])
+            .with(&other_ropes::NET, &[simulated(0.4 * net_holds(&design))])
+            .with(&other_ropes::LATERAL, &[simulated(1e9)])
+            .with(&rope_tension::PEAK, &ropes)
+            .with(&dissipator::TENSION, &[simulated(1.0)]);
         let before = check_all(&design, &demands);
         let mut after = before.clone();
         leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut after);

@@ -31,9 +31,9 @@ mod tests {
     use crate::checks::not_covered::tests::{pushing, small_net};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::Demands;
-    use crate::demand::from_loads::guideline;
     use crate::design::Design;
     use crate::design::read::read_design;
+    use crate::guideline::guideline;
 
     /// Verdict on a wall, or rope, that the equations load to a share of what it resists.
     fn verdict(design: &Design, id: &str, used: f64, simulated: bool) -> CheckVerdict {

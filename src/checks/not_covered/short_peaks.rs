@@ -3,12 +3,14 @@
 
 use super::known::Known;
 use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::quantities::quantity::Unit;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
         let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
-        let over = if outcome.unit == "N" { seen.sampled_over_smoothed } else { seen.moment_sampled_over_smoothed };
+        let over =
+            if outcome.unit == Unit::Newton { seen.sampled_over_smoothed } else { seen.moment_sampled_over_smoothed };
         let at_most = simulated * over;
         // Written so that a NaN counts as not within.
         let within = |value: f64| value <= capacity;
@@ -31,9 +33,10 @@ mod tests {
     use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::not_covered::tests::{pushing, simulated_verdict};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_histories::Observed;
     use crate::design::BarrierDesign;
     use crate::design::read::read_design;
+    use crate::quantities::observed::Observed;
+    use crate::quantities::{total_force, wall};
 
     /// A wall that holds 10 MN and 2 MN m/m, under 4 MN and 0.8 MN m/m by the smoothed signal.
     #[test]
@@ -41,7 +44,7 @@ mod tests {
         let mut design = read_design("x", include_bytes!("../../../designs/rigid_wall.yaml")).unwrap().design;
         let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
         (wall.resistance, wall.moment_resistance, wall.resistance_factor) = (Some(10e6), Some(2e6), 1.0);
-        let observed = Observed { force_peak: 4e6, moment_peak: 0.8e6, ..Observed::of_ropes(0) };
+        let observed = Observed::of_nothing(0, 0).with(&total_force::PEAK, &[4e6]).with(&wall::MOMENT, &[0.8e6]);
         let verdicts = |design: &crate::design::Design, force: f64, moment: f64| {
             let seen = FirstSurge {
                 sampled_over_smoothed: force,

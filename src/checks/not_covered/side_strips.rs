@@ -23,8 +23,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 mod tests {
     use crate::checks::not_covered::tests::{net_holds, net_verdict, small_net};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::design::{BarrierDesign, SideExtension};
+    use crate::guideline::guideline;
 
     #[test]
     fn a_side_extension_held_by_a_default_leaves_the_simulation_open() {

@@ -31,8 +31,9 @@ mod tests {
     use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::not_covered::tests::{net_holds, pushing, small_net};
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::from_loads::guideline;
     use crate::demand::{Demand, Demands};
+    use crate::guideline::guideline;
+    use crate::quantities::other_ropes;
 
     /// A net that uses 75 % under a flow that arrives with 80 % of its momentum uses 94 % under all of it, with 70 % 107 %.
     #[test]
@@ -40,7 +41,7 @@ mod tests {
         let design = small_net();
         let guideline = guideline(&design);
         let net_tension = Demand { simulation: Some(0.75 * net_holds(&design)), ..Demand::default() };
-        let demands = Demands { net_tension, ..Demands::default() };
+        let demands = Demands::default().with(&other_ropes::NET, &[net_tension]);
         let verdict = |flux_share: f64| {
             let seen = FirstSurge { flux_share, ..pushing(guideline.largest_force) };
             let mut outcomes = check_all(&design, &demands);

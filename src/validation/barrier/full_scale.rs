@@ -2,10 +2,11 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::demand::from_histories::Observed;
 use crate::design::read::read_design;
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::pipeline::run;
+use crate::quantities::observed::Observed;
+use crate::quantities::{anchor_load, dissipator, mass, other_ropes, rope_tension, total_force};
 use crate::scene::event::Watch;
 use crate::simulated::Simulated;
 use crate::starts::Spread;
@@ -49,38 +50,52 @@ const fn published(what: &'static str, value: f64, share: Option<f64>, read: fn(
 const SITE_A: &str = include_str!("../../../designs/site_a.yaml");
 
 const FB_ED: [Published; 16] = [
-    published("highest mean velocity (m/s)", 8.85, Some(0.05), |seen| seen.velocity_peak),
-    published("largest force (kN)", 2990.0, Some(0.15), |seen| seen.force_peak * 1e-3),
-    published("time of the largest force (s)", 4.35, Some(0.03), |seen| seen.force_peak_time),
-    published("largest extension of rope 3 (m)", 4.45, Some(0.15), |seen| seen.extension[2]),
-    published("largest extension of rope 4 (m)", 5.85, Some(0.15), |seen| seen.extension[3]),
-    published("force at rest (kN)", 2040.0, Some(0.15), |seen| seen.force_residual * 1e-3),
-    published("largest mean tension of rope 3 (kN)", 240.0, Some(0.15), |seen| seen.rope_mean_peak[2] * 1e-3),
-    published("largest mean tension of rope 4 (kN)", 235.0, Some(0.15), |seen| seen.rope_mean_peak[3] * 1e-3),
-    published("largest mean tension of rope 5 (kN)", 170.0, None, |seen| seen.rope_mean_peak[4] * 1e-3),
-    published("mean stroke of rope 3 (m)", 1.25, None, |seen| seen.brake_stroke_mean[2]),
-    published("mean stroke of rope 4 (m)", 1.95, None, |seen| seen.brake_stroke_mean[3]),
-    published("mean stroke of rope 5 (m)", 2.0, None, |seen| seen.brake_stroke_mean[4]),
+    published("highest mean velocity (m/s)", 8.85, Some(0.05), |seen| seen.one(&mass::VELOCITY)),
+    published("largest force (kN)", 2990.0, Some(0.15), |seen| seen.one(&total_force::PEAK) * 1e-3),
+    published("time of the largest force (s)", 4.35, Some(0.03), |seen| seen.one(&total_force::PEAK_TIME)),
+    published("largest extension of rope 3 (m)", 4.45, Some(0.15), |seen| seen.each(&rope_tension::BULGE)[2]),
+    published("largest extension of rope 4 (m)", 5.85, Some(0.15), |seen| seen.each(&rope_tension::BULGE)[3]),
+    published("force at rest (kN)", 2040.0, Some(0.15), |seen| seen.one(&total_force::RESIDUAL) * 1e-3),
+    published("largest mean tension of rope 3 (kN)", 240.0, Some(0.15), |seen| {
+        seen.each(&rope_tension::MEAN_PEAK)[2] * 1e-3
+    }),
+    published("largest mean tension of rope 4 (kN)", 235.0, Some(0.15), |seen| {
+        seen.each(&rope_tension::MEAN_PEAK)[3] * 1e-3
+    }),
+    published("largest mean tension of rope 5 (kN)", 170.0, None, |seen| seen.each(&rope_tension::MEAN_PEAK)[4] * 1e-3),
+    published("mean stroke of rope 3 (m)", 1.25, None, |seen| seen.each(&dissipator::MEAN_STROKE)[2]),
+    published("mean stroke of rope 4 (m)", 1.95, None, |seen| seen.each(&dissipator::MEAN_STROKE)[3]),
+    published("mean stroke of rope 5 (m)", 2.0, None, |seen| seen.each(&dissipator::MEAN_STROKE)[4]),
     // What ropes bring to the anchors; grains that lie against a dissipator push on its anchor besides.
     published("largest load through a dissipator (kN)", 250.0, Some(0.01), |seen| {
-        seen.brake_force_peak.iter().copied().fold(0.0, f64::max) * 1e-3
+        seen.each(&dissipator::TENSION).iter().copied().fold(0.0, f64::max) * 1e-3
     }),
     published("largest load of an anchor (kN)", 250.0, None, |seen| {
-        seen.anchor_force_peak.iter().copied().fold(0.0, f64::max) * 1e-3
+        seen.each(&anchor_load::PEAK).iter().copied().fold(0.0, f64::max) * 1e-3
     }),
-    published("mass held (%)", 95.0, Some(0.05), |seen| 100.0 * seen.retained),
-    published("largest tension of the net at rest (kN)", 69.0, None, |seen| seen.net_tension_residual * 1e-3),
+    published("mass held (%)", 95.0, Some(0.05), |seen| 100.0 * seen.one(&mass::RETAINED)),
+    published("largest tension of the net at rest (kN)", 69.0, None, |seen| {
+        seen.one(&other_ropes::NET_RESIDUAL) * 1e-3
+    }),
 ];
 
 const FB_NO: [Published; 8] = [
-    published("highest mean velocity (m/s)", 8.85, Some(0.05), |seen| seen.velocity_peak),
-    published("largest force (kN)", 3450.0, Some(0.15), |seen| seen.force_peak * 1e-3),
-    published("force at rest (kN)", 2600.0, Some(0.15), |seen| seen.force_residual * 1e-3),
-    published("largest mean tension of rope 3 (kN)", 305.0, Some(0.15), |seen| seen.rope_mean_peak[2] * 1e-3),
-    published("largest mean tension of rope 4 (kN)", 305.0, Some(0.15), |seen| seen.rope_mean_peak[3] * 1e-3),
-    published("largest mean tension of rope 5 (kN)", 235.0, Some(0.15), |seen| seen.rope_mean_peak[4] * 1e-3),
-    published("mass held (%)", 100.0, Some(0.05), |seen| 100.0 * seen.retained),
-    published("largest tension of the net at rest (kN)", 174.0, None, |seen| seen.net_tension_residual * 1e-3),
+    published("highest mean velocity (m/s)", 8.85, Some(0.05), |seen| seen.one(&mass::VELOCITY)),
+    published("largest force (kN)", 3450.0, Some(0.15), |seen| seen.one(&total_force::PEAK) * 1e-3),
+    published("force at rest (kN)", 2600.0, Some(0.15), |seen| seen.one(&total_force::RESIDUAL) * 1e-3),
+    published("largest mean tension of rope 3 (kN)", 305.0, Some(0.15), |seen| {
+        seen.each(&rope_tension::MEAN_PEAK)[2] * 1e-3
+    }),
+    published("largest mean tension of rope 4 (kN)", 305.0, Some(0.15), |seen| {
+        seen.each(&rope_tension::MEAN_PEAK)[3] * 1e-3
+    }),
+    published("largest mean tension of rope 5 (kN)", 235.0, Some(0.15), |seen| {
+        seen.each(&rope_tension::MEAN_PEAK)[4] * 1e-3
+    }),
+    published("mass held (%)", 100.0, Some(0.05), |seen| 100.0 * seen.one(&mass::RETAINED)),
+    published("largest tension of the net at rest (kN)", 174.0, None, |seen| {
+        seen.one(&other_ropes::NET_RESIDUAL) * 1e-3
+    }),
 ];
 
 /// Energy imbalance allowed, over the energy put in.

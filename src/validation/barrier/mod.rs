@@ -1,8 +1,8 @@
 //! Ropes, cylinders, nets and dissipators alone, against closed forms and tests; whole barriers against the thesis.
 
 pub(crate) mod beams;
-pub(crate) mod brakes;
 pub(crate) mod contacts;
+pub(crate) mod dissipators;
 pub(crate) mod full_scale;
 pub(crate) mod pieces;
 pub(crate) mod punching;

@@ -232,7 +232,7 @@ fn braked() -> Result<Vec<Finding>, Broken> {
     Ok(vec![
         Finding::near("sag (m)", -stand.barrier.nodes[parts / 2].position.z, sag, 0.03),
         Finding::near("stroke of each dissipator (m)", used, stroke, 0.03),
-        Finding::near("tension at the ends (N)", stand.net.brakes[0], plateau, 0.03),
+        Finding::near("tension at the ends (N)", stand.net.dissipators[0], plateau, 0.03),
     ])
 }
 

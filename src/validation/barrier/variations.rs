@@ -1,7 +1,8 @@
 //! FS3 to FS7: the full-scale barrier with one thing changed, as in the thesis's chapters 4.6 and 5.
 
-use crate::demand::from_histories::Observed;
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo, SideExtension};
+use crate::quantities::observed::Observed;
+use crate::quantities::{anchor_load, dissipator, mass, total_force};
 use crate::simulated::Simulated;
 use crate::starts::Spread;
 use crate::validation::barrier::full_scale::run_changed;
@@ -80,7 +81,7 @@ fn net(design: &mut Design, change: impl FnOnce(&mut FlexibleNet)) {
 
 /// When the force first exceeds a hundredth of its peak (s).
 fn onset(run: &Simulated) -> f64 {
-    let limit = 0.01 * run.first().force_peak;
+    let limit = 0.01 * run.first().one(&total_force::PEAK);
     let at = run.histories.force.iter().position(|force| force.norm() > limit).unwrap_or(0);
     run.histories.time.get(at).copied().unwrap_or(0.0)
 }
@@ -111,16 +112,31 @@ fn slope() -> Result<Vec<Finding>, Broken> {
     let runs = one_by_one(UNBRAKED, STARTS, |design| design.channel.slope = 30_f64.to_radians())?;
     let onsets = over(&runs, onset);
     Ok(vec![
-        Finding::near("highest mean velocity (m/s)", over(&runs, |run| run.first().velocity_peak).mean, 5.4, 0.05),
+        Finding::near(
+            "highest mean velocity (m/s)",
+            over(&runs, |run| run.first().one(&mass::VELOCITY)).mean,
+            5.4,
+            0.05,
+        ),
         Finding::near(
             format!("onset of the force (s), {STARTS} starts ± {:.2}", onsets.deviation),
             onsets.mean,
             3.05,
             0.05,
         ),
-        Finding::near("largest force (kN)", over(&runs, |run| run.first().force_peak).mean * 1e-3, 1645.0, 0.15),
-        Finding::near("force at rest (kN)", over(&runs, |run| run.first().force_residual).mean * 1e-3, 1550.0, 0.15),
-        Finding::near("mass held", over(&runs, |run| run.first().retained).mean, 1.0, 0.01),
+        Finding::near(
+            "largest force (kN)",
+            over(&runs, |run| run.first().one(&total_force::PEAK)).mean * 1e-3,
+            1645.0,
+            0.15,
+        ),
+        Finding::near(
+            "force at rest (kN)",
+            over(&runs, |run| run.first().one(&total_force::RESIDUAL)).mean * 1e-3,
+            1550.0,
+            0.15,
+        ),
+        Finding::near("mass held", over(&runs, |run| run.first().one(&mass::RETAINED)).mean, 1.0, 0.01),
     ])
 }
 
@@ -139,7 +155,7 @@ fn openings() -> Result<Vec<Finding>, Broken> {
             net(design, |net| net.bottom = Bottom::Opening(opening));
         })?;
         let what = format!("lost under a free rope, gap D{:.0}", 100.0 * finer);
-        findings.push(Finding::between(what, mean(&gap, |seen| seen.lost[1]), 0.95, 1.0));
+        findings.push(Finding::between(what, mean(&gap, |seen| seen.lost()[1]), 0.95, 1.0));
     }
     let mut lost = Vec::new();
     for finer in FINER {
@@ -154,7 +170,7 @@ fn openings() -> Result<Vec<Finding>, Broken> {
                 net.main_ropes.heights.iter_mut().for_each(|height| *height *= 2.0);
             });
         })?;
-        lost.push(mean(&mesh, |seen| 1.0 - seen.retained));
+        lost.push(mean(&mesh, |seen| 1.0 - seen.one(&mass::RETAINED)));
         findings.push(Finding::told(format!("lost by a mesh of D{:.0}", 100.0 * finer), lost[lost.len() - 1]));
     }
     findings.push(Finding::near("held by a mesh of D90", 1.0 - lost[3], 0.97, 0.05));
@@ -180,12 +196,12 @@ fn orientation() -> Result<Vec<Finding>, Broken> {
     // The force of a wall stays near its largest for most of a second: when it is largest scatters from start to start.
     let walls = one_by_one(WALL, MANY, |_| ())?;
     let wall = |quantity: fn(&Observed) -> f64| over(&walls, |run| quantity(run.first()));
-    let force = |run: &Simulated| mean(run, |seen| seen.force_peak);
-    let held = |run: &Simulated| mean(run, |seen| seen.retained);
-    let until_peak = wall(|seen| seen.force_peak_time - seen.velocity_peak_time);
+    let force = |run: &Simulated| mean(run, |seen| seen.one(&total_force::PEAK));
+    let held = |run: &Simulated| mean(run, |seen| seen.one(&mass::RETAINED));
+    let until_peak = wall(|seen| seen.one(&total_force::PEAK_TIME) - seen.one(&mass::VELOCITY_TIME));
     let [wall_at_rest, free_at_rest] = [&walls, &free].map(|runs| over(runs, at_rest_in_the_peak));
-    let free_peak = over(&free, |run| run.first().force_peak).mean;
-    let wall_peak = wall(|seen| seen.force_peak).mean;
+    let free_peak = over(&free, |run| run.first().one(&total_force::PEAK)).mean;
+    let wall_peak = wall(|seen| seen.one(&total_force::PEAK)).mean;
     Ok(vec![
         Finding::told("fbG: largest force (kN)", force(&plumb) * 1e-3),
         Finding::told("rigW: share of the mass at rest when the force is largest", wall_at_rest.mean),
@@ -203,7 +219,12 @@ fn orientation() -> Result<Vec<Finding>, Broken> {
         Finding::between("fbN: mass held over that of fbG", held(&normal) / held(&plumb), 0.0, 0.8),
         Finding::near("fbN: largest force over that of fbG", force(&normal) / force(&plumb), 1.0, 0.1),
         Finding::near("rigW: largest force (kN)", wall_peak * 1e-3, 4400.0, 0.15),
-        Finding::near("rigW: force at rest (kN)", wall(|seen| seen.force_residual).mean * 1e-3, 2650.0, 0.15),
+        Finding::near(
+            "rigW: force at rest (kN)",
+            wall(|seen| seen.one(&total_force::RESIDUAL)).mean * 1e-3,
+            2650.0,
+            0.15,
+        ),
         Finding::between("rigW: largest force over that without dissipators", wall_peak / free_peak, 1.0, 2.0),
         Finding::between("without dissipators over fbG with them", free_peak / force(&plumb), 1.0, 2.0),
         Finding::close(
@@ -217,7 +238,7 @@ fn orientation() -> Result<Vec<Finding>, Broken> {
 
 /// Share of the mass that is at rest when the force is largest, in the first start.
 fn at_rest_in_the_peak(run: &Simulated) -> f64 {
-    let at = run.histories.time.partition_point(|time| *time < run.first().force_peak_time);
+    let at = run.histories.time.partition_point(|time| *time < run.first().one(&total_force::PEAK_TIME));
     run.histories.dead.get(at).copied().unwrap_or(f64::NAN)
 }
 
@@ -225,12 +246,12 @@ fn lateral() -> Result<Vec<Finding>, Broken> {
     let to_dissipators = run_changed(BRAKED, STARTS, |_| ())?;
     let to_anchors = run_changed(BRAKED, STARTS, |design| net(design, |net| net.lateral_to = LateralTo::Anchors))?;
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let stroke = |run: &Simulated| mean(run, |seen| largest(&seen.brake_stroke_mean));
-    let anchor = |run: &Simulated| mean(run, |seen| largest(&seen.anchor_force_peak));
-    let force = |run: &Simulated| mean(run, |seen| seen.force_peak);
+    let stroke = |run: &Simulated| mean(run, |seen| largest(&seen.each(&dissipator::MEAN_STROKE)));
+    let anchor = |run: &Simulated| mean(run, |seen| largest(&seen.each(&anchor_load::PEAK)));
+    let force = |run: &Simulated| mean(run, |seen| seen.one(&total_force::PEAK));
     let (before, after) = (&to_dissipators, &to_anchors);
     Ok(vec![
-        Finding::near("des_2: mass held", mean(after, |seen| seen.retained), 1.0, 0.01),
+        Finding::near("des_2: mass held", mean(after, |seen| seen.one(&mass::RETAINED)), 1.0, 0.01),
         Finding::between("des_2: largest stroke over that of des_1", stroke(after) / stroke(before), 0.0, 0.25),
         Finding::between("des_2: largest force over that of des_1", force(after) / force(before), 1.0, 1.5),
         Finding::between("des_2: largest anchor load over that of des_1", anchor(after) / anchor(before), 1.0, 4.0),
@@ -245,8 +266,8 @@ fn extension() -> Result<Vec<Finding>, Broken> {
             net.side_extension = Some(SideExtension { length: 3.0, holding_force: 1e3, holding_force_given: true })
         });
     })?;
-    let beside = |run: &Simulated| mean(run, |seen| seen.lost[2]);
-    let force = |run: &Simulated| mean(run, |seen| seen.force_peak);
+    let beside = |run: &Simulated| mean(run, |seen| seen.lost()[2]);
+    let force = |run: &Simulated| mean(run, |seen| seen.one(&total_force::PEAK));
     Ok(vec![
         Finding::told("lost beside the barrier without extensions", beside(&bare)),
         Finding::between("lost beside the barrier with extensions", beside(&extended), 0.0, 0.001),

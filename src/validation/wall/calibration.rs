@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use crate::quantities::{incoming, wall};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, side_by_side};
 use crate::validation::wall::laboratory::{Run, Variant, run_variant, spread};
@@ -57,9 +58,9 @@ fn run() -> Result<Vec<Finding>, Broken> {
     let runs = runs()?;
     let (peak, peak_spread) = spread(runs, Run::peak);
     let (residual, residual_spread) = spread(runs, Run::residual);
-    let (moment, _) = spread(runs, |run| run.observed.moment_peak);
-    let (thickness, _) = spread(runs, |run| run.observed.incoming_at_peak.thickness);
-    let (velocity, _) = spread(runs, |run| run.observed.incoming_at_peak.velocity);
+    let (moment, _) = spread(runs, |run| run.observed.one(&wall::MOMENT));
+    let (thickness, _) = spread(runs, |run| run.observed.one(&incoming::THICKNESS_AT_PEAK));
+    let (velocity, _) = spread(runs, |run| run.observed.one(&incoming::VELOCITY_AT_PEAK));
     let mut findings = vec![
         Finding::near("largest force (N/m)", peak, 735.0, 0.15),
         Finding::told("largest force: standard deviation over the starts (N/m)", peak_spread),
@@ -72,7 +73,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
     ];
     let published = [341.0, 232.0, 154.0, 120.0, 66.0, 15.0];
     for (segment, force) in published.into_iter().enumerate() {
-        let (mean, _) = spread(runs, |run| run.observed.segment_peak[segment]);
+        let (mean, _) = spread(runs, |run| run.observed.each(&wall::SEGMENT)[segment]);
         let share = if segment < 2 { 0.35 } else { 0.25 };
         let what = format!("largest force on segment {} (N/m)", segment + 1);
         // The topmost holds 2 % of the force, a grain or two.
@@ -89,8 +90,9 @@ fn run() -> Result<Vec<Finding>, Broken> {
 
 fn heap() -> Result<Vec<Finding>, Broken> {
     let runs = runs()?;
-    let (arm, _) = spread(runs, |run| run.observed.moment_peak / run.peak());
-    let (rise, _) = spread(runs, |run| run.observed.deposit_depth / run.observed.incoming_at_peak.thickness);
+    let (arm, _) = spread(runs, |run| run.observed.one(&wall::MOMENT) / run.peak());
+    let (rise, _) =
+        spread(runs, |run| run.observed.one(&incoming::DEPOSIT) / run.observed.one(&incoming::THICKNESS_AT_PEAK));
     Ok(vec![
         Finding::near("height at which the largest force acts (m)", arm, 80.0 / 735.0, 0.2),
         Finding::between("depth at the wall over thickness of the flow", rise, 3.0, 15.0),

@@ -2,12 +2,14 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::demand::from_histories::{Observed, Reading};
-use crate::demand::from_loads::guideline;
 use crate::design::Arrival;
 use crate::design::read::read_design;
 use crate::design::sizes::SizeCurve;
 use crate::fidelity::choose;
+use crate::guideline::guideline;
+use crate::quantities::observed::Observed;
+use crate::quantities::reading::Samples;
+use crate::quantities::total_force;
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
 use crate::scene::event::{Ending, Ongoing, Watch};
 use crate::validation::case::Broken;
@@ -65,11 +67,11 @@ impl Run {
     }
 
     pub fn peak(&self) -> f64 {
-        self.observed.force_peak / WIDTH
+        self.observed.one(&total_force::PEAK) / WIDTH
     }
 
     pub fn residual(&self) -> f64 {
-        self.observed.force_residual / WIDTH
+        self.observed.one(&total_force::RESIDUAL) / WIDTH
     }
 
     /// Time integral of the rotational over that of the kinetic energy between two times after the release (s).
@@ -85,7 +87,7 @@ impl Run {
     pub fn fluctuation(&self) -> [f64; 2] {
         let smooth = smoothed(&self.force(), self.window);
         let at = |time: f64| self.histories.time.partition_point(|t| *t < time);
-        let peak = self.observed.force_peak_time;
+        let peak = self.observed.one(&total_force::PEAK_TIME);
         let stretch = at(peak - 0.43)..at(peak + 0.07);
         let count = stretch.len() as f64;
         let squares: f64 = stretch.clone().map(|index| self.histories.force_scatter[index].powi(2)).sum();
@@ -121,7 +123,7 @@ pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
     }
     let scene = build(&design, &choose(&design), variant.seed).map_err(|error| Broken::Scene(error.to_string()))?;
     let window = SAMPLES_PER_WINDOW as usize;
-    let reading = Reading { window, tail: scene.samples_of_rest() };
+    let reading = Samples { window, tail: scene.samples_of_rest() };
     let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false), store: None };
     let event = Ongoing::begin(scene).go_on(design.simulation.longest, &watch, |_, _| ());
     if let Ending::BrokeDown(unstable) = event.ending {

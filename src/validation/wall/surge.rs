@@ -4,6 +4,7 @@
 //! modulus decides how hard: 549, 983 and 1374 kN/m with 0.01, 0.05 and 0.2 GPa in one such scene. With a front and a run-in the grains
 //! have room, and what is left is the flow's own momentum.
 
+use crate::quantities::total_force;
 use crate::validation::barrier::full_scale::run_changed;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 
@@ -41,13 +42,13 @@ fn run() -> Result<Vec<Finding>, Broken> {
     let mut spreads = Vec::new();
     for modulus in MODULI {
         let run = run_changed(SURGE, PACKINGS, |design| design.flow.modulus = modulus)?;
-        let spread = run.spread(|seen| seen.force_peak);
+        let spread = run.spread(|seen| seen.one(&total_force::PEAK));
         let name = format!("{} GPa", modulus / 1e9);
         findings.push(Finding::told(format!("{name}: largest force (kN)"), spread.mean / 1e3));
         findings.push(Finding::told(format!("{name}: its standard deviation (kN)"), spread.deviation / 1e3));
         findings.push(Finding::told(
             format!("{name}: force at rest (kN)"),
-            run.spread(|seen| seen.force_residual).mean / 1e3,
+            run.spread(|seen| seen.one(&total_force::RESIDUAL)).mean / 1e3,
         ));
         findings.push(Finding::between(format!("{name}: largest overlap over radius"), run.numerics.overlap, 0.0, 0.2));
         let stored = run.numerics.stored_at_release;

@@ -1,5 +1,6 @@
 //! C6, C8, C11, C14: what the laboratory wall says when one thing is changed.
 
+use crate::quantities::{incoming, mass, wall};
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::side_by_side;
 use crate::validation::wall::calibration;
@@ -58,8 +59,8 @@ fn all(variants: &[Variant]) -> Result<Vec<Run>, Broken> {
 
 fn prediction() -> Result<Vec<Finding>, Broken> {
     let runs = all(&[1, 2, 3].map(Variant::prediction))?;
-    let segment = |index: usize| spread(&runs, |run| run.observed.segment_peak[index]).0;
-    let (rest, _) = spread(&runs, |run| run.observed.segment_residual[0]);
+    let segment = |index: usize| spread(&runs, |run| run.observed.each(&wall::SEGMENT)[index]).0;
+    let (rest, _) = spread(&runs, |run| run.observed.each(&wall::SEGMENT_RESIDUAL)[0]);
     let (peak, peak_spread) = spread(&runs, Run::peak);
     Ok(vec![
         Finding::near("largest force on segment 1 (N/m)", segment(0), 396.0, 0.35),
@@ -95,8 +96,8 @@ fn restitution() -> Result<Vec<Finding>, Broken> {
     let values = [0.1, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
     let runs = all(&values.map(|restitution| Variant { restitution, ..Variant::calibration(1) }))?;
     let reference = &calibration::runs()?[0];
-    let thickness = |run: &Run| 100.0 * run.observed.incoming_at_peak.thickness;
-    let speed = |run: &Run| run.observed.velocity_peak;
+    let thickness = |run: &Run| 100.0 * run.observed.one(&incoming::THICKNESS_AT_PEAK);
+    let speed = |run: &Run| run.observed.one(&mass::VELOCITY);
     let mut findings = vec![Finding::told("ε = 0.3: flow thickness (cm)", thickness(reference))];
     for (value, run) in values.iter().zip(&runs) {
         findings.push(Finding::told(format!("ε = {value}: flow thickness (cm)"), thickness(run)));
@@ -104,7 +105,8 @@ fn restitution() -> Result<Vec<Finding>, Broken> {
     for (value, run) in values.iter().zip(&runs) {
         let what = format!("ε = {value}: highest mean speed over that at 0.3");
         findings.push(Finding::close(what, speed(run) / speed(reference), 1.0, 0.15));
-        findings.push(Finding::told(format!("ε = {value}: lost over the wall"), 1.0 - run.observed.retained));
+        findings
+            .push(Finding::told(format!("ε = {value}: lost over the wall"), 1.0 - run.observed.one(&mass::RETAINED)));
     }
     findings.push(Finding::between(
         "thickness at 0.9 over that at 0.3",

@@ -1,4 +1,4 @@
-//! Energy dissipator ("brake"): elastic, then a constant plateau force, then rigid.
+//! Energy dissipator, also called a brake: elastic, then a constant plateau force, then rigid.
 //!
 //! With e the elongation and p the plastic stroke so far, F = k (e − p) ≥ 0. While F would exceed the
 //! plateau and stroke is left, p grows so that F equals the plateau; unloading is elastic with slope k; once
@@ -32,7 +32,7 @@ pub struct Dissipator {
 
 /// State of a dissipator after one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Brake {
+pub struct Pull {
     /// Tension (N), never negative.
     pub tension: f64,
     /// Unit vector from the first node to the second.
@@ -45,26 +45,26 @@ pub struct Brake {
 
 impl Dissipator {
     /// Stretches the dissipator to the present place of its nodes.
-    pub fn stretch(&mut self, anchor: &Node, end: &Node) -> Brake {
+    pub fn stretch(&mut self, anchor: &Node, end: &Node) -> Pull {
         let line = end.position - anchor.position;
         let length = line.norm();
-        let mut brake = self.elongate(length - self.rest_length);
-        brake.direction = if length > 0.0 { line / length } else { Vec3::zeros() };
-        brake
+        let mut pull = self.elongate(length - self.rest_length);
+        pull.direction = if length > 0.0 { line / length } else { Vec3::zeros() };
+        pull
     }
 
     /// Sets the elongation (m), lets the plateau slip, and returns the force.
-    pub fn elongate(&mut self, elongation: f64) -> Brake {
+    pub fn elongate(&mut self, elongation: f64) -> Pull {
         let elastic_limit = self.plateau / self.stiffness;
         let wanted = (elongation - elastic_limit).clamp(self.used, self.stroke.max(self.used));
         let lost = self.plateau * (wanted - self.used);
         self.used = wanted;
         let elastic = (elongation - self.used).max(0.0);
-        Brake {
+        Pull {
             tension: self.stiffness * elastic,
             stored: 0.5 * self.stiffness * elastic * elastic,
             lost,
-            ..Brake::default()
+            ..Pull::default()
         }
     }
 }
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn brake() -> Dissipator {
+    fn example() -> Dissipator {
         Dissipator {
             nodes: [0, 1],
             rope: 0,
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn holds_the_plateau_exactly_and_unloads_elastically() {
         // Case D18.
-        let mut dissipator = brake();
+        let mut dissipator = example();
         assert_relative_eq!(dissipator.elongate(0.001).tension, 45.957e3, max_relative = 1e-12);
         assert_relative_eq!(dissipator.elongate(1.0).tension, 250e3, max_relative = 1e-12);
         let back = 1.0 - 100e3 / 45.957e6;
@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn passes_the_load_on_when_the_stroke_is_used_up() {
-        let mut dissipator = brake();
+        let mut dissipator = example();
         let limit = 2.5 + 250e3 / 45.957e6;
         let result = dissipator.elongate(limit + 0.01);
         assert_relative_eq!(dissipator.used, dissipator.stroke);

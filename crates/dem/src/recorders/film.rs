@@ -137,7 +137,13 @@ impl Film {
             time: simulation.time,
             grains: poses,
             nodes: nodes.map(|node| single(&node.position)).collect(),
-            tensions: net.tensions.iter().chain(&net.axial).chain(&net.brakes).map(|tension| *tension as f32).collect(),
+            tensions: net
+                .tensions
+                .iter()
+                .chain(&net.axial)
+                .chain(&net.dissipators)
+                .map(|tension| *tension as f32)
+                .collect(),
         }
     }
 }
@@ -154,7 +160,8 @@ fn pushes(simulation: &Simulation) -> Vec<(usize, Vec3)> {
 fn ropes(barrier: &Barrier) -> Vec<([u32; 2], SegmentKind)> {
     let segments = barrier.segments.iter().map(|segment| (segment.nodes, segment.kind));
     let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.nodes, cylinder.kind));
-    let dissipators = barrier.dissipators.iter().map(|brake| (brake.nodes, SegmentKind::Main(brake.rope)));
+    let dissipators =
+        barrier.dissipators.iter().map(|dissipator| (dissipator.nodes, SegmentKind::Main(dissipator.rope)));
     segments.chain(cylinders).chain(dissipators).collect()
 }
 

@@ -2,8 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::recorders::histories::Gauge;
 use crate::tables::grains::Grain;
+
+/// The flow in a window across the channel; zeros where there are no grains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Gauge {
+    /// Height below which 90 % of the grain centres lie, plus half a grain (m).
+    pub thickness: f64,
+    /// Mean velocity along the channel (m/s).
+    pub velocity: f64,
+    /// Depth that the mass in the window has at the flow's bulk density (m).
+    pub depth: f64,
+    /// Share of the mass in the window that is at rest.
+    pub at_rest: f64,
+    /// Σ m v² over the window's area and the bulk density: h v² of an even flow (m³/s²).
+    pub flux: f64,
+}
 
 /// A window across the channel, between two distances upstream of the barrier's foot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
 use crate::ledger::Ledger;
+use crate::recorders::CHANNELS;
+use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::film::Film;
+use crate::recorders::gauge::Gauge;
 use crate::recorders::snapshots::Snapshot;
 
 /// What happened, sample by sample. Forces are means over the sampling interval, so that no impulse is lost.
@@ -18,40 +21,8 @@ pub struct Histories {
     pub force_instant: Vec<f64>,
     /// Standard deviation of that force over the steps of the interval (N).
     pub force_scatter: Vec<f64>,
-    /// Moment of the normal force on a rigid wall about its toe (N m).
-    pub moment: Vec<f64>,
-    /// Normal force on each segment of a rigid wall (N), a row for each segment.
-    pub segments: Vec<Vec<f64>>,
-    /// Mean tension along each main rope (N), a row for each rope.
-    pub rope_mean: Vec<Vec<f64>>,
-    /// Largest tension along each main rope, its dissipators included (N).
-    pub rope_largest: Vec<Vec<f64>>,
-    /// Load of the higher loaded anchor of each main rope (N).
-    pub anchors: Vec<Vec<f64>>,
-    /// How far downstream the furthest point of each main rope is from where the rope hung at first (m).
-    pub extension: Vec<Vec<f64>>,
-    /// Stroke used by each rope's dissipators, the larger of the two (m).
-    pub strokes: Vec<Vec<f64>>,
-    /// Stroke used by each rope's dissipators, the mean of the two (m).
-    pub strokes_mean: Vec<Vec<f64>>,
-    /// Larger tension of each main rope's two dissipators (N); zeros where there are none.
-    pub brakes: Vec<Vec<f64>>,
-    /// Largest tension in the lateral ropes (N).
-    pub lateral_largest: Vec<f64>,
-    /// Force on what holds the lowest main rope to the bed (N).
-    pub bed_force: Vec<f64>,
-    /// Largest force on one of the bolts that hold the lowest main rope to the bed, and the largest lift of one (N); empty where
-    /// their distance is not known.
-    pub bolt_largest: Vec<f64>,
-    pub bolt_lift: Vec<f64>,
-    /// Largest tension in the net (N).
-    pub net_largest: Vec<f64>,
-    /// Pieces of rope that have broken so far.
-    pub broken_pieces: Vec<f64>,
-    /// Largest permanent elongation of a piece of rope so far, over its first length.
-    pub drawn_out: Vec<f64>,
-    /// Lowest height of the top main rope above the bed (m).
-    pub top_rope_height: Vec<f64>,
+    /// What the parts of the barrier bear and do.
+    pub barrier: Channels,
     /// Mean velocity of the grains along the channel and normal to the bed (m/s).
     pub velocity: Vec<[f64; 2]>,
     /// Push of the grains at rest on a rigid wall (N), by their static equilibrium; empty for a net.
@@ -95,15 +66,6 @@ impl Histories {
             self.force.len(),
             self.force_instant.len(),
             self.force_scatter.len(),
-            self.moment.len(),
-            self.lateral_largest.len(),
-            self.bed_force.len(),
-            self.bolt_largest.len(),
-            self.bolt_lift.len(),
-            self.net_largest.len(),
-            self.broken_pieces.len(),
-            self.drawn_out.len(),
-            self.top_rope_height.len(),
             self.velocity.len(),
             self.push_at_rest.len(),
             self.pushes_by_state.len(),
@@ -117,36 +79,10 @@ impl Histories {
             self.barrier_depth.len(),
             self.ledger.len(),
         ];
-        let by_rope = [
-            &self.rope_mean,
-            &self.rope_largest,
-            &self.anchors,
-            &self.extension,
-            &self.strokes,
-            &self.strokes_mean,
-            &self.brakes,
-        ];
-        let rows = by_rope.into_iter().chain([&self.segments]).flatten().map(Vec::len);
-        let ropes = self.rope_mean.len();
-        single.into_iter().chain(rows).all(fits)
-            && by_rope.iter().all(|rows| rows.len() == ropes)
-            && self.film.is_whole()
+        let of_ropes: Vec<&Channel> =
+            CHANNELS.iter().copied().filter(|channel| channel.rows == Rows::EachRope).collect();
+        single.into_iter().all(fits) && self.barrier.is_whole(moments, &of_ropes) && self.film.is_whole()
     }
-}
-
-/// The flow in a window across the channel; zeros where there are no grains.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Gauge {
-    /// Height below which 90 % of the grain centres lie, plus half a grain (m).
-    pub thickness: f64,
-    /// Mean velocity along the channel (m/s).
-    pub velocity: f64,
-    /// Depth that the mass in the window has at the flow's bulk density (m).
-    pub depth: f64,
-    /// Share of the mass in the window that is at rest.
-    pub at_rest: f64,
-    /// Σ m v² over the window's area and the bulk density: h v² of an even flow (m³/s²).
-    pub flux: f64,
 }
 
 /// Centred moving average of a series with even spacing; `window` is in samples and is cut at the ends.
@@ -189,6 +125,12 @@ pub fn tail_mean(series: &[f64], count: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_channel_has_a_name_of_its_own() {
+        let names: std::collections::BTreeSet<&str> = CHANNELS.iter().map(|channel| channel.name).collect();
+        assert_eq!(names.len(), CHANNELS.len());
+    }
 
     #[test]
     fn smoothing_keeps_the_mean_of_a_plateau_and_finds_its_peak() {

@@ -1,11 +1,41 @@
 //! What is written down while a model runs.
 
+pub(crate) mod body;
 pub(crate) mod bolts;
+pub mod channels;
 pub(crate) mod dead_zone;
 pub(crate) mod deposit;
 pub mod film;
 pub mod gauge;
 pub mod histories;
+pub mod of_anchors;
+pub mod of_dissipators;
+pub mod of_ropes;
+pub mod of_wall;
 pub mod passage;
 pub mod recorder;
+pub mod setup;
 pub mod snapshots;
+
+use self::channels::Channel;
+
+/// All channels, in the order of the columns of tables.
+pub const CHANNELS: [&Channel; 17] = [
+    &of_wall::MOMENT,
+    &of_wall::SEGMENTS,
+    &of_ropes::MEAN,
+    &of_ropes::LARGEST,
+    &of_anchors::LOAD,
+    &of_ropes::EXTENSION,
+    &of_dissipators::STROKE,
+    &of_dissipators::MEAN_STROKE,
+    &of_dissipators::TENSION,
+    &of_ropes::LATERAL,
+    &of_anchors::BED,
+    &of_anchors::BOLT,
+    &of_anchors::BOLT_LIFT,
+    &of_ropes::NET,
+    &of_ropes::BROKEN,
+    &of_ropes::DRAWN_OUT,
+    &of_ropes::TOP_HEIGHT,
+];

@@ -92,7 +92,10 @@ fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {
         kind,
         tension,
     };
-    let dissipators =
-        barrier.dissipators.iter().map(|brake| (brake.nodes, SegmentKind::Main(brake.rope))).zip(&net.brakes);
+    let dissipators = barrier
+        .dissipators
+        .iter()
+        .map(|dissipator| (dissipator.nodes, SegmentKind::Main(dissipator.rope)))
+        .zip(&net.dissipators);
     segments.chain(cylinders).chain(dissipators).map(strand).collect()
 }

@@ -229,9 +229,9 @@ impl Linked<'_> {
 
     fn elements(&self, barrier: &Barrier) -> Vec<Link> {
         let ropes = barrier.segments.iter().map(|s| (s.nodes, s.stiffness, s.damping, s.rest_length));
-        let brakes = barrier.dissipators.iter().chain(&barrier.holds);
-        let brakes = brakes.map(|d| (d.nodes, d.stiffness, 0.0, d.rest_length + d.used));
-        let taut = ropes.chain(brakes).filter_map(|(nodes, stiffness, damping, slack)| {
+        let dissipators = barrier.dissipators.iter().chain(&barrier.holds);
+        let dissipators = dissipators.map(|d| (d.nodes, d.stiffness, 0.0, d.rest_length + d.used));
+        let taut = ropes.chain(dissipators).filter_map(|(nodes, stiffness, damping, slack)| {
             let [a, b] = nodes.map(|node| &barrier.nodes[node as usize]);
             let line = b.position - a.position;
             let length = line.norm();

@@ -1,4 +1,4 @@
-//! The larger of two demands.
+//! A maximum that keeps what is not a number.
 
 /// The larger of two numbers; NaN if either is, so that nothing is judged by half of what is known.
 pub fn larger(a: f64, b: f64) -> f64 {

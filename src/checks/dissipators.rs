@@ -3,7 +3,9 @@
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Outcome, Resistance};
 use crate::demand::{CAP_TOLERANCE, Demands};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
-use crate::sources::{BRAKE_DATA, PLATEAU_DATA};
+use crate::quantities::dissipator;
+use crate::quantities::quantity::Unit;
+use crate::sources::{PLATEAU_DATA, STROKE_DATA};
 
 fn dissipators(design: &Design) -> Option<(&FlexibleNet, DissipatorDesign)> {
     match &design.barrier {
@@ -13,18 +15,17 @@ fn dissipators(design: &Design) -> Option<(&FlexibleNet, DissipatorDesign)> {
 }
 
 pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let Some((net, dissipator)) = dissipators(design) else { return Vec::new() };
-    let strokes = demands.brake_stroke.iter().enumerate().skip(net.ropes_held_by_bed());
+    let Some((net, given)) = dissipators(design) else { return Vec::new() };
+    let strokes = demands.each(&dissipator::STROKE).iter().enumerate().skip(net.ropes_held_by_bed());
     strokes
         .map(|(index, demand)| {
-            let rope = index + 1;
-            let title = format!("Stroke of the dissipators of main rope {rope}");
-            let name = CheckName::new(format!("brake_{rope}_stroke"), title, "m", BRAKE_DATA);
+            let id = format!("brake_{}_stroke", index + 1);
+            let name = CheckName::of(&dissipator::STROKE, index, id, STROKE_DATA);
             Outcome::at_most(
                 name,
                 *demand,
-                Resistance { characteristic: dissipator.stroke, factor: 1.0 },
-                design.limits.brake_utilisation,
+                Resistance { characteristic: given.stroke, factor: 1.0 },
+                design.limits.dissipator_utilisation,
             )
             .of_rope(index)
         })
@@ -34,13 +35,17 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
 /// With stroke left, a dissipator pulls with its plateau force at the most. At the plateau it works as it should, so there
 /// is no utilisation to tell; more means that the stroke is used up.
 pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let Some((_, dissipator)) = dissipators(design) else { return Vec::new() };
-    let name =
-        CheckName::new("brake_plateau", "Largest tension of a dissipator against its plateau", "N", PLATEAU_DATA);
+    let Some((_, given)) = dissipators(design) else { return Vec::new() };
+    let name = CheckName::new(
+        "brake_plateau",
+        "Largest tension of a dissipator against its plateau",
+        Unit::Newton,
+        PLATEAU_DATA,
+    );
     let mut outcome = Outcome::at_most(
         name,
-        demands.brake_force,
-        Resistance { characteristic: dissipator.plateau, factor: 1.0 },
+        demands.one(&dissipator::TENSION),
+        Resistance { characteristic: given.plateau, factor: 1.0 },
         1.0,
     );
     outcome.kind = Kind::DissipatorTension;
@@ -56,6 +61,7 @@ mod tests {
     use super::*;
     use crate::demand::Demand;
     use crate::design::read::read_design;
+    use crate::quantities::dissipator;
 
     /// A plateau of 150 kN: at it and 1 % above, which is rounding, a dissipator works; above that its stroke is used up.
     #[test]
@@ -63,7 +69,7 @@ mod tests {
         let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         let told = |tension: f64| {
             let brake_force = Demand { simulation: Some(tension), ..Demand::default() };
-            let outcomes = check_plateau(&design, &Demands { brake_force, ..Demands::default() });
+            let outcomes = check_plateau(&design, &Demands::default().with(&dissipator::TENSION, &[brake_force]));
             let outcome = outcomes.first().expect("a check");
             (outcome.verdict, outcome.utilisation.is_some())
         };

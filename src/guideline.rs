@@ -1,7 +1,7 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
-use crate::demand::larger;
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo};
+use crate::larger::larger;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
 use crate::loads::fill::{Deposit, Retention, deposit_height};
@@ -355,7 +355,7 @@ mod tests {
     /// 2 g sin α d; on friction steeper than the slope it gains nothing.
     #[test]
     fn a_collapse_is_never_slower_than_its_front_at_the_gate() {
-        let bytes = include_bytes!("../../designs/flume_l44_h15_a40.yaml");
+        let bytes = include_bytes!("../designs/flume_l44_h15_a40.yaml");
         let mut design = read_design("x", bytes).unwrap().design;
         let block = |distance| DamBreak {
             length: 0.5,
@@ -401,7 +401,7 @@ mod tests {
     /// On a bed of 45° with a friction of 20° a deposit of V presses with K = 2 V (tan 45° − tan 20°)/(b H²).
     #[test]
     fn the_weight_of_a_deposit_tells_k_where_it_is_not_seen() {
-        let bytes = include_bytes!("../../designs/small_net.yaml");
+        let bytes = include_bytes!("../designs/small_net.yaml");
         let mut design = crate::design::read::read_design("x", bytes).unwrap().design;
         design.channel.slope = 45_f64.to_radians();
         design.channel.base_friction = libm::tan(20_f64.to_radians());
@@ -417,7 +417,7 @@ mod tests {
     /// The first surge alone, on 3 m: (½ K ρ g' h² + λ ρ v² h) b. Its bolts are no load of a free rope, and a boulder is on one bolt alone.
     #[test]
     fn the_lowest_rope_hands_its_load_to_the_bed_where_the_bed_holds_it() {
-        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let mut design = read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design;
         let held = guideline(&design);
         let input = held.input;
         let first = 0.5 * input.unit_pressure() * 0.36 + input.impact_pressure() * 0.6;
@@ -442,7 +442,7 @@ mod tests {
 
     #[test]
     fn one_event_fills_as_high_as_it_can_and_no_higher_than_the_barrier() {
-        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let mut design = read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design;
         design.loads.to_the_top = false;
         let one = input(&design);
         let fill = event_fill(&design, &one);
@@ -462,7 +462,7 @@ mod tests {
     /// A long, low block slides further than its front runs: 2 · 9.81 sin 40° · (5 + 10); its depth is 4/9 of its height unless given.
     #[test]
     fn a_long_block_arrives_as_it_slides() {
-        let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
+        let mut design = read_design("x", include_bytes!("../designs/rigid_wall.yaml")).unwrap().design;
         (design.channel.slope, design.channel.base_friction) = (40_f64.to_radians(), 0.0);
         let block =
             DamBreak { length: 20.0, height: 0.1, distance: 5.0, depth_at_barrier: None, velocity_at_barrier: None };

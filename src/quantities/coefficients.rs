@@ -128,7 +128,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
     use dem::Vec3;
-    use dem::recorders::histories::Gauge;
+    use dem::recorders::gauge::Gauge;
 
     #[test]
     fn a_barrier_loaded_by_the_guideline_shows_the_guideline_s_coefficients() {

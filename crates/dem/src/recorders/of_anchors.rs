@@ -1,0 +1,78 @@
+//! What holds the barrier: the anchors of the main ropes, and the bolts of a lowest rope that lies on the bed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::recorders::bolts::share_between_bolts;
+use crate::recorders::channels::{Channel, Channels, Rows};
+use crate::recorders::setup::RecorderSetup;
+use crate::simulation::Simulation;
+use crate::tables::barrier::Barrier;
+
+/// Load of the higher loaded anchor of each main rope.
+pub const LOAD: Channel = Channel { name: "anchor", unit: "n", rows: Rows::EachRope };
+/// Force on what holds the lowest main rope to the bed.
+pub const BED: Channel = Channel { name: "bed_force", unit: "n", rows: Rows::One };
+/// Largest force on one of the bolts that hold the lowest main rope to the bed, and the largest lift of one; not recorded where their
+/// distance is not known.
+pub const BOLT: Channel = Channel { name: "bolt_largest", unit: "n", rows: Rows::One };
+pub const BOLT_LIFT: Channel = Channel { name: "bolt_lift", unit: "n", rows: Rows::One };
+
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct OfAnchors {
+    load: Vec<f64>,
+    bed: Vec3,
+    bolts: Vec<Vec3>,
+}
+
+impl BodyRecorder for OfAnchors {
+    fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
+        let (Some(barrier), forces) = (&simulation.model.barrier, &simulation.sums.net.forces) else { return };
+        self.bed += bed_force(barrier, forces, &setup.net_rows);
+        add_rows(&mut self.load, &anchor_loads(barrier, forces, setup.ropes));
+        if setup.bolt_spaces > 0 {
+            let loads = bolt_loads(barrier, setup, forces);
+            self.bolts.resize(loads.len(), Vec3::zeros());
+            self.bolts.iter_mut().zip(&loads).for_each(|(sum, load)| *sum += load);
+        }
+    }
+
+    fn sample(&mut self, simulation: &Simulation, setup: &RecorderSetup, steps: u32, channels: &mut Channels) {
+        if simulation.model.barrier.is_none() {
+            return;
+        }
+        let done = std::mem::take(self);
+        channels.push(&LOAD, &means(&done.load, steps));
+        channels.push(&BED, &means(&[done.bed.norm()], steps));
+        if setup.bolt_spaces > 0 {
+            let most = |of: fn(&Vec3) -> f64| means(&[done.bolts.iter().map(of).fold(0.0, f64::max)], steps);
+            channels.push(&BOLT, &most(|load| load.norm()));
+            channels.push(&BOLT_LIFT, &most(|load| load.z));
+        }
+    }
+}
+
+/// Force on the fixed knots of the lowest row: what the bolts of a rope held by the bed must bear (N).
+fn bed_force(barrier: &Barrier, forces: &[Vec3], rows: &[Vec<u32>]) -> Vec3 {
+    let lowest = rows.first().into_iter().flatten().map(|&node| node as usize);
+    lowest.filter(|&node| barrier.nodes[node].fixed).map(|node| forces[node]).sum()
+}
+
+/// Load of each rope's higher loaded anchor: the vector sum of all that is tied to it.
+fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
+    let mut loads = vec![0.0_f64; ropes];
+    for anchor in &barrier.anchors {
+        let load = &mut loads[anchor.rope as usize];
+        *load = load.max(forces[anchor.node as usize].norm());
+    }
+    loads
+}
+
+/// Force on each bolt of the lowest rope (N).
+fn bolt_loads(barrier: &Barrier, setup: &RecorderSetup, forces: &[Vec3]) -> Vec<Vec3> {
+    let lowest = setup.net_rows.first().into_iter().flatten().map(|&node| node as usize);
+    let held = lowest.filter(|&node| barrier.nodes[node].fixed);
+    let knots = held.map(|node| (barrier.nodes[node].position.y, forces[node]));
+    share_between_bolts(knots, setup.bolt_spaces, setup.incoming.width)
+}

@@ -1,0 +1,96 @@
+//! What main, net and lateral ropes bear, and what shape the net takes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::elements::segment::SegmentKind;
+use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::recorders::channels::{Channel, Channels, Rows};
+use crate::recorders::setup::RecorderSetup;
+use crate::simulation::Simulation;
+use crate::tables::barrier::Barrier;
+
+/// Mean tension along each main rope.
+pub const MEAN: Channel = Channel { name: "rope_mean", unit: "n", rows: Rows::EachRope };
+/// Largest tension along each main rope, its dissipators included.
+pub const LARGEST: Channel = Channel { name: "rope_largest", unit: "n", rows: Rows::EachRope };
+/// How far downstream the furthest point of each main rope is from where the rope hung at first.
+pub const EXTENSION: Channel = Channel { name: "rope_extension", unit: "m", rows: Rows::EachRope };
+/// Largest tension in the lateral ropes.
+pub const LATERAL: Channel = Channel { name: "lateral_largest", unit: "n", rows: Rows::One };
+/// Largest tension in the net.
+pub const NET: Channel = Channel { name: "net_largest", unit: "n", rows: Rows::One };
+/// Pieces of rope that have broken so far.
+pub const BROKEN: Channel = Channel { name: "broken_pieces", unit: "", rows: Rows::One };
+/// Largest permanent elongation of a piece of rope so far, over its first length.
+pub const DRAWN_OUT: Channel = Channel { name: "drawn_out", unit: "share", rows: Rows::One };
+/// Lowest height of the top main rope above the bed.
+pub const TOP_HEIGHT: Channel = Channel { name: "top_rope_height", unit: "m", rows: Rows::One };
+
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct OfRopes {
+    mean: Vec<f64>,
+    largest: Vec<f64>,
+    net: f64,
+    lateral: f64,
+}
+
+impl BodyRecorder for OfRopes {
+    fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
+        let (Some(barrier), net) = (&simulation.model.barrier, &simulation.sums.net) else { return };
+        let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
+        let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
+        let segments = barrier.segments.iter().map(|segment| (segment.kind, segment.rest_length)).zip(&net.tensions);
+        let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.rest_length)).zip(&net.axial);
+        for ((kind, rest_length), &tension) in segments.chain(cylinders) {
+            match kind {
+                SegmentKind::Main(rope) => {
+                    let [weighted, length] = &mut mean[rope as usize];
+                    *weighted += tension * rest_length;
+                    *length += rest_length;
+                    largest[rope as usize] = largest[rope as usize].max(tension);
+                }
+                SegmentKind::Net => net_largest = net_largest.max(tension),
+                SegmentKind::Lateral => lateral = lateral.max(tension),
+                SegmentKind::Ring => {}
+            }
+        }
+        for (dissipator, &tension) in barrier.dissipators.iter().zip(&net.dissipators) {
+            let rope = dissipator.rope as usize;
+            largest[rope] = largest[rope].max(tension);
+        }
+        let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
+        add_rows(&mut self.mean, &mean);
+        add_rows(&mut self.largest, &largest);
+        self.net += net_largest;
+        self.lateral += lateral;
+    }
+
+    fn sample(&mut self, simulation: &Simulation, setup: &RecorderSetup, steps: u32, channels: &mut Channels) {
+        let Some(barrier) = &simulation.model.barrier else { return };
+        let done = std::mem::take(self);
+        channels.push(&MEAN, &means(&done.mean, steps));
+        channels.push(&LARGEST, &means(&done.largest, steps));
+        channels.push(&NET, &means(&[done.net], steps));
+        channels.push(&LATERAL, &means(&[done.lateral], steps));
+        let [broken, drawn_out] = wear(barrier);
+        channels.push(&BROKEN, &[broken]);
+        channels.push(&DRAWN_OUT, &[drawn_out]);
+        let extension = |(&row, &place): (&usize, &f64)| {
+            let nodes = setup.net_rows[row].iter().map(|&node| barrier.nodes[node as usize].position.x - place);
+            nodes.fold(0.0, f64::max)
+        };
+        let extensions: Vec<f64> = setup.rope_rows.iter().zip(&setup.rope_places).map(extension).collect();
+        channels.push(&EXTENSION, &extensions);
+        let top = setup.net_rows.last().into_iter().flatten();
+        let lowest = top.map(|&node| barrier.nodes[node as usize].position.z).fold(f64::INFINITY, f64::min);
+        channels.push(&TOP_HEIGHT, &[lowest]);
+    }
+}
+
+/// How many pieces of rope have broken, and the largest permanent elongation of one over its first length.
+fn wear(barrier: &Barrier) -> [f64; 2] {
+    barrier.strengths().fold([0.0, 0.0], |[broken, drawn_out], strength| {
+        let elongation = strength.drawn_out / strength.first_length;
+        [broken + f64::from(u8::from(strength.broken)), f64::max(drawn_out, elongation)]
+    })
+}

@@ -1,0 +1,165 @@
+//! How the value that is checked is made of a quantity: by the equations, and by the packings that were simulated.
+
+use crate::demand::value::{Demand, Seen};
+use crate::design::Factors;
+use crate::guideline::{Guideline, RopeLoad};
+use crate::larger::larger;
+use crate::quantities::dissipator;
+use crate::quantities::observed::Observed;
+use crate::quantities::quantity::{Demanded, Quantity};
+use crate::starts::Spread;
+
+/// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
+pub const CAP_TOLERANCE: f64 = 1.01;
+
+type Read<'q> = &'q dyn Fn(&Observed) -> f64;
+
+fn spread(observed: &[&Observed], read: Read) -> Option<Spread> {
+    (!observed.is_empty()).then(|| Spread::of(&observed.iter().map(|seen| read(seen)).collect::<Vec<_>>()))
+}
+
+/// NaN if any is; 0 for none.
+fn largest(observed: &[&Observed], read: Read) -> f64 {
+    observed.iter().map(|seen| read(seen)).fold(0.0, larger)
+}
+
+/// What the next packing exceeds with a probability of 5 %; no more than the cap as long as no packing has gone beyond it.
+fn capped(observed: &[&Observed], read: Read, cap: f64) -> Option<f64> {
+    let most = largest(observed, read);
+    let upper = spread(observed, read)?.upper();
+    Some(if upper > cap && most <= cap * CAP_TOLERANCE { most.max(cap) } else { upper })
+}
+
+/// Where the two routes meet.
+pub struct Meeting<'a> {
+    pub guideline: &'a Guideline,
+    pub factors: &'a Factors,
+    pub seen: &'a Seen<'a>,
+    /// What the factored actions did, and the factor still to be put on its forces.
+    pub governing: &'a [&'a Observed],
+    pub factor: f64,
+}
+
+impl Meeting<'_> {
+    /// The demands of a quantity: one, or one for each rope; nothing where none is asked for.
+    pub fn demands(&self, quantity: &Quantity) -> Vec<Demand> {
+        match quantity.demanded {
+            None => Vec::new(),
+            Some(Demanded::Load(by_equations)) => {
+                vec![self.force(by_equations(self.guideline, self.factors), &|seen| seen.one(quantity))]
+            }
+            Some(Demanded::RopeLoad { capped }) => self.by_rope(quantity, capped),
+            Some(Demanded::Stroke) => self.strokes(quantity),
+            Some(Demanded::Plateau) => vec![Demand {
+                guideline: self.guideline.ropes.iter().map(|rope| rope.state.tension).reduce(larger),
+                // Capped at the plateau, and so judged by the largest of the packings.
+                simulation: self.worst(&|seen| seen.each(quantity).iter().copied().reduce(larger).unwrap_or(0.0)),
+                ..Demand::default()
+            }],
+            Some(Demanded::Worst) => {
+                vec![Demand { simulation: self.worst(&|seen| seen.one(quantity)), ..Demand::default() }]
+            }
+            Some(Demanded::Kept) => vec![self.kept(&|seen| seen.one(quantity))],
+        }
+    }
+
+    fn worst(&self, read: Read) -> Option<f64> {
+        self.governing.iter().map(|seen| read(seen)).reduce(larger)
+    }
+
+    /// Whether the characteristic values differ from those that are judged.
+    fn is_factored(&self) -> bool {
+        !self.seen.factored.is_empty() || self.factor != 1.0
+    }
+
+    fn characteristic(&self, read: Read) -> Option<f64> {
+        spread(&self.seen.characteristic, read).filter(|_| self.is_factored()).map(|spread| spread.upper())
+    }
+
+    /// A force or moment; the guideline's value is factored already.
+    fn force(&self, guideline: Option<f64>, read: Read) -> Demand {
+        Demand {
+            guideline,
+            simulation: spread(self.governing, read).map(|spread| self.factor * spread.upper()),
+            characteristic: self.characteristic(read),
+            cap: None,
+        }
+    }
+
+    /// A share that must be kept, in the characteristic and in the factored case.
+    fn kept(&self, read: Read) -> Demand {
+        let lower = |observed: &[&Observed]| spread(observed, read).map(|spread| spread.lower());
+        let smaller = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) };
+        let both = lower(self.governing).into_iter().chain(lower(&self.seen.characteristic));
+        let characteristic = lower(&self.seen.characteristic).filter(|_| !self.seen.factored.is_empty());
+        Demand { simulation: both.reduce(smaller), characteristic, ..Demand::default() }
+    }
+
+    /// What a dissipator of a rope may pull with beyond its plateau (N).
+    fn excess(&self) -> f64 {
+        self.guideline.dissipator.map_or(0.0, |[plateau, _]| (self.factors.overstrength - 1.0) * plateau)
+    }
+
+    fn plateau(&self) -> f64 {
+        self.guideline.dissipator.map_or(f64::INFINITY, |[plateau, _]| plateau)
+    }
+
+    /// Whether a load of this size means that a dissipator yields.
+    fn yields(&self, load: f64) -> bool {
+        load >= self.plateau() / CAP_TOLERANCE
+    }
+
+    fn ropes(&self, quantity: &Quantity) -> usize {
+        self.governing.first().map_or(self.guideline.ropes.len(), |seen| seen.each(quantity).len())
+    }
+
+    fn by_rope(&self, quantity: &Quantity, at_plateau: bool) -> Vec<Demand> {
+        let cap = if at_plateau && self.guideline.anchors_capped { self.plateau() } else { f64::INFINITY };
+        let of = |rope: usize| {
+            let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(0.0);
+            let yields = self.yields(largest(self.governing, &|seen: &Observed| {
+                seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(0.0)
+            }));
+            let excess = if yields { self.excess() } else { 0.0 };
+            let most = largest(self.governing, &value);
+            let within = most <= cap * CAP_TOLERANCE;
+            Demand {
+                guideline: self.by_equations(rope),
+                simulation: capped(self.governing, &value, cap).map(|upper| self.factor * upper + excess),
+                characteristic: capped(&self.seen.characteristic, &value, cap).filter(|_| self.is_factored()),
+                cap: (within && cap.is_finite() && !self.governing.is_empty())
+                    .then_some(self.factor * most.max(cap) + excess),
+            }
+        };
+        (0..self.ropes(quantity)).map(of).collect()
+    }
+
+    /// A rope that the equations put a load on.
+    fn loaded(&self, rope: usize) -> Option<&RopeLoad> {
+        self.guideline.ropes.get(rope).filter(|rope| rope.load > 0.0)
+    }
+
+    /// Tension by the equations, with the overstrength of a dissipator that yields.
+    fn by_equations(&self, rope: usize) -> Option<f64> {
+        let tension = self.loaded(rope)?.state.tension;
+        let excess = if self.yields(tension) { self.excess() } else { 0.0 };
+        Some(tension + excess)
+    }
+
+    /// Strokes end at their stop, whatever the scatter says.
+    fn strokes(&self, quantity: &Quantity) -> Vec<Demand> {
+        let stop = self.guideline.dissipator.map_or(f64::INFINITY, |[_, stroke]| stroke);
+        let of = |rope: usize| {
+            let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
+            // Asked so that what is not a number stays so.
+            let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
+            Demand {
+                guideline: self.loaded(rope).map(|rope| rope.state.stroke),
+                simulation: spread(self.governing, &value).map(|spread| stopped(spread.upper())),
+                characteristic: self.characteristic(&value).map(stopped),
+                cap: None,
+            }
+        };
+        (0..self.ropes(quantity)).map(of).collect()
+    }
+}

@@ -1,0 +1,39 @@
+//! A demand by both routes, and the packings that the simulation's is made of.
+
+use crate::larger::larger;
+use crate::quantities::observed::Observed;
+
+/// One quantity by both routes; a route that says nothing about it is absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Demand {
+    pub guideline: Option<f64>,
+    pub simulation: Option<f64>,
+    /// Of the simulation of the characteristic flow, without partial factors, where loads carry one; for information.
+    pub characteristic: Option<f64>,
+    /// What the simulation's demand cannot exceed while a dissipator that caps it has stroke left; absent where none does, and
+    /// where one is used up.
+    pub cap: Option<f64>,
+}
+
+impl Demand {
+    /// The larger of the two; NaN if either is.
+    pub fn largest(&self) -> Option<f64> {
+        self.guideline.into_iter().chain(self.simulation).reduce(larger)
+    }
+}
+
+/// What the simulations showed, packing by packing.
+#[derive(Clone, Debug, Default)]
+pub struct Seen<'a> {
+    /// The flow as it is.
+    pub characteristic: Vec<&'a Observed>,
+    /// The flow with factored actions, where that was simulated; else forces are proportional to the action.
+    pub factored: Vec<&'a Observed>,
+}
+
+impl Seen<'_> {
+    /// The case that forces and strokes are designed for, and the factor that is still to be put on its forces.
+    pub fn governing(&self, load_factor: f64) -> (&[&Observed], f64) {
+        if self.factored.is_empty() { (&self.characteristic, load_factor) } else { (&self.factored, 1.0) }
+    }
+}

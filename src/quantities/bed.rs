@@ -1,0 +1,26 @@
+//! What holds a lowest rope that lies on the bed.
+
+use crate::quantities::quantity::Unit::Newton;
+use crate::quantities::quantity::{Demanded, Of, Quantity};
+use dem::recorders::of_anchors;
+
+/// Largest force on all of it.
+pub const FORCE: Quantity =
+    Quantity::new("bed_force", "Load on what holds the lowest rope to the bed", Newton, Of::Run, |run| {
+        run.peak(&of_anchors::BED)
+    })
+    .json("bed_force_peak_n")
+    .meaning("On what holds the lowest main rope to the bed.")
+    .demanded(Demanded::Load(|guideline, _| guideline.bed_force));
+
+/// Largest force on one of its bolts, and the largest lift of one; 0 where their distance is not known.
+pub const BOLT: Quantity =
+    Quantity::new("bolt_force", "Load of the worst bolt of the lowest rope", Newton, Of::Run, |run| {
+        run.peak(&of_anchors::BOLT)
+    })
+    .json("bolt_force_peak_n")
+    .meaning("On its worst bolt, and the largest lift of one; 0 where anchors.bed_bolt_spacing is not given.")
+    .demanded(Demanded::Load(|guideline, _| guideline.bolt_force));
+pub const BOLT_LIFT: Quantity =
+    Quantity::new("bolt_lift", "Largest lift of a bolt", Newton, Of::Run, |run| run.peak(&of_anchors::BOLT_LIFT))
+        .json("bolt_lift_peak_n");

@@ -1,0 +1,79 @@
+//! K and λ that the simulation means. Neither is told where the deposit or the flow is thinner than two grains: it has no depth then.
+
+use crate::quantities::coefficients::{Coefficients, STANDING};
+use crate::quantities::quantity::Unit::Number;
+use crate::quantities::quantity::{Of, Quantity, Told};
+use crate::quantities::reading::Reading;
+use dem::recorders::histories::tail_mean;
+
+/// K that the force along the bed at rest means for the depth of the deposit.
+pub const AT_REST: Quantity =
+    Quantity::new("k_effective", "K at rest", Number, Of::RunIfKnown, |run| k_at_rest(run).into_iter().collect())
+        .json("k_effective")
+        .meaning("K that the residual force means for the depth of the deposit.")
+        .told(Told::WhereKnown);
+
+/// λ that the largest force along the bed means for the incoming flow, with the design's K for the static part.
+pub const DYNAMIC: Quantity =
+    Quantity::new("lambda_effective", "λ from the largest force", Number, Of::RunIfKnown, |run| {
+        lambda(run).into_iter().collect()
+    })
+    .json("lambda_effective")
+    .meaning("lambda that the peak force means for the incoming flow.")
+    .told(Told::WhereKnown);
+
+/// The same by the split into grains at rest and moving ones.
+pub const K_SPLIT: Quantity =
+    Quantity::new("k_split", "K by the split, when F₁ is largest", Number, Of::RunIfKnown, |run| {
+        let told = &run.coefficients;
+        Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead).into_iter().collect()
+    })
+    .told(Told::WhereKnown);
+pub const LAMBDA_UPSTREAM: Quantity = Quantity::new(
+    "lambda_split_upstream",
+    "λ by the split, when F₂ is largest, velocity upstream",
+    Number,
+    Of::RunIfKnown,
+    |run| {
+        let told = &run.coefficients;
+        Coefficients::at_peak_of(&told.dynamic_upstream, &told.force_moving).into_iter().collect()
+    },
+)
+.told(Told::WhereKnown);
+pub const LAMBDA_MEAN: Quantity = Quantity::new(
+    "lambda_split_mean",
+    "λ by the split, when F₂ is largest, mean velocity",
+    Number,
+    Of::RunIfKnown,
+    |run| {
+        let told = &run.coefficients;
+        Coefficients::at_peak_of(&told.dynamic_mean, &told.force_moving).into_iter().collect()
+    },
+)
+.told(Told::WhereKnown);
+
+/// Weight of the flow over a unit of depth, normal to the bed (N/m³).
+fn unit_weight(run: &Reading) -> f64 {
+    run.guideline.input.density * run.guideline.input.gravity_normal
+}
+
+fn k_at_rest(run: &Reading) -> Option<f64> {
+    let depth = run.histories.barrier_depth.last().copied().unwrap_or(0.0);
+    let deep = depth > run.thin();
+    deep.then(|| {
+        let along: Vec<f64> = run.histories.force.iter().map(|force| force.x).collect();
+        let at_rest = tail_mean(&along, run.samples.tail);
+        // What stands above the barrier's top presses on what is below it.
+        let top = depth.min(run.guideline.input.barrier_height);
+        2.0 * at_rest / run.width() / (unit_weight(run) * top * (2.0 * depth - top))
+    })
+}
+
+fn lambda(run: &Reading) -> Option<f64> {
+    let flows = run.incoming.depth > 0.5 * run.thin() && run.incoming.at_rest <= STANDING && run.largest_flux > 0.0;
+    flows.then(|| {
+        let standing = run.histories.barrier_depth.get(run.at_push).copied().unwrap_or(0.0);
+        let fixed = 0.5 * run.guideline.input.earth_pressure * unit_weight(run) * standing.powi(2);
+        (run.push / run.width() - fixed) / (run.guideline.input.density * run.largest_flux)
+    })
+}

@@ -1,0 +1,58 @@
+//! The flow that arrives, and the depth of what it leaves.
+
+use crate::quantities::quantity::Unit::{Metre, MetrePerSecond};
+use crate::quantities::quantity::{Of, Quantity};
+use dem::recorders::histories::Histories;
+
+/// Of the flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there.
+pub const DEPTH: Quantity =
+    Quantity::new("incoming_depth", "Depth of the incoming flow", Metre, Of::Run, |run| vec![run.incoming.depth])
+        .json("incoming_depth_m")
+        .meaning(
+            "Of the flow just upstream of the barrier when its momentum flux was largest, before grains came to rest there; depth at bulk density.",
+        );
+pub const VELOCITY: Quantity =
+    Quantity::new("incoming_velocity", "Velocity of the incoming flow", MetrePerSecond, Of::Run, |run| {
+        vec![run.incoming.velocity]
+    })
+    .json("incoming_velocity_m_s");
+
+/// Speed of the front on the last stretch before the gauge just upstream of the barrier; not known where it was not seen there.
+pub const FRONT: Quantity =
+    Quantity::new("front_velocity", "Velocity of the front", MetrePerSecond, Of::RunIfKnown, |run| {
+        front_velocity(run.histories).into_iter().collect()
+    })
+    .json("front_velocity_m_s")
+    .meaning("Of the front, on the last 0.4 barrier heights before the gauge just upstream of the barrier.");
+
+/// Of the flow a barrier's height upstream when the total force peaked, as laboratories measure it.
+pub const THICKNESS_AT_PEAK: Quantity =
+    Quantity::new("incoming_thickness_at_peak", "Thickness of the flow at the peak", Metre, Of::Run, |run| {
+        vec![run.incoming_at_peak.thickness]
+    })
+    .json("incoming_thickness_at_peak_m")
+    .meaning(
+        "Of the flow a barrier's height upstream when the total force peaked; 90 % of the centres and half a grain.",
+    );
+pub const VELOCITY_AT_PEAK: Quantity =
+    Quantity::new("incoming_velocity_at_peak", "Velocity of the flow at the peak", MetrePerSecond, Of::Run, |run| {
+        vec![run.incoming_at_peak.velocity]
+    })
+    .json("incoming_velocity_at_peak_m_s");
+
+/// Depth of the deposit at the barrier at the end, at bulk density.
+pub const DEPOSIT: Quantity = Quantity::new("deposit_depth", "Depth of the deposit", Metre, Of::Run, |run| {
+    vec![run.histories.barrier_depth.last().copied().unwrap_or(0.0)]
+})
+.json("deposit_depth_m");
+
+/// Way of the front between the two places over its time; from where it started, if that is nearer than the far one.
+fn front_velocity(histories: &Histories) -> Option<f64> {
+    let [far, near] = histories.gauges;
+    let reached = |place: f64| {
+        let sample = histories.front.iter().position(|front| *front >= -place)?;
+        Some((*histories.time.get(sample)?, histories.front[sample]))
+    };
+    let ((from, start), (to, end)) = (reached(far)?, reached(near)?);
+    (to > from).then(|| (end - start) / (to - from))
+}

@@ -1,0 +1,78 @@
+//! What is measured of a run: a file for each quantity, or for a few that are read alike, and one list.
+//!
+//! Recordings, `result.json` and its schema, mean and scatter over the packings, the comparison of designs and the demands that checks are
+//! made of go by this list. A check names a quantity and holds it against a capacity.
+
+pub mod anchor_load;
+pub mod bed;
+pub mod coefficients;
+pub mod dissipator;
+pub mod earth_pressure;
+pub mod height;
+pub mod incoming;
+pub mod mass;
+pub mod observed;
+pub mod other_ropes;
+pub mod quantity;
+pub mod reading;
+pub mod rope_tension;
+pub mod total_force;
+pub mod wall;
+pub mod wear;
+
+use self::quantity::Quantity;
+
+/// All quantities, in the order of the fields of `result.json`.
+pub const QUANTITIES: &[&Quantity] = &[
+    &total_force::PEAK,
+    &total_force::PEAK_TIME,
+    &total_force::PEAK_SAMPLED,
+    &total_force::RESIDUAL,
+    &total_force::PUSH,
+    &total_force::ON_A_METRE,
+    &mass::VELOCITY,
+    &mass::VELOCITY_TIME,
+    &mass::RETAINED,
+    &mass::STOPPED_UPSTREAM,
+    &mass::LOST_THROUGH,
+    &mass::LOST_UNDER,
+    &mass::LOST_BESIDE,
+    &mass::LOST_OVER,
+    &height::TOP_ROPE,
+    &height::RESIDUAL,
+    &rope_tension::PEAK,
+    &rope_tension::MEAN_PEAK,
+    &rope_tension::MEAN_RESIDUAL,
+    &anchor_load::PEAK,
+    &rope_tension::BULGE,
+    &dissipator::STROKE,
+    &dissipator::MEAN_STROKE,
+    &dissipator::TENSION,
+    &other_ropes::LATERAL,
+    &bed::FORCE,
+    &bed::BOLT,
+    &bed::BOLT_LIFT,
+    &other_ropes::NET,
+    &other_ropes::NET_RESIDUAL,
+    &wear::BROKEN,
+    &wear::FIRST_BREAK,
+    &wear::DRAWN_OUT,
+    &wall::SEGMENT,
+    &wall::SEGMENT_RESIDUAL,
+    &wall::MOMENT,
+    &wall::MOMENT_SAMPLED,
+    &wall::SLIDING,
+    &wall::OVERTURNING,
+    &wall::PRESS,
+    &incoming::DEPTH,
+    &incoming::VELOCITY,
+    &incoming::FRONT,
+    &incoming::THICKNESS_AT_PEAK,
+    &incoming::VELOCITY_AT_PEAK,
+    &incoming::DEPOSIT,
+    &earth_pressure::AT_REST,
+    &earth_pressure::DYNAMIC,
+    &earth_pressure::K_SPLIT,
+    &earth_pressure::LAMBDA_UPSTREAM,
+    &earth_pressure::LAMBDA_MEAN,
+];
