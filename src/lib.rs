@@ -24,7 +24,7 @@
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
-//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter, comparison and demands follow. One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
+//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter, comparison and demands follow (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, beside `pipeline::slower_than_designed` |
@@ -81,6 +81,7 @@ pub mod guideline;
 mod larger;
 pub mod load_cases;
 mod loads;
+mod lock;
 pub mod pipeline;
 mod problem;
 mod program;

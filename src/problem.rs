@@ -107,12 +107,23 @@ impl Problems {
 
 impl std::error::Error for Problems {}
 
+/// Problems of a file that are told at once.
+pub const MOST_PROBLEMS: usize = 50;
+
+fn digits(text: &str) -> String {
+    text.chars().filter(char::is_ascii_digit).collect()
+}
+
 /// The nearest of `known` to a mistyped `word`, if any is near.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()
         .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
-        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
+        // A number in a name is no slip of the hand: d16 is not d10.
+        .filter(|(_, candidate)| {
+            !word.contains(|letter: char| letter.is_ascii_digit()) || digits(word) == digits(candidate)
+        })
+        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 8)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }

@@ -291,9 +291,20 @@ pub fn separators(text: &str) -> Option<(String, String)> {
         },
         ',' | '.' if same && several => return Some((found_of(text), "a number has one point at the most".into())),
         ',' | '.' => format!("use a point as decimal separator, and none for thousands: `{with_point}{rest}`"),
+        // Blanks part thousands only where three digits follow each.
+        mark if BLANKS.contains(&mark) && !in_thousands(number, &BLANKS) => {
+            "a number holds no blank: write one number and its unit".into()
+        }
         _ => format!("write `{whole}{rest}`"),
     };
     Some((found_of(text), hint))
+}
+
+/// Whether a number has three digits behind each mark and one to three before the first.
+fn in_thousands(number: &str, marks: &[char]) -> bool {
+    let mut groups = number.split(marks).filter(|group| !group.is_empty());
+    groups.next().is_some_and(|first| first.trim_start_matches(['+', '-']).len() <= 3)
+        && groups.all(|group| group.len() == 3)
 }
 
 fn found_of(text: &str) -> String {

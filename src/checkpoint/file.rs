@@ -20,6 +20,8 @@ const FORMAT: u32 = 6;
 
 /// Bytes of a file at the most: ten times those of the largest run that is allowed.
 const LONGEST: u64 = 8 << 30;
+/// The same of a request: a design and some numbers.
+const LONGEST_REQUEST: u64 = 4 << 20;
 
 /// Why a file cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -93,7 +95,11 @@ pub fn write<T: Serialize>(path: &Path, kind: Kind, design: Option<[u8; 32]>, co
 /// Reads a file of the given kind, kept for the given design.
 pub fn read<T: DeserializeOwned>(path: &Path, kind: Kind, design: Option<[u8; 32]>) -> Result<T, CheckpointError> {
     // Looked at first: a pipe would wait for somebody to write, a device has no end.
-    let regular = fs::metadata(path).and_then(|found| match found.is_file() && found.len() <= LONGEST {
+    let longest = match kind {
+        Kind::Request => LONGEST_REQUEST,
+        Kind::Simulation => LONGEST,
+    };
+    let regular = fs::metadata(path).and_then(|found| match found.is_file() && found.len() <= longest {
         true => fs::read(path),
         false => Err(io::Error::other("it is no regular file of a fair size")),
     });

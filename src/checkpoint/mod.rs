@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use sha2::Digest;
 
 use crate::checkpoint::file::{CheckpointError, Kind, read, write};
+use crate::lock::Watch;
 use crate::terminal;
 
 /// Name of a store's folder within that of the report.
@@ -56,6 +57,8 @@ pub struct CheckpointStore {
     keep_done: bool,
     /// Whether what is there is of an earlier run, which goes when first something of this one is kept.
     fresh: bool,
+    /// Tells whether another run has taken the folder of the report.
+    watch: Option<Watch>,
     /// Whether the request is there; starts that run side by side write it once.
     ordered: Mutex<bool>,
     /// Whether anything has been kept, and whether it was told that nothing can be.
@@ -79,12 +82,22 @@ impl CheckpointStore {
             every,
             keep_done,
             fresh,
+            watch: None,
             ordered,
             kept: no(),
             warned: no(),
             asked,
             written: Mutex::default(),
         }
+    }
+
+    /// The same, which keeps nothing and throws nothing away once another run has taken the folder.
+    pub fn watched(self, watch: Option<Watch>) -> Self {
+        Self { watch, ..self }
+    }
+
+    fn another_has_come(&self) -> bool {
+        self.watch.as_ref().is_some_and(Watch::another_has_come)
     }
 
     /// The request of the store in `folder`.
@@ -99,7 +112,8 @@ impl CheckpointStore {
 
     /// Whether there is something of this run to go on with.
     pub fn can_be_resumed(&self) -> bool {
-        self.kept.load(Ordering::Relaxed) || (!self.fresh && Self::request_in(&self.folder).is_ok())
+        let kept = self.kept.load(Ordering::Relaxed) || !self.fresh;
+        kept && !self.another_has_come() && Self::request_in(&self.folder).is_ok()
     }
 
     pub fn folder(&self) -> &Path {
@@ -108,6 +122,9 @@ impl CheckpointStore {
 
     /// Throws everything away: the run is done. A resumed run to which nothing of what lay there belonged has begun anew, which is told.
     pub fn clear(&self) {
+        if self.another_has_come() {
+            return;
+        }
         let asked = self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let others = file::simulations(&self.folder).into_iter().filter(|name| !asked.contains(name)).count();
         if !self.fresh && others > 0 {
@@ -132,7 +149,8 @@ impl CheckpointStore {
     /// program that is killed in between leaves one of the two.
     fn put_request(&self) -> std::io::Result<()> {
         let mut ordered = self.ordered.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if !*ordered {
+        // It may have been removed during the run; without it nothing can be resumed.
+        if !*ordered || !self.folder.join(REQUEST).exists() {
             write(&self.folder.join(REQUEST), Kind::Request, None, &self.request)?;
             *ordered = true;
             if self.fresh {
@@ -144,7 +162,10 @@ impl CheckpointStore {
     }
 
     fn put<T: Serialize>(&self, name: &str, print: [u8; 32], content: &T) {
-        let kept = write(&self.folder.join(name), Kind::Simulation, Some(print), content);
+        let kept = match self.another_has_come() {
+            true => Err(std::io::Error::other("the folder was removed, and another run has taken its place")),
+            false => write(&self.folder.join(name), Kind::Simulation, Some(print), content),
+        };
         let result = kept.and_then(|()| self.put_request());
         match result {
             Ok(()) => {

@@ -5,8 +5,9 @@
 //! load P of the worst bolt on each space, a rope that lay straight is pulled along its span with H = (P² EA/24)^⅓; at its bolts its tension
 //! is T = √(H² + (P/2)²), which the bolts at its ends hold. The bolts are taken as unyielding, the load between them as even.
 
-use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
-use crate::checks::ropes::resistance;
+use crate::checks::between_bolts::tension_between;
+use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance};
+use crate::checks::ropes::{leave_open_what_is_not_known, resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Bottom, Design};
 use crate::quantities::bed;
@@ -47,6 +48,12 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let mut outcome =
                 outcome.only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
             outcome.kind = kind;
+            if kind == Kind::BetweenBolts {
+                leave_open_what_is_not_known(design, &net.main_ropes.rope, &mut outcome);
+            }
+            if kind == Kind::BetweenBolts {
+                outcome.growth = Growth::BetweenBolts { axial };
+            }
             if outcome.holds() && spacing > MOST_RINGS * net.main_ropes.ring_spacing {
                 outcome.leave_open(Opening::OutOfRange(format!(
                     "the lowest rope is modelled as held at every ring, and between bolts {spacing:.2} m apart it would hang free (at most {MOST_RINGS} ring spacings)"
@@ -55,28 +62,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             outcome
         })
         .collect()
-}
-
-/// Largest tension (N) of a rope with EA (N) that lay straight between two bolts and now carries a load (N), spread evenly. With the span s,
-/// the sag f = P s/(8 H) and the stretch 8 f²/(3 s²) = H/EA its part along the span is H = (P² EA/24)^⅓, whatever the span; at a bolt half of
-/// the load comes beside it.
-fn tension_between(load: f64, axial: f64) -> f64 {
-    libm::hypot(libm::cbrt(load * load * axial / 24.0), 0.5 * load)
-}
-
-/// Tension (N) of that rope under `more` times the load under which it has the given one (N). NaN stays NaN.
-pub fn tension_under_more(tension: f64, more: f64, axial: f64) -> f64 {
-    // Half of the load is less than the tension.
-    let (mut low, mut high) = (0.0, 2.0 * tension);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if tension_between(middle, axial) < tension {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    tension_between(more * high, axial)
 }
 
 /// Load (N) of the bolt at an end of the rope, which no rope pulls from the other side, or of one along it if that is more.
@@ -99,6 +84,7 @@ fn each(demand: Demand, change: impl Fn(f64) -> f64) -> Demand {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::checks::between_bolts::tension_under_more;
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;

@@ -1,6 +1,7 @@
 //! Limit states, one file each. Nothing here sees the simulation: demands come ready.
 
 pub(crate) mod anchors;
+pub(crate) mod between_bolts;
 pub(crate) mod bolts;
 pub mod credibility;
 pub mod detailing;
@@ -37,6 +38,7 @@ const CHECKS: &[Check] = &[
     wear::tell_drawn_out,
     dissipators::check_stroke,
     dissipators::check_plateau,
+    ropes::check_plateau,
     anchors::check,
     bolts::check,
     retained::check,

@@ -1,7 +1,9 @@
 //! The outcome of one check: demand, capacity, utilisation, verdict and where the rule comes from. The report
 //! prints this object and never recomputes.
 
+use crate::checks::between_bolts::tension_under_more;
 use crate::demand::Demand;
+use crate::loads::wall::WallInput;
 use crate::quantities::quantity::{Quantity, Unit};
 
 /// Share of its limit from which a passing check warns.
@@ -50,6 +52,52 @@ pub enum Kind {
     DissipatorTension,
     /// What acts at the base of a wall that stands by its weight, and does not grow in proportion to the load.
     OnTheBase,
+}
+
+/// How a demand grows with the load of the flow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Growth {
+    /// In proportion, but for what is there without the flow: a wall's own pull and the water under it.
+    InProportion { fixed: f64 },
+    /// As the tension of a rope of this axial stiffness (N) between bolts that the load pulls on.
+    BetweenBolts { axial: f64 },
+    /// As the pressure under a wall that stands by its weight.
+    UnderAWall(UnderAWall),
+}
+
+impl Default for Growth {
+    fn default() -> Self {
+        Self::InProportion { fixed: 0.0 }
+    }
+}
+
+/// A wall that stands by its weight, and what the flow does to it, by the equations and by the simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnderAWall {
+    pub wall: WallInput,
+    /// Factor on its weight.
+    pub weight_factor: f64,
+    /// Moment about the upstream end of its base, and force that presses on it beside its weight, per width (N m/m, N/m).
+    pub guideline: Option<[f64; 2]>,
+    pub simulation: Option<[f64; 2]>,
+}
+
+impl UnderAWall {
+    /// The pressure (Pa) by one route with so many times its load.
+    pub fn pressure(&self, route: Route, more: f64) -> Option<f64> {
+        let [moment, press] = match route {
+            Route::Guideline => self.guideline,
+            Route::Simulation => self.simulation,
+        }?;
+        Some(self.wall.pressure_under(more * moment, more * press, self.weight_factor))
+    }
+}
+
+/// Where a demand comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    Guideline,
+    Simulation,
 }
 
 /// Why a check is open, with what would close it, in words.
@@ -101,8 +149,8 @@ pub struct Outcome {
     /// Whether the guideline's demand follows from its pressures.
     pub rests_on_pressures: bool,
     pub kind: Kind,
-    /// What of the demand is there without the flow: a wall's own pull and the water under it.
-    pub fixed: f64,
+    /// How the demand grows with the load of the flow.
+    pub growth: Growth,
     pub source: &'static str,
 }
 
@@ -217,6 +265,19 @@ impl Outcome {
             && self.demand.guideline.zip(limit).is_some_and(|(demand, capacity)| demand > capacity)
     }
 
+    /// The demand by one route with so many times the load of the flow.
+    pub fn demand_under(&self, route: Route, more: f64) -> Option<f64> {
+        let demand = match route {
+            Route::Guideline => self.demand.guideline,
+            Route::Simulation => self.demand.simulation,
+        }?;
+        match self.growth {
+            Growth::InProportion { fixed } => Some(fixed + (demand - fixed) * more),
+            Growth::BetweenBolts { axial } => Some(tension_under_more(demand, more, axial)),
+            Growth::UnderAWall(wall) => wall.pressure(route, more),
+        }
+    }
+
     /// Whether the guideline's demand decides, because it is the larger one or the only one.
     pub fn governed_by_equations(&self) -> bool {
         match (self.demand.guideline, self.demand.simulation) {
@@ -247,7 +308,7 @@ impl Outcome {
             rope: None,
             rests_on_pressures: true,
             kind: Kind::Any,
-            fixed: 0.0,
+            growth: Growth::default(),
             source,
         };
         if capacity.is_some() && utilisation.is_none() {

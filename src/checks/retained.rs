@@ -20,10 +20,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![outcome]
 }
 
-/// Share of the mass from which on the curve must be given at the latest, that of the finest size that can be: finer grains are continued
-/// on the slope of the coarser ones, and may all be lost.
-const KNOWN_FROM: f64 = 0.1;
-
 /// What the simulation cannot have seen get lost: surges that were not simulated, and grains that were made too coarse for mesh and gap.
 fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     let flow = &design.flow;
@@ -44,9 +40,9 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
             )));
         }
     }
-    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) && flow.known_from > allowed.max(KNOWN_FROM) + 1e-9 {
+    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) && flow.known_from > allowed + 1e-9 {
         return Some(Opening::NotGiven(format!(
-            "nothing is said of the finest {:.0} % of the flow, which are what passes a net, and no more than {:.0} % may be lost (give flow.grain_sizes.curve from d10)",
+            "nothing is said of the finest {:.0} % of the flow, which are what passes a net, and no more than {:.0} % may be lost (give flow.grain_sizes.curve from its fine end, as d5 or d1)",
             100.0 * flow.known_from,
             100.0 * allowed
         )));
@@ -142,7 +138,8 @@ mod tests {
             verdict(|design| (design.flow.known_from, design.limits.retained_mass) = (from, least), 0.999)
         };
         assert_eq!(known(0.1, 0.9), CheckVerdict::Pass);
-        assert_eq!(known(0.1, 0.98), CheckVerdict::Pass);
+        assert_eq!(known(0.1, 0.98), CheckVerdict::Open);
+        assert_eq!(known(0.01, 0.98), CheckVerdict::Pass);
         assert_eq!(known(0.12, 0.9), CheckVerdict::Open);
         assert_eq!(known(0.3, 0.7), CheckVerdict::Pass);
         assert_eq!(known(0.32, 0.7), CheckVerdict::Open);

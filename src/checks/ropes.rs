@@ -1,8 +1,9 @@
 //! Tension of main, net and lateral ropes against their design resistance.
 
-use crate::checks::outcome::{CheckName, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Opening, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Rope};
+use crate::quantities::quantity::Unit;
 use crate::quantities::{other_ropes, rope_tension};
 use crate::sources::ROPE_FACTOR;
 
@@ -31,10 +32,93 @@ pub fn check_lateral(design: &Design, demands: &Demands) -> Vec<Outcome> {
 }
 
 fn check(design: &Design, rope: &Rope, name: CheckName, demand: Demand) -> Outcome {
-    Outcome::at_most(name, demand, resistance(design, rope), design.limits.rope_utilisation)
+    let mut outcome = Outcome::at_most(name, demand, resistance(design, rope), design.limits.rope_utilisation);
+    leave_open_what_is_not_known(design, rope, &mut outcome);
+    outcome
 }
 
-/// What a rope holds at its ends.
+/// What a rope holds: at its ends, or what it can bear without drawing out, if that is less.
 pub fn resistance(design: &Design, rope: &Rope) -> Resistance {
-    Resistance { characteristic: rope.breaking_load * design.factors.rope_end, factor: design.factors.rope }
+    let ends = Resistance { characteristic: rope.breaking_load * design.factors.rope_end, factor: design.factors.rope };
+    match rope.elastic_limit {
+        Some(limit) if limit < ends.characteristic / ends.factor => Resistance { characteristic: limit, factor: 1.0 },
+        _ => ends,
+    }
+}
+
+/// Share of the elastic limit from which a simulated tension counts as cut off by it.
+const CUT_OFF: f64 = 0.999;
+
+/// Share of the breaking load that ferrules and grips hold at the least (EN 13411-3 and -5, from memory: 0.8 to 0.9).
+const WEAKEST_END: f64 = 0.8;
+
+/// Leaves a check open where the rope would draw out, as far as nobody knows, and where it holds only with ends that nobody has described.
+pub fn leave_open_what_is_not_known(design: &Design, rope: &Rope, outcome: &mut Outcome) {
+    let Some((largest, capacity)) = outcome.demand.largest().zip(outcome.capacity) else { return };
+    let breaks = rope.breaking_load * design.factors.rope_end / design.factors.rope;
+    if rope.elastic_limit.is_some_and(|limit| limit < breaks && largest >= CUT_OFF * limit) && largest <= breaks {
+        outcome.leave_open(Opening::NotGiven(
+            "the rope would be pulled to its elastic limit and draw out, and how far it may the design does not say (give a stronger rope; without elastic_limit its breaking load decides)".into(),
+        ));
+    } else if outcome.holds() && !design.factors.rope_end_given && largest > WEAKEST_END * capacity {
+        outcome.leave_open(Opening::NotGiven(format!(
+            "it holds with ends that hold the whole breaking load, as sockets do, but not with ferrules or grips that hold {:.0} % of it (give factors.rope_end)",
+            100.0 * WEAKEST_END
+        )));
+    }
+}
+
+/// A dissipator at work pulls the end of its rope with its plateau, overstrength included, whatever the design flow shows.
+pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
+    let Some(dissipators) = net.dissipators else { return Vec::new() };
+    let own = Demand { guideline: Some(design.factors.overstrength * dissipators.plateau), ..Demand::default() };
+    let name = CheckName::new(
+        "rope_plateau",
+        "Main ropes against the plateau of their dissipators",
+        Unit::Newton,
+        ROPE_FACTOR,
+    );
+    vec![check(design, &net.main_ropes.rope, name, own).whatever_the_pressures()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::outcome::CheckVerdict;
+    use crate::design::read::read_design;
+
+    /// Main ropes of 337 kN by 1.5: 224.7 kN; at the ends 0.8 of that where nobody says what they hold. The dissipators pull with 150 kN.
+    #[test]
+    fn a_rope_is_held_against_what_is_known_of_it() {
+        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
+        let verdict = |limit: Option<f64>, given: bool, tension: f64| {
+            let mut design = design.clone();
+            design.factors.rope_end_given = given;
+            let rope = Rope { elastic_limit: limit, ..net.main_ropes.rope };
+            let demand = Demand { guideline: Some(tension), ..Demand::default() };
+            check(&design, &rope, CheckName::new("x", "x", Unit::Newton, "x"), demand).verdict
+        };
+        let holds = 337e3 * design.factors.rope_end / design.factors.rope * design.limits.rope_utilisation;
+        assert_eq!(verdict(None, true, 0.85 * holds), CheckVerdict::Pass);
+        assert_eq!(verdict(None, false, 0.85 * holds), CheckVerdict::Open);
+        assert_eq!(verdict(None, false, 0.79 * holds), CheckVerdict::Pass);
+        assert_eq!(verdict(None, false, 1.01 * holds), CheckVerdict::Fail);
+        assert_eq!(verdict(Some(90e3), true, 80e3), CheckVerdict::Pass);
+        assert_eq!(verdict(Some(90e3), true, 89.95e3), CheckVerdict::Open);
+        assert_eq!(verdict(Some(90e3), true, 150e3), CheckVerdict::Open);
+        assert_eq!(verdict(Some(90e3), true, 1.01 * holds), CheckVerdict::Fail);
+        assert_eq!(verdict(Some(90e3), true, f64::NAN), CheckVerdict::Fail);
+    }
+
+    #[test]
+    fn main_ropes_hold_the_plateau_of_their_dissipators() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let verdict = |design: &Design| check_plateau(design, &Demands::default())[0].verdict;
+        assert_eq!(verdict(&design), CheckVerdict::Pass);
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.dissipators.as_mut().expect("dissipators").plateau = 300e3;
+        assert_eq!(verdict(&design), CheckVerdict::Fail);
+    }
 }

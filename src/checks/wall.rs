@@ -1,11 +1,12 @@
 //! A wall that stands by its weight: sliding along its base, overturning about the downstream edge, pressure under the base. Per metre of
 //! width.
 
-use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance, Route, UnderAWall};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Stability};
 use crate::guideline::{input, wall_of};
 use crate::larger::larger;
+use crate::loads::wall::WallInput;
 use crate::quantities::quantity::Unit;
 use crate::quantities::wall as quantity;
 use crate::sources::WALL_BALANCE;
@@ -50,12 +51,16 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         ..Demand::default()
     };
     let press = demands.one(&quantity::PRESS);
-    let bears = |tips: Option<f64>, press: Option<f64>| {
-        Some(input.pressure(0.5 * input.base_width - (holds_up - tips?) / normal, press?))
+    let under_it = UnderAWall {
+        wall: input,
+        // What presses on the ground is unfavourable there.
+        weight_factor: design.factors.load,
+        guideline: tips.zip(press.guideline).map(|(moment, load)| [moment, load * input.press_share()]),
+        simulation: moment.simulation.zip(press.simulation).map(|(moment, press)| [moment, press]),
     };
     let bearing = Demand {
-        guideline: bears(tipped.guideline, press.guideline.map(|load| load * input.press_share())),
-        simulation: bears(tipped.simulation, press.simulation),
+        guideline: under_it.pressure(Route::Guideline, 1.0),
+        simulation: under_it.pressure(Route::Simulation, 1.0),
         ..Demand::default()
     };
     let under = CheckName::new(
@@ -67,19 +72,37 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let held = |name: CheckName, demand: Demand, characteristic: f64, factor: f64| {
         Outcome::at_most(name, demand, Resistance { characteristic, factor }, 1.0)
     };
-    let on_the_base = |outcome: Outcome| Outcome { kind: Kind::OnTheBase, ..outcome };
+    let pressure = match stability.bearing_resistance {
+        Some(characteristic) => held(under, bearing, characteristic, stability.bearing_factor),
+        None => Outcome::without_resistance(under, bearing, "barrier.rigid_wall.stability.bearing_resistance"),
+    };
+    let without_the_flow = 0.5 * input.base_width - (holds_up - tilt) / normal;
+    let but_for = |fixed: f64, outcome: Outcome| Outcome { growth: Growth::InProportion { fixed }, ..outcome };
+    let off_the_middle = but_for(without_the_flow, held(eccentricity, off, input.base_width / 3.0, 1.0));
     let mut outcomes = vec![
-        on_the_base(match stability.bearing_resistance {
-            Some(characteristic) => held(under, bearing, characteristic, stability.bearing_factor),
-            None => Outcome::without_resistance(under, bearing, "barrier.rigid_wall.stability.bearing_resistance"),
-        }),
-        on_the_base(held(eccentricity, off, input.base_width / 3.0, 1.0)),
-        Outcome { fixed: pull, ..held(sliding, with_own(force, slides, pull), holds_back, stability.sliding_factor) },
-        Outcome { fixed: tilt, ..held(overturning, tipped, holds_up, stability.overturning_factor) },
+        Outcome { kind: Kind::OnTheBase, growth: Growth::UnderAWall(under_it), ..pressure },
+        Outcome { kind: Kind::OnTheBase, ..off_the_middle },
+        but_for(pull, held(sliding, with_own(force, slides, pull), holds_back, stability.sliding_factor)),
+        but_for(tilt, held(overturning, tipped, holds_up, stability.overturning_factor)),
     ];
     leave_open_untold(&stability, &mut outcomes);
+    leave_open_where_the_base_gapes(&input, off, &mut outcomes);
     leave_open_below_water(design, &stability, &mut outcomes);
     outcomes
+}
+
+/// Where the resultant leaves the middle third of the base, the joint under the upstream edge opens, and water fills it with its full head:
+/// more uplift than falls evenly from one edge to the other.
+fn leave_open_where_the_base_gapes(wall: &WallInput, off_centre: Demand, outcomes: &mut [Outcome]) {
+    let gapes = off_centre.largest().is_some_and(|eccentricity| eccentricity > wall.base_width / 6.0);
+    if !gapes || wall.water_head <= 0.0 {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        outcome.leave_open(Opening::NotGiven(
+            "the joint under the wall opens at its upstream edge (the resultant lies outside the middle third of the base), and water stands in it with its full head, not with one that falls evenly (drain the base, or widen it)".into(),
+        ));
+    }
 }
 
 /// Water that stands higher than what fills the barrier pushes the wall above it as well, and no load case has that.

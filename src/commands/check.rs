@@ -54,7 +54,7 @@ pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Dura
     let Options { starts, vary, vtk, .. } = options;
     let source = folder.source().map(str::to_string);
     let request = Request { name: file.name.clone(), design: file.text.clone(), source, starts, vary, vtk };
-    let store = open_store(&place, request, &file, keep_every, true);
+    let store = open_store(&place, request, &file, keep_every, true).watched(folder.watch());
     if let Ok(kept) = CheckpointStore::request_in(store.folder()) {
         if !store.is_of_the_same_file_as(&kept) {
             terminal::warn(format_args!(
@@ -123,7 +123,7 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
         return ExitCode::Undecided;
     }
     let Request { starts, vary, vtk, .. } = request;
-    let store = open_store(folder, request, &file, keep_every, false);
+    let store = open_store(folder, request, &file, keep_every, false).watched(claimed.watch());
     run_kept(file, claimed, Options { threads, starts, vary, vtk }, &store)
 }
 
@@ -285,7 +285,8 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 
 /// The same for a purpose.
 fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
-    let name = path.display().to_string();
+    // A line break in the name would begin a line that the program seems to say.
+    let name = path.display().to_string().replace(['\n', '\r'], "\u{fffd}");
     match input::read(path, LONGEST_TEXT, b"") {
         Ok(bytes) => read_design_for(purpose, &name, &bytes),
         Err(error) => {

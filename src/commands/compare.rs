@@ -42,9 +42,8 @@ pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
         return ExitCode::Undecided;
     }
     let claimed = Folder::claim_for(out, Kind::Comparison).and_then(|page| {
-        let inner = |((name, source), path): ((&String, &Source), &PathBuf)| {
-            page.claim_inner(name, source.design_file(path), source.kind())
-        };
+        let inner =
+            |((name, source), path): ((&String, &Source), &PathBuf)| page.claim_inner(name, Some(path), source.kind());
         let reports = names.iter().zip(&sources).zip(paths).map(inner).collect::<Result<Vec<_>, _>>()?;
         Ok((page, reports))
     });
@@ -112,11 +111,6 @@ impl Source {
             Self::Design(file) => &file.name,
             Self::Recorded(run) => &run.file.name,
         }
-    }
-
-    /// The design file at this path, if that is what it comes from.
-    fn design_file<'a>(&self, path: &'a Path) -> Option<&'a Path> {
-        matches!(self, Self::Design(_)).then_some(path)
     }
 
     fn kind(&self) -> Kind {

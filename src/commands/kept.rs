@@ -49,6 +49,8 @@ impl KeptResults {
     pub fn put<T: Serialize>(&self, of: &[&[u8]], result: &T) -> io::Result<()> {
         let body = postcard::to_stdvec(result).map_err(io::Error::other)?;
         let place = self.place(of);
+        // Somebody may have removed it in the meantime.
+        std::fs::create_dir_all(&self.folder)?;
         // First beside it, so that nobody reads half a result.
         let half = place.with_extension("tmp");
         create(&half, &seal(NAME, FORMAT, &body))

@@ -128,17 +128,19 @@ impl Document {
         }
     }
 
-    /// The value at `path` as it stands in the file, where it is a plain scalar on one line: what is to be a text is not to be rewritten
-    /// because it looks like a number.
-    pub fn plain(&self, path: &str) -> Option<&str> {
+    /// The value at `path` as it stands in the file, where it is a plain scalar on one line that reads as `typed`: what is to be a text is
+    /// not to be rewritten because it looks like a number. Nothing where it stands otherwise, as behind an anchor or a tag.
+    pub fn plain(&self, path: &str, typed: &str) -> Option<&str> {
         let Position { line, column } = self.position(path)?;
         let line = self.text.lines().nth(line.checked_sub(1)?)?;
-        let (start, first) = line.char_indices().nth(column.checked_sub(1)?)?;
-        let in_brackets = line[..start].contains(['{', '[']);
+        let (start, _) = line.char_indices().nth(column.checked_sub(1)?)?;
         let value = &line[start..];
-        let end = value.find(" #").unwrap_or(value.len());
-        let end = value.find(|letter| in_brackets && ",]}".contains(letter)).map_or(end, |bracket| bracket.min(end));
-        (!"\"'&*!|>".contains(first)).then(|| value[..end].trim())
+        let comment = value.find(" #").into_iter().chain(value.find("\t#")).min();
+        let value = value[..comment.unwrap_or(value.len())].trim();
+        // Between brackets the value ends before what follows it there.
+        let before_mark = value.find([',', ']', '}']).map(|end| value[..end].trim());
+        let bare = |plain: &&str| !plain.starts_with(['&', '*', '!']) && reads_as(plain, typed);
+        std::iter::once(value).chain(before_mark).find(bare)
     }
 
     /// Position of the value at `path`, a dotted path with list indices as numbers.
@@ -157,6 +159,16 @@ impl Document {
         let located = Locate { steps: &steps, again }.deserialize(serde_yaml::Deserializer::from_str(&self.text));
         let location = located.err()?.location()?;
         Some(Position { line: location.line(), column: location.column() })
+    }
+}
+
+/// Whether a scalar, read alone, is what was read in its place.
+fn reads_as(plain: &str, typed: &str) -> bool {
+    BUDGET.set(MOST_VALUES);
+    match NodeSeed.deserialize(serde_yaml::Deserializer::from_str(plain)) {
+        Ok(Node::Number(number)) => number.to_string() == typed,
+        Ok(Node::Flag(flag)) => flag.to_string() == typed,
+        _ => false,
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::design::document::Node;
 use crate::design::grain_multiple;
 use crate::design::key::{Key, Kind, Need, names};
-use crate::problem::{Problem, nearest};
+use crate::problem::{MOST_PROBLEMS, Problem, nearest};
 use crate::units::{self, Dimension, separators};
 
 /// What a design is read for.
@@ -61,6 +61,8 @@ pub struct Entries {
     pub order: Vec<String>,
     /// Paths typed in the file, right or wrong.
     mentioned: Vec<String>,
+    /// Paths of texts that the parser took for a number or a truth value, and may have rewritten.
+    pub rewritten: Vec<String>,
 }
 
 impl Entries {
@@ -169,6 +171,9 @@ impl Reader<'_> {
 
     fn report_unknown(&mut self, map: &[(String, Node)], keys: &'static [Key], path: &str) {
         for (index, (name, _)) in map.iter().enumerate() {
+            if self.problems.len() > MOST_PROBLEMS {
+                return;
+            }
             let here = join(path, name);
             if map[..index].iter().any(|(earlier, _)| earlier == name) {
                 self.problems
@@ -220,6 +225,9 @@ impl Reader<'_> {
         match understand(node, &key.kind) {
             Ok(value) => {
                 let entry = Entry { value, typed: typed(node), origin, meaning: key.meaning, remark: String::new() };
+                if matches!((&entry.value, node), (Value::Text(_), Node::Number(_) | Node::Flag(_))) {
+                    self.entries.rewritten.push(path.to_string());
+                }
                 self.entries.order.push(path.to_string());
                 self.entries.values.insert(path.to_string(), entry);
             }

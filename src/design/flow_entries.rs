@@ -1,6 +1,7 @@
 //! What the entries of a design say of its flow: volume, grain sizes, how many grains that makes, and how it is cut.
 
 use crate::design::entries::Entries;
+use crate::design::schema::QUANTILES;
 use crate::design::sizes::SizeCurve;
 
 /// Volume of the flow with pores, from whichever of mass and volume was given.
@@ -10,9 +11,8 @@ pub fn flow_volume(entries: &Entries) -> Option<f64> {
 
 /// (share of the mass, diameter) of the quantiles that were typed.
 pub fn quantiles(e: &Entries) -> Vec<(f64, f64)> {
-    (1..=9)
-        .filter_map(|tenth| Some((f64::from(tenth) / 10.0, e.number(&format!("flow.grain_sizes.curve.d{tenth}0"))?)))
-        .collect()
+    let typed = |(key, share): &(&str, f64)| Some((*share, e.number(&format!("flow.grain_sizes.curve.{key}"))?));
+    QUANTILES.iter().filter_map(typed).collect()
 }
 
 /// The size curve of the design, ends included, if it is sound.

@@ -355,6 +355,8 @@ pub struct Factors {
     pub anchor: f64,
     /// Share of a rope's breaking load that its ends hold.
     pub rope_end: f64,
+    /// Whether the design says so, or it was taken.
+    pub rope_end_given: bool,
     /// Largest force of a dissipator that yields, over its plateau: what ropes and anchors must bear.
     pub overstrength: f64,
     /// Whether the overstrength is the designer's; else it is the factor on loads.

@@ -8,7 +8,7 @@ use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
 use crate::design::rules::{GRAIN_RULES, RULES};
 use crate::design::schema::DESIGN;
-use crate::problem::{Problem, Problems, harmless};
+use crate::problem::{MOST_PROBLEMS, Problem, Problems, harmless};
 
 /// A design with the words it was read from.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
     let mut problems = Vec::new();
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
     take_remarks(&mut entries, &document, bytes);
-    keep_texts_as_typed(&mut entries, &document);
+    problems.extend(keep_texts_as_typed(&mut entries, &document));
     make_harmless(&mut entries);
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
@@ -52,6 +52,8 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
         }
         problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
     }
+    let more = problems.len().saturating_sub(MOST_PROBLEMS);
+    problems.truncate(MOST_PROBLEMS);
     for problem in &mut problems {
         problem.position = problem.position.or_else(|| match problem.again {
             true => document.position_again(&problem.path),
@@ -59,29 +61,48 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
         });
     }
     problems.sort_by_key(|problem| problem.position);
+    if more > 0 {
+        problems.push(
+            Problem::new("", format!("more than {MOST_PROBLEMS} problems"), "a design")
+                .hint("mend these first: the rest is told then"),
+        );
+    }
     Err(refuse(problems))
 }
 
-/// Hands every value the comment that stands on its line.
+/// Hands every value the comment that stands on its line. A value that stands in several places of the design, by an alias or a merge, stands
+/// on one line of the file, whose comment need not be of all of them.
 fn take_remarks(entries: &mut Entries, document: &Document, bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let lines: Vec<&str> = text.lines().collect();
-    for (path, entry) in entries.values.iter_mut().filter(|(_, entry)| entry.origin == Origin::File) {
-        let line = document.position(path).and_then(|position| lines.get(position.line.checked_sub(1)?).copied());
-        entry.remark = line.and_then(comment).unwrap_or_default().to_string();
+    let from_file = entries.values.iter().filter(|(_, entry)| entry.origin == Origin::File);
+    let places: Vec<_> = from_file.filter_map(|(path, _)| Some((path.clone(), document.position(path)?))).collect();
+    for (path, place) in &places {
+        let shared = places.iter().any(|(other, there)| other != path && there == place);
+        let line = lines.get(place.line.saturating_sub(1)).filter(|_| !shared);
+        if let (Some(entry), Some(remark)) = (entries.values.get_mut(path), line.and_then(|line| comment(line)))
+            && entry.remark.is_empty()
+        {
+            entry.remark = remark.to_string();
+        }
     }
 }
 
-/// A text that the parser takes for a number, a truth value or nothing is what stands in the file: revision 1.10 is not 1.1.
-fn keep_texts_as_typed(entries: &mut Entries, document: &Document) {
-    for (path, entry) in entries.values.iter_mut().filter(|(_, entry)| entry.origin == Origin::File) {
-        let Value::Text(text) = &mut entry.value else { continue };
-        let rewritten = text.parse::<f64>().is_ok() || text.parse::<bool>().is_ok();
-        if let Some(plain) = document.plain(path).filter(|plain| rewritten && !plain.is_empty()) {
-            *text = plain.to_string();
-            entry.typed = plain.to_string();
+/// A text that the parser takes for a number or a truth value is what stands in the file: revision 1.10 is not 1.1. Where that cannot be told
+/// it is refused.
+fn keep_texts_as_typed(entries: &mut Entries, document: &Document) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for path in std::mem::take(&mut entries.rewritten) {
+        let Some(entry) = entries.values.get_mut(&path).filter(|entry| entry.origin == Origin::File) else { continue };
+        if let Some(plain) = document.plain(&path, &entry.typed) {
+            (entry.value, entry.typed) = (Value::Text(plain.to_string()), plain.to_string());
+            continue;
         }
+        let found = format!("a text that looks like a number or a truth value, read as `{}`", entry.typed);
+        let hint = "put it between quotation marks, so that it stays as it is written";
+        problems.push(Problem::new(path, found, "a text").hint(hint));
     }
+    problems
 }
 
 /// No text of the design steers what shows it, terminal or page.
@@ -149,6 +170,59 @@ mod tests {
             let in_brackets = format!("project: {{name: x, revision: {typed}, barrier: y}} # z\nchannel:{rest}");
             assert_eq!(read_design("x", in_brackets.as_bytes()).unwrap().design.project.revision, typed);
         }
+    }
+
+    /// In a group over several lines, with a tab before the comment; and refused where it cannot be told, never rewritten.
+    #[test]
+    fn a_text_that_cannot_be_kept_as_typed_is_refused() {
+        let text = include_str!("../../designs/small_net.yaml");
+        let (_, rest) = text.split_once("\nchannel:").unwrap();
+        let with = |project: &str| read_design("x", format!("{project}\nchannel:{rest}").as_bytes());
+        for project in [
+            "project: {name: x,\n  revision: 1.10, barrier: y}",
+            "project: {name: x,\n  barrier: y, revision: 1.10}",
+            "project: {\n  name: x,\n  revision: 1.10,\n  barrier: y\n  }",
+            "project:\n  name: x\n  barrier: y\n  revision: 1.10\t# as built",
+            "project:\n  <<: {revision: \"1.10\"}\n  name: x\n  barrier: y",
+        ] {
+            let file = with(project).unwrap_or_else(|problems| panic!("{project}\n{problems}"));
+            assert_eq!(file.design.project.revision, "1.10", "{project}");
+        }
+        for project in [
+            "project:\n  name: x\n  <<: {revision: 1.10}\n  barrier: y",
+            "project:\n  name: x\n  barrier: y\n  revision: &a 1.10",
+            "project:\n  name: x\n  barrier: y\n  revision: !!float 1.10",
+        ] {
+            let problems = with(project).expect_err("refused").to_string();
+            assert!(problems.contains("put it between quotation marks"), "{project}: {problems}");
+        }
+    }
+
+    /// The comment of a line is no remark on what an alias takes from it.
+    #[test]
+    fn a_remark_is_of_what_stands_on_its_line_alone() {
+        let text = include_str!("../../designs/small_net.yaml");
+        let remark = |text: &str, path: &str| {
+            let file = read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}"));
+            file.entries.values[path].remark.clone()
+        };
+        let path = "barrier.flexible_net.lateral_ropes.modulus";
+        let own = text.replacen("      modulus: 40 GPa\n", "      modulus: &m 40 GPa  # rope test report 17\n", 1);
+        assert_eq!(remark(&own, "barrier.flexible_net.main_ropes.modulus"), "rope test report 17");
+        let (before, after) = own.split_once("    lateral_ropes:").unwrap();
+        let aliased =
+            format!("{before}    lateral_ropes:{}", after.replacen("modulus: 40 GPa", "modulus: *m  # assumed", 1));
+        assert_eq!(remark(&aliased, path), "");
+    }
+
+    #[test]
+    fn of_many_problems_some_dozens_are_told_soon() {
+        let text = include_str!("../../designs/small_net.yaml");
+        let unknown: String = (0..4000).map(|number| format!("k{number}: 1\n")).collect();
+        let started = std::time::Instant::now();
+        let problems = read_design("x", format!("{text}{unknown}").as_bytes()).expect_err("problems");
+        assert_eq!(problems.list.len(), MOST_PROBLEMS + 1);
+        assert!(started.elapsed().as_secs_f64() < 5.0);
     }
 
     #[test]

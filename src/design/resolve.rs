@@ -252,6 +252,7 @@ fn factors(e: &Entries) -> Option<Factors> {
         rope: value("rope")?,
         anchor: value("anchor")?,
         rope_end: value("rope_end")?,
+        rope_end_given: e.given("factors.rope_end"),
         overstrength: overstrength.unwrap_or(load),
         overstrength_given: overstrength.is_some(),
     })

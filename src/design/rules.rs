@@ -128,7 +128,7 @@ fn sizes_have_an_order(e: &Entries) -> Option<Problem> {
 fn curve_has_two_quantiles(e: &Entries) -> Option<Problem> {
     let path = "flow.grain_sizes.curve";
     (e.has_section(path) && quantiles(e).len() < 2)
-        .then(|| Problem::new(path, format!("{} quantile(s)", quantiles(e).len()), "two or more of d10 … d90"))
+        .then(|| Problem::new(path, format!("{} quantile(s)", quantiles(e).len()), "two or more of d1 … d100"))
 }
 
 fn curve_increases(e: &Entries) -> Option<Problem> {

@@ -81,22 +81,69 @@ const FLOW: &[Key] = &[
 
 const GRAIN_SIZES: &[Key] = &[
     Key::optional("uniform", Kind::Section(UNIFORM), "uniform in number between two diameters"),
-    Key::optional("curve", Kind::Section(CURVE), "quantiles of the grain-size curve by mass, two or more"),
+    Key::optional(
+        "curve",
+        Kind::Section(CURVE),
+        "quantiles of the grain-size curve by mass, two or more, from d1 to d100",
+    ),
 ];
 
 const UNIFORM: &[Key] =
     &[Key::required("min", GRAIN, "smallest diameter"), Key::required("max", GRAIN, "largest diameter")];
 
 const CURVE: &[Key] = &[
+    Key::optional("d1", GRAIN, "1 % of the mass is finer"),
+    Key::optional("d5", GRAIN, "5 % of the mass is finer"),
     Key::optional("d10", GRAIN, "10 % of the mass is finer"),
+    Key::optional("d15", GRAIN, "15 % of the mass is finer"),
+    Key::optional("d16", GRAIN, "16 % of the mass is finer"),
     Key::optional("d20", GRAIN, "20 % of the mass is finer"),
+    Key::optional("d25", GRAIN, "25 % of the mass is finer"),
     Key::optional("d30", GRAIN, "30 % of the mass is finer"),
+    Key::optional("d35", GRAIN, "35 % of the mass is finer"),
     Key::optional("d40", GRAIN, "40 % of the mass is finer"),
+    Key::optional("d45", GRAIN, "45 % of the mass is finer"),
     Key::optional("d50", GRAIN, "50 % of the mass is finer"),
+    Key::optional("d55", GRAIN, "55 % of the mass is finer"),
     Key::optional("d60", GRAIN, "60 % of the mass is finer"),
+    Key::optional("d65", GRAIN, "65 % of the mass is finer"),
     Key::optional("d70", GRAIN, "70 % of the mass is finer"),
+    Key::optional("d75", GRAIN, "75 % of the mass is finer"),
     Key::optional("d80", GRAIN, "80 % of the mass is finer"),
+    Key::optional("d84", GRAIN, "84 % of the mass is finer"),
+    Key::optional("d85", GRAIN, "85 % of the mass is finer"),
     Key::optional("d90", GRAIN, "90 % of the mass is finer"),
+    Key::optional("d95", GRAIN, "95 % of the mass is finer"),
+    Key::optional("d99", GRAIN, "99 % of the mass is finer"),
+    Key::optional("d100", GRAIN, "100 % of the mass is finer"),
+];
+
+/// The keys of the grain-size curve with their shares of the mass, rising.
+pub const QUANTILES: &[(&str, f64)] = &[
+    ("d1", 0.01),
+    ("d5", 0.05),
+    ("d10", 0.1),
+    ("d15", 0.15),
+    ("d16", 0.16),
+    ("d20", 0.2),
+    ("d25", 0.25),
+    ("d30", 0.3),
+    ("d35", 0.35),
+    ("d40", 0.4),
+    ("d45", 0.45),
+    ("d50", 0.5),
+    ("d55", 0.55),
+    ("d60", 0.6),
+    ("d65", 0.65),
+    ("d70", 0.7),
+    ("d75", 0.75),
+    ("d80", 0.8),
+    ("d84", 0.84),
+    ("d85", 0.85),
+    ("d90", 0.9),
+    ("d95", 0.95),
+    ("d99", 0.99),
+    ("d100", 1.0),
 ];
 
 const ARRIVAL: &[Key] = &[

@@ -79,8 +79,8 @@ fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
         }
         _ if said.contains("invalid type: enum") => {
             format!(
-                "a value that begins with `!` is a tag, which no key of a design takes: `{key}: {}`",
-                without_tag(value)
+                "a value that begins with `!` is a tag, which no key of a design takes; a text that does needs quotes: `{key}: {}`",
+                quoted(value)
             )
         }
         _ if said.contains("invalid type: integer") => "no number of a design has so many digits".to_string(),
@@ -131,10 +131,6 @@ fn beyond_its_end(value: &str, pairs: [&str; 2]) -> bool {
         let inside = value.strip_prefix(&pair[..1]);
         inside.and_then(|inside| inside.split_once(&pair[1..])).is_some_and(|(_, behind)| !behind.trim().is_empty())
     })
-}
-
-fn without_tag(value: &str) -> &str {
-    value.split_once(' ').map_or("", |(_, value)| value.trim())
 }
 
 /// What is found and what is allowed: of values that no design has in the words of the reader.
@@ -238,7 +234,7 @@ mod tests {
             ("3 m", "[3, 4] m", 2, "in a list each item has its own unit"),
             ("3 m", "*wide", 2, "nothing was: a text that begins with it needs quotes, `width: \"*wide\"`"),
             ("none", "\"C:\\qed\"", 4, "use single ones, `notes: 'C:\\qed'`"),
-            ("3 m", "!metres 3 m", 2, "which no key of a design takes: `width: 3 m`"),
+            ("none", "!important one", 4, "a text that does needs quotes: `notes: \"!important one\"`"),
             ("3 m", "99999999999999999999999", 2, "so many digits"),
             ("none", "n\u{0}ne", 4, "a character that no text has"),
             ("3 m", "3 m # wide\u{2028}", 2, "retype the blank there"),

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::checks::not_covered::rigid_wall::SIMULATIONS_REACH;
-use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
+use crate::checks::outcome::{CheckVerdict, Opening, Outcome, Route};
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
 use crate::fidelity::{needed_pieces, net_pieces};
 use crate::quantities::quantity::Unit;
@@ -236,16 +236,17 @@ impl Rung {
         let band = if outcome.unit == Unit::Metre { self.band.stroke } else { self.band.force };
         let used_by = |demand: Option<f64>| demand.map(|demand| demand / capacity);
         let (guideline, simulation) = (used_by(outcome.demand.guideline), used_by(outcome.demand.simulation));
+        let under = |route: Route, more: f64| used_by(outcome.demand_under(route, more)).unwrap_or(f64::NAN);
         if guideline.is_some_and(|used| used > 1.0) || capacity <= 0.0 {
             return Answer::Fails;
         }
         // Above its cap a load goes only when a stroke is used up, and strokes are checked too.
         let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap / capacity);
         match (simulation, self.starts) {
-            (Some(used), _) if used / (1.0 + band) > 1.0 => Answer::Fails,
-            (Some(used), _) if (used * (1.0 + band)).min(cap.max(used)) <= 1.0 => Answer::Holds,
+            (Some(_), _) if under(Route::Simulation, 1.0 / (1.0 + band)) > 1.0 => Answer::Fails,
+            (Some(used), _) if under(Route::Simulation, 1.0 + band) <= 1.0 || cap.max(used) <= 1.0 => Answer::Holds,
             // Without a simulation the guideline stands for what one would say.
-            (None, 0) if guideline.is_some_and(|used| used * (1.0 + band) <= 1.0) => Answer::Holds,
+            (None, 0) if under(Route::Guideline, 1.0 + band) <= 1.0 => Answer::Holds,
             // What only the guideline tells is told once and for all.
             (None, 1..) if guideline.is_some() => Answer::Holds,
             _ => Answer::Open,

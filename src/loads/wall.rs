@@ -12,6 +12,8 @@
 //! U = ρ_w g h b/2 at 2 b/3 from the downstream edge: U tan φ and 2 U b/3 come beside the load, and N − U bears. The weight of the flow and
 //! its friction on the wall are left out, which is on the safe side.
 
+use crate::larger::larger;
+
 /// A gravity wall of even thickness, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallInput {
@@ -98,6 +100,17 @@ impl WallInput {
         let bears = if loaded > at_rest { at_rest } else { loaded };
         let load = self.weight() * libm::cos(self.base_slope) + press;
         if bears <= 0.0 { f64::INFINITY } else { load / bears }
+    }
+
+    /// That pressure (Pa) under a moment about the upstream end of the base (N m/m) and a force that presses beside the weight (N/m), with
+    /// the weight as it is or, where that is worse, times a factor. NaN if anything is.
+    pub fn pressure_under(&self, moment: f64, press: f64, weight_factor: f64) -> f64 {
+        let with = |factor: f64| {
+            let wall = Self { density: factor * self.density, ..*self };
+            let [holds, tilt] = wall.overturning();
+            wall.pressure(0.5 * wall.base_width - (holds - tilt - moment) / wall.bears(), press)
+        };
+        larger(with(1.0), with(weight_factor))
     }
 
     /// Demand on sliding of a force on the wall (N/m), along the bed and normal to it, likewise.

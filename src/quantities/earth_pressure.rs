@@ -57,9 +57,20 @@ fn unit_weight(run: &Reading) -> f64 {
     run.guideline.input.density * run.guideline.input.gravity_normal
 }
 
+/// The same of a deposit of any depth. Where that is thin the value is rough, and says only what the equations must not rest on.
+pub const OF_ANY_DEPTH: Quantity =
+    Quantity::new("k_of_any_depth", "K at rest of a deposit of any depth", Number, Of::RunIfKnown, |run| {
+        k_of_deposit(run, 0.0).into_iter().collect()
+    });
+
 fn k_at_rest(run: &Reading) -> Option<f64> {
+    k_of_deposit(run, run.thin())
+}
+
+/// Nothing where the deposit is no deeper than this (m).
+fn k_of_deposit(run: &Reading, thin: f64) -> Option<f64> {
     let depth = run.histories.barrier_depth.last().copied().unwrap_or(0.0);
-    let deep = depth > run.thin();
+    let deep = depth > thin;
     deep.then(|| {
         let along: Vec<f64> = run.histories.force.iter().map(|force| force.x).collect();
         let at_rest = tail_mean(&along, run.samples.tail);

@@ -16,7 +16,7 @@ use dem::recorders::histories::Histories;
 /// Numbers read off the histories of one run, SI.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
-    /// By the id of their quantity, so that one more leaves recordings that were written before as they are.
+    /// By the id of their quantity.
     values: BTreeMap<String, Vec<f64>>,
     /// The smoothed total force, sample by sample (N).
     pub force: Vec<f64>,

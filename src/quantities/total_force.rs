@@ -36,6 +36,13 @@ pub const RESIDUAL: Quantity = Quantity::new("force_total_residual", "Total forc
 pub const PUSH: Quantity =
     Quantity::new("push_peak", "Largest force along the bed", Newton, Of::Run, |run| vec![run.push]);
 
+/// The same over the last stretch of the run.
+pub const PUSH_RESIDUAL: Quantity =
+    Quantity::new("push_residual", "Force along the bed at rest", Newton, Of::Run, |run| {
+        let along: Vec<f64> = run.histories.force.iter().map(|force| force.x).collect();
+        vec![tail_mean(&along, run.samples.tail)]
+    });
+
 /// Normal to the face of a wall, on the metre that takes the most.
 pub const ON_A_METRE: Quantity =
     Quantity::new("wall_local_peak", "Largest force on a metre of the wall", NewtonPerMetre, Of::Run, |run| {

@@ -105,16 +105,18 @@ fn extension_row(seen: &Observed) -> Option<Row> {
 fn at_rest_remark(design: &Design, seen: &Observed) -> String {
     let downhill = seen.one(&mass::RETAINED) * design.flow.mass * GRAVITY * libm::sin(design.channel.slope);
     let springs = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
-    let why = if seen.one(&total_force::RESIDUAL) > downhill && springs {
+    let along = seen.one(&total_force::PUSH_RESIDUAL);
+    let why = if along > downhill && springs {
         "; more, because the barrier has sprung back and presses the deposit up the slope, against the friction of the bed"
-    } else if seen.one(&total_force::RESIDUAL) > downhill {
+    } else if along > downhill {
         "; more, because the flow that was stopped last has pressed the deposit against the wall, and friction on the bed holds it there"
     } else {
         "; the rest is borne by the bed"
     };
     format!(
-        "{}; the component of the held mass's weight along the bed is {}{why}",
+        "{}; of it {} along the bed, where the component of the held mass's weight is {}{why}",
         per_width(seen.one(&total_force::RESIDUAL), design),
+        with_unit(along, "N"),
         with_unit(downhill, "N")
     )
 }

@@ -11,14 +11,17 @@ use std::path::{Path, PathBuf};
 use sha2::Digest;
 
 use crate::checkpoint;
+use crate::lock::{self, Lock, Watch};
 use crate::program::PROGRAM;
 use crate::report::kind::Kind;
-use crate::report::lock::{self, Lock};
 use crate::report::manifest::{self, Manifest, digest_of, hexadecimal, is_plain};
 use crate::report::recording;
 
 /// Bytes of a manifest at the most.
 const LONGEST_MANIFEST: u64 = 16 << 20;
+
+/// Bytes of a file of a report at the most: what is larger is none of the program's.
+const LARGEST: u64 = 4 << 30;
 
 /// Folder of what a study has computed so far, below that of its report.
 pub const KEPT_BY_STUDIES: &str = "kept";
@@ -120,10 +123,9 @@ impl Folder {
         folder.whose()?;
         folder.brought = folder.manifest.files.keys().eq([recording::FILE]);
         let place = source.and_then(|source| place_beside(source, path));
-        if named == Named::ByDefault
-            && let (Some(known), Some(place)) = (&folder.manifest.source, &place)
-            && known != place
-        {
+        // What was brought, or made of what was, has an owner that is not known.
+        let another = folder.manifest.source != place;
+        if named == Named::ByDefault && another && !folder.manifest.files.is_empty() {
             return Err(Refusal::OtherDesign(path.display().to_string()));
         }
         let changed = folder.changed();
@@ -254,6 +256,7 @@ impl Folder {
     /// places and then renamed one by one, `result.json` last, so that a reader who finds that file finds the others complete. What is
     /// not the program's is moved aside; returned is what was moved, and to where.
     pub fn write(&mut self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
+        self.hold_again()?;
         let mut moved = self.clear_the_way(files)?;
         if let Err(error) = self.lay_out(files) {
             files.iter().for_each(|file| drop(fs::remove_file(self.temporary(&file.name))));
@@ -272,6 +275,25 @@ impl Folder {
         self.put_manifest()?;
         moved.extend(placed?);
         Ok(moved)
+    }
+
+    /// Takes the folder anew where it was removed during the run. Where another works in it now, or has left a report, it is that one's.
+    fn hold_again(&mut self) -> io::Result<()> {
+        if self.lock.as_ref().is_some_and(Lock::is_in_place) {
+            return Ok(());
+        }
+        let another = || io::Error::other("the folder was removed during the run, and another run has taken its place");
+        fs::create_dir_all(&self.path)?;
+        self.lock = None;
+        self.lock = Some(Lock::take(&self.path)?.ok_or_else(another)?);
+        let found = fs::read(self.path.join(manifest::FILE)).ok().and_then(|bytes| Manifest::read(&bytes));
+        let of_another = found.is_some_and(|found| found.files != self.manifest.files);
+        if of_another { Err(another()) } else { Ok(()) }
+    }
+
+    /// What tells whether another run has taken the folder since.
+    pub fn watch(&self) -> Option<Watch> {
+        self.lock.as_ref().map(Lock::watch)
     }
 
     /// Makes the folder where it was removed during the run, and moves aside what stands in the place of one below it.
@@ -442,7 +464,7 @@ fn temporary_of(name: &str) -> Option<&str> {
 
 /// SHA-256 of a regular file; nothing of anything else.
 fn digest_in(path: &Path) -> Option<String> {
-    fs::symlink_metadata(path).ok().filter(fs::Metadata::is_file)?;
+    fs::symlink_metadata(path).ok().filter(|found| found.is_file() && found.len() <= LARGEST)?;
     let mut file = File::open(path).ok()?;
     let mut hash = sha2::Sha256::new();
     let mut part = vec![0; 1 << 16];
@@ -460,7 +482,9 @@ fn place_beside(source: &Path, folder: &Path) -> Option<String> {
     let common = source.components().zip(folder.components()).take_while(|(one, other)| one == other).count();
     let down: PathBuf = source.components().skip(common).collect();
     let up = folder.components().count() - common;
-    Some(digest_of(format!("{up} up, then {}", down.display()).as_bytes())[..16].to_string())
+    let mut place = format!("{up} up, then ").into_bytes();
+    place.extend(down.as_os_str().as_encoded_bytes());
+    Some(digest_of(&place)[..16].to_string())
 }
 
 /// A name for the folder or a file of something that goes by `name`, with a number behind it where that is taken.
@@ -579,13 +603,45 @@ mod tests {
         let mut folder = claim(&path).unwrap();
         fs::remove_dir_all(&path).unwrap();
         folder.write(&files(&["report.md", "result.json"])).unwrap();
-        assert_eq!(names(&path), ["manifest.json", "report.md", "result.json"]);
+        assert_eq!(names(&path), [lock::FILE, "manifest.json", "report.md", "result.json"]);
         fs::write(path.join("vtk"), "mine").unwrap();
         let moved = folder.write(&files(&["report.md", "vtk/1.vtu", "result.json"])).unwrap();
         assert_eq!(moved, [["vtk".to_string(), "vtk.1.kept".to_string()]]);
         assert_eq!(fs::read_to_string(path.join("vtk.1.kept")).unwrap(), "mine");
         assert!(path.join("vtk/1.vtu").is_file());
         drop(folder);
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    /// What another run has put into a folder that was removed meanwhile is that one's, done or still at work.
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_another_has_taken_is_left_to_it() {
+        let path = place("taken");
+        let mut first = claim(&path).unwrap();
+        fs::remove_dir_all(&path).unwrap();
+        let mut second = claim(&path).unwrap();
+        assert!(first.write(&files(&["report.md", "result.json"])).is_err());
+        second.write(&files(&["compare.md"])).unwrap();
+        drop(second);
+        assert!(first.write(&files(&["report.md", "result.json"])).is_err());
+        drop(first);
+        assert_eq!(names(&path), ["compare.md", "manifest.json"]);
+        fs::remove_dir_all(path).unwrap();
+    }
+
+    /// A folder that the program names after a design is not that of a recording which was brought there.
+    #[test]
+    fn what_was_brought_has_another_owner() {
+        let path = place("brought");
+        let mut brought = claim(&path).unwrap();
+        brought.write(&files(&["report.md", "result.json"])).unwrap();
+        drop(brought);
+        let design = path.with_extension("yaml");
+        fs::write(&design, "x").unwrap();
+        assert!(matches!(Folder::claim(&path, Some(&design), Named::ByDefault), Err(Refusal::OtherDesign(_))));
+        assert!(Folder::claim(&path, Some(&design), Named::Explicitly).is_ok());
+        fs::remove_file(design).unwrap();
         fs::remove_dir_all(path).unwrap();
     }
 

@@ -6,7 +6,6 @@ pub(crate) mod folder;
 pub mod json;
 pub(crate) mod kind;
 pub(crate) mod loads;
-pub(crate) mod lock;
 pub(crate) mod manifest;
 pub(crate) mod measured;
 pub(crate) mod numbers;

@@ -18,7 +18,7 @@ use crate::simulated::Simulated;
 pub const FILE: &str = "recording.bin";
 
 pub const NAME: &[u8; 8] = b"BARRCHK\n";
-/// Changes whenever anything that is recorded changes.
+/// Changes whenever what is recorded beside quantities and channels changes, which are known by their names.
 pub const FORMAT: u32 = 10;
 
 /// Why a recording cannot be read.
@@ -30,6 +30,10 @@ pub enum RecordingError {
     Format(u32),
     #[error("a damaged recording: its checksum is wrong. Run the design again")]
     Damaged,
+    #[error(
+        "a recording that lacks what this program measures, made by another version of it or changed since: run the design again"
+    )]
+    Incomplete,
     #[error("a recording of a design that this program refuses:\n{0}")]
     Design(Problems),
 }
@@ -76,7 +80,7 @@ pub fn decode(bytes: &[u8]) -> Result<Run, RecordingError> {
         None => choose(&file.design),
     };
     if recording.simulated.as_ref().is_some_and(|seen| !seen.fits(&file.design)) {
-        return Err(RecordingError::Damaged);
+        return Err(RecordingError::Incomplete);
     }
     let simulated = recording.simulated.map(|seen| Simulated { fidelity, ..seen });
     Ok(restore(file, simulated, recording.varied, recording.climb))

@@ -270,7 +270,7 @@ pub fn summary(run: &Run) -> String {
         Verdict::Pass => {
             let one = match &run.simulated {
                 Some(simulated) if simulated.starts.len() == 1 && run.climb.is_empty() => {
-                    "; one packing, whose scatter the margins cover"
+                    "; by one packing, with margins for the scatter of others"
                 }
                 _ => "",
             };
@@ -456,7 +456,7 @@ fn derived_rows(run: &Run) -> Vec<Row> {
         row("Number of grains", told(grains.is_finite(), format!("{grains:.0}")), "of the whole flow, about".into()),
         row(
             "Unit weight normal to the bed ρ g'",
-            format!("{} kN/m³", figures(run.guideline.input.unit_pressure() * 1e-3)),
+            format!("{} kN/m³", figures(run.guideline.input.density * run.guideline.input.gravity_normal * 1e-3)),
             "g' = g cos α".into(),
         ),
     ];

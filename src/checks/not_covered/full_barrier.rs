@@ -2,16 +2,15 @@
 //! tell how much more presses on it than the simulation shows. What would not hold that much more stays open, and so does what would hold
 //! it by less than the simulation may be off.
 
+use super::harder_flow::largest_force;
 use super::known::{FirstSurge, Known};
-use crate::checks::bolts::tension_under_more;
-use crate::checks::outcome::{Kind, Opening, Outcome};
-use crate::design::{BarrierDesign, Design};
+use crate::checks::outcome::{Kind, Opening, Outcome, Route};
 use crate::larger::larger;
 use crate::quantities::quantity::Unit;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
-    let more = known.guideline.largest_force / seen.push;
+    let more = largest_force(known.design, known.guideline, &seen) / seen.push;
     // What stands higher has a longer lever as well.
     let more_moment = larger(more, known.guideline.face_moment / seen.moment);
     let (when, instead) = match known.design.loads.to_the_top {
@@ -23,7 +22,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         if more <= 1.0 {
             continue;
         }
-        let Some([used, may_be]) = used_under_more(known.design, outcome, more, seen) else { continue };
+        let Some([used, may_be]) = used_under_more(outcome, more, seen) else { continue };
         let full = if seen.push > 0.0 {
             format!(
                 "the simulation is of the first surge, and by the equations {more:.1} times as much presses on {when}"
@@ -48,7 +47,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 
 /// Utilisation by the simulation with `more` times the load, as simulated and with the largest error that the simulation may have;
 /// nothing where that says nothing.
-pub fn used_under_more(design: &Design, outcome: &Outcome, more: f64, seen: FirstSurge) -> Option<[f64; 2]> {
+pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option<[f64; 2]> {
     let (demand, capacity) = (outcome.demand.simulation?, outcome.capacity?);
     match outcome.kind {
         // The share held has its own rule: what a full barrier does not hold is not asked for.
@@ -58,8 +57,6 @@ pub fn used_under_more(design: &Design, outcome: &Outcome, more: f64, seen: Firs
             let lost = |band: f64| more * (1.0 - demand + band) / (1.0 - capacity).max(1e-9);
             return Some([lost(0.0), lost(seen.share_band)]);
         }
-        // The equations tell it for the full barrier, from the weight of the wall and the load together.
-        Kind::OnTheBase if outcome.governed_by_equations() => return None,
         Kind::Any | Kind::WallStrength | Kind::Bolts | Kind::BetweenBolts | Kind::OnTheBase => {}
     }
     // The equations spread the load evenly over the bolts, so theirs is no measure of the worst one.
@@ -67,13 +64,7 @@ pub fn used_under_more(design: &Design, outcome: &Outcome, more: f64, seen: Firs
     let known = outcome.governed_by_equations() && !of_bolts;
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
-        let more = more * (1.0 + band);
-        let full = match &design.barrier {
-            BarrierDesign::FlexibleNet(net) if outcome.kind == Kind::BetweenBolts => {
-                tension_under_more(demand, more, net.main_ropes.rope.axial_stiffness())
-            }
-            _ => outcome.fixed + (demand - outcome.fixed) * more,
-        };
+        let full = outcome.demand_under(Route::Simulation, more * (1.0 + band)).unwrap_or(f64::NAN);
         // Asked so that what is not a number stays so.
         (if full > cap { cap } else { full }) / capacity
     };
@@ -226,20 +217,19 @@ mod tests {
     /// equations where they tell more.
     #[test]
     fn what_is_there_without_the_flow_does_not_grow_with_it() {
-        use crate::checks::outcome::{CheckName, Resistance};
+        use crate::checks::outcome::{CheckName, Growth, Resistance};
         use crate::demand::Demand;
-        let design = small_net();
         let used = |fixed: f64, kind: Kind, guideline: f64| {
             let demand = Demand { guideline: Some(guideline), simulation: Some(0.5), ..Demand::default() };
             let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
             let outcome =
                 Outcome::at_most(CheckName::new("x", "x", Unit::NewtonPerMetre, "x"), demand, resistance, 1.0);
-            let outcome = Outcome { fixed, kind, ..outcome };
-            used_under_more(&design, &outcome, 2.0, FirstSurge::default()).map(|[used, _]| used)
+            let outcome = Outcome { growth: Growth::InProportion { fixed }, kind, ..outcome };
+            used_under_more(&outcome, 2.0, FirstSurge::default()).map(|[used, _]| used)
         };
         assert_eq!(used(0.3, Kind::Any, 0.0), Some(0.7));
         assert_eq!(used(0.0, Kind::Any, 0.0), Some(1.0));
-        assert_eq!(used(0.0, Kind::OnTheBase, 0.6), None);
+        assert_eq!(used(0.0, Kind::OnTheBase, 0.6), Some(1.0));
         assert_eq!(used(0.0, Kind::OnTheBase, 0.4), Some(1.0));
     }
 }

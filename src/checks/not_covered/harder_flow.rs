@@ -1,46 +1,71 @@
-//! What the equations would fail, or would not be known for, with the velocity that the simulated flow arrives with and the K that its
-//! deposit shows at rest, where these are larger than what the equations were given.
+//! What the equations would fail, or would not be known for, with what the simulation shows of the flow where that is more than they were
+//! given: its velocity and depth, the K of its deposit, and the λ with which they push as hard as it does. Surges over a deposit, and the
+//! full barrier, are in the equations alone: with a λ that is too low for the first surge they are too low as well.
 
-use super::known::Known;
+use super::known::{FirstSurge, Known};
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
-use crate::guideline::guideline_for;
+use crate::design::Design;
+use crate::guideline::{Guideline, guideline_for};
 use crate::larger::larger;
 use crate::loads::input::GuidelineInput;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Known { design, guideline, seen: Some(seen) } = known else { return };
+    for harder in inputs(design, guideline, &seen) {
+        leave_open_with(design, guideline, harder, outcomes);
+    }
+}
+
+/// What the equations are asked with: as fast and as deep as the flow is seen, and with the λ that pushes as hard; each with the K seen.
+fn inputs(design: &Design, guideline: &Guideline, seen: &FirstSurge) -> Vec<GuidelineInput> {
     let given = guideline.input;
-    let harder = GuidelineInput {
+    let earth_pressure = larger(seen.earth_pressure.unwrap_or(0.0), given.earth_pressure);
+    let as_seen = GuidelineInput {
         velocity: larger(seen.velocity, given.velocity),
         depth: larger(seen.depth, given.depth),
-        earth_pressure: seen.earth_pressure.unwrap_or(0.0).max(given.earth_pressure),
+        earth_pressure,
         ..given
     };
-    if harder == given {
-        return;
+    let dynamic_pressure = larger(lambda_that_pushes(design, guideline, seen.hardest_push), given.dynamic_pressure);
+    let as_hard = GuidelineInput { earth_pressure, dynamic_pressure, ..given };
+    [as_seen, as_hard].into_iter().filter(|harder| *harder != given).collect()
+}
+
+/// The λ with which the equations' first surge pushes with a force (N): that force is linear in λ.
+fn lambda_that_pushes(design: &Design, guideline: &Guideline, push: f64) -> f64 {
+    let given = guideline.input;
+    let doubled = GuidelineInput { dynamic_pressure: 2.0 * given.dynamic_pressure, ..given };
+    let [once, twice] = [guideline.first_surge(), guideline_for(design, doubled).first_surge()];
+    given.dynamic_pressure * (1.0 + (push - once) / (twice - once))
+}
+
+/// Largest force along the bed that the equations have for the barrier, with the λ that pushes as hard as the simulation if that is more (N).
+pub fn largest_force(design: &Design, guideline: &Guideline, seen: &FirstSurge) -> f64 {
+    let lambda = lambda_that_pushes(design, guideline, seen.push);
+    // Asked so that what is not a number stays so.
+    if lambda <= guideline.input.dynamic_pressure {
+        return guideline.largest_force;
     }
+    guideline_for(design, GuidelineInput { dynamic_pressure: lambda, ..guideline.input }).largest_force
+}
+
+fn leave_open_with(design: &Design, guideline: &Guideline, harder: GuidelineInput, outcomes: &mut [Outcome]) {
+    let given = guideline.input;
     let then = guideline_for(design, harder);
     let mut checks = check_all(design, &Demands::by_equations(&then, &design.factors));
     let before: Vec<bool> = checks.iter().map(Outcome::holds).collect();
     leave_open_outside_range(design, &then, &mut checks);
-    let found = [
-        (harder.velocity > given.velocity)
-            .then(|| format!("arrives with {:.2} m/s (given: {:.2} m/s)", harder.velocity, given.velocity)),
-        (harder.depth > given.depth)
-            .then(|| format!("arrives {:.2} m deep (given: {:.2} m)", harder.depth, given.depth)),
-        (harder.earth_pressure > given.earth_pressure).then(|| {
-            format!("presses at rest with K = {:.2} (given: {:.2})", harder.earth_pressure, given.earth_pressure)
-        }),
-    ];
-    let found = found.into_iter().flatten().collect::<Vec<_>>().join(" and ");
+    let found = in_words(given, harder);
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let Some(place) = checks.iter().position(|then| then.id == outcome.id) else { continue };
         let (then, held) = (&checks[place], before[place]);
         let equations_count = outcome.governed_by_equations() || design.loads.to_the_top;
-        let why = if then.fails_by_equations() {
+        // What cannot be asked, because something seen is not a number, does not hold.
+        let unknown = then.demand.guideline.map_or(outcome.demand.guideline.is_some(), f64::is_nan);
+        let why = if then.fails_by_equations() || unknown {
             "the equations would fail this check"
         } else if held && !then.holds() && equations_count {
             "the equations would be used outside the range they are known for"
@@ -49,6 +74,31 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         };
         outcome.leave_open(Opening::Contradicted(format!("the simulated flow {found}; with what it shows, {why}")));
     }
+}
+
+/// What is harder than given.
+fn in_words(given: GuidelineInput, harder: GuidelineInput) -> String {
+    // Asked as "no more", so that what is not a number is told.
+    let more = |harder: f64, given: f64, words: String| (!(harder <= given)).then_some(words);
+    let found = [
+        more(
+            harder.velocity,
+            given.velocity,
+            format!("arrives with {:.2} m/s (given: {:.2} m/s)", harder.velocity, given.velocity),
+        ),
+        more(harder.depth, given.depth, format!("arrives {:.2} m deep (given: {:.2} m)", harder.depth, given.depth)),
+        more(
+            harder.dynamic_pressure,
+            given.dynamic_pressure,
+            format!("pushes as with λ = {:.2} (given: {:.2})", harder.dynamic_pressure, given.dynamic_pressure),
+        ),
+        more(
+            harder.earth_pressure,
+            given.earth_pressure,
+            format!("presses at rest with K = {:.2} (given: {:.2})", harder.earth_pressure, given.earth_pressure),
+        ),
+    ];
+    found.into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }
 
 #[cfg(test)]
@@ -77,6 +127,36 @@ mod tests {
         assert!(at(2.0 * given, None) > open);
         assert_eq!(at(given, Some(1.2)), open);
         assert!(at(given, Some(20.0)) > open);
+    }
+
+    /// The first surge pushes with a + b λ: half as much again is met by the λ that the equations then push with, and rope 3, which uses 57 %
+    /// of what it holds under λ as given, is open once that λ makes it fail.
+    #[test]
+    fn a_first_surge_that_hits_harder_asks_the_later_ones_with_its_lambda() {
+        let design = small_net();
+        let guideline = guideline(&design);
+        let push = 1.5 * guideline.first_surge();
+        let lambda = lambda_that_pushes(&design, &guideline, push);
+        let harder = GuidelineInput { dynamic_pressure: lambda, ..guideline.input };
+        assert!((guideline_for(&design, harder).first_surge() / push - 1.0).abs() < 1e-12);
+        assert!(lambda > 1.5 * guideline.input.dynamic_pressure);
+        let verdict = |times: f64| {
+            let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+            let seen = FirstSurge { hardest_push: times * guideline.first_surge(), ..FirstSurge::default() };
+            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            let rope = outcomes.into_iter().find(|outcome| outcome.id == "rope_3_tension").expect("a check");
+            (rope.verdict, rope.open.map_or(String::new(), |open| open.words().to_string()))
+        };
+        assert_eq!(verdict(1.0).0, CheckVerdict::Pass);
+        let (open, words) = verdict(4.0);
+        assert_eq!(open, CheckVerdict::Open);
+        assert!(words.contains("the simulated flow pushes as with λ = "), "{words}");
+        assert_eq!(verdict(f64::NAN).0, CheckVerdict::Open);
+        // The full barrier as well is asked for with it.
+        let seen = FirstSurge { push, ..FirstSurge::default() };
+        assert!(largest_force(&design, &guideline, &seen) > 1.2 * guideline.largest_force);
+        let gentle = FirstSurge { push: 0.5 * push, ..FirstSurge::default() };
+        assert_eq!(largest_force(&design, &guideline, &gentle), guideline.largest_force);
     }
 
     #[test]

@@ -5,7 +5,6 @@ pub(crate) mod drag;
 pub(crate) mod full_barrier;
 pub(crate) mod harder_flow;
 pub(crate) mod known;
-pub(crate) mod later_surges;
 pub(crate) mod load_factor;
 pub(crate) mod not_simulated;
 pub(crate) mod rigid_wall;
@@ -19,7 +18,6 @@ use crate::checks::outcome::Outcome;
 /// All rules. Of several that leave a check open the first one tells why.
 const RULES: &[fn(Known, &mut [Outcome])] = &[
     full_barrier::leave_open,
-    later_surges::leave_open,
     harder_flow::leave_open,
     thinner_flow::leave_open,
     short_peaks::leave_open,

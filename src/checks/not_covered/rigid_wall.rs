@@ -1,7 +1,7 @@
 //! The guideline's pressures were measured on flexible barriers: alone, without a simulation, they say little of a rigid wall.
 
 use super::known::Known;
-use crate::checks::outcome::{Opening, Outcome};
+use crate::checks::outcome::{Opening, Outcome, Route};
 use crate::design::BarrierDesign;
 
 /// Simulated over the guideline's loads that may come out. The examples reach 1.8, 3.3 for bolts, and a wall with λ = 0.8 reached 2.2; the
@@ -14,7 +14,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     }
     let close = |outcome: &&mut Outcome| {
         // Asked as "enough to spare", so that what is not a number has none.
-        let spare = outcome.utilisation.is_some_and(|used| used * SIMULATIONS_REACH <= 1.0);
+        let reached = outcome.demand_under(Route::Guideline, SIMULATIONS_REACH).zip(outcome.capacity);
+        let spare = reached.is_some_and(|(reached, capacity)| reached <= capacity);
         outcome.holds() && outcome.resistance.is_some() && outcome.rests_on_pressures && !spare
     };
     for outcome in outcomes.iter_mut().filter(close) {
@@ -40,6 +41,7 @@ mod tests {
         let guideline = guideline(design);
         let mut outcomes = check_all(design, &Demands::by_equations(&guideline, &design.factors));
         let outcome = outcomes.iter_mut().find(|outcome| outcome.id == id).expect("a check");
+        outcome.demand.guideline = outcome.capacity.map(|capacity| used * capacity);
         (outcome.utilisation, outcome.verdict) = (Some(used), CheckVerdict::Pass);
         leave_open(Known { design, guideline: &guideline, seen: simulated.then(|| pushing(1.0)) }, &mut outcomes);
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict

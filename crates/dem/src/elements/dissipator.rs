@@ -56,7 +56,7 @@ impl Dissipator {
     /// Sets the elongation (m), lets the plateau slip, and returns the force.
     pub fn elongate(&mut self, elongation: f64) -> Pull {
         let elastic_limit = self.plateau / self.stiffness;
-        let wanted = (elongation - elastic_limit).clamp(self.used, self.stroke.max(self.used));
+        let wanted = (elongation - elastic_limit).max(self.used).min(self.stroke.max(self.used));
         let lost = self.plateau * (wanted - self.used);
         self.used = wanted;
         let elastic = (elongation - self.used).max(0.0);

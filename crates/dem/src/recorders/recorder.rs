@@ -15,7 +15,7 @@ use crate::recorders::of_anchors::OfAnchors;
 use crate::recorders::of_dissipators::OfDissipators;
 use crate::recorders::of_ropes::OfRopes;
 use crate::recorders::of_wall::OfWall;
-use crate::recorders::passage::{Screen, WAYS, WallFace, Way};
+use crate::recorders::passage::{Screen, WAYS, Way};
 use crate::recorders::setup::RecorderSetup;
 use crate::recorders::snapshots::{Moment, Snapshot};
 use crate::simulation::{Simulation, Unstable};

@@ -35,25 +35,58 @@ impl Lock {
     }
 }
 
+impl Lock {
+    /// Whether the folder still has the file that is locked: it may have been removed, and made anew by another.
+    pub fn is_in_place(&self) -> bool {
+        self.held.as_ref().is_none_or(|file| same_file(file, &self.path))
+    }
+
+    /// What tells later whether another has come.
+    pub fn watch(&self) -> Watch {
+        let own = self.held.as_ref().and_then(|file| identity(&file.metadata().ok()?));
+        Watch { path: self.path.clone(), own }
+    }
+}
+
 impl Drop for Lock {
     fn drop(&mut self) {
         // While it is held, so that nobody else's is removed.
-        if self.held.is_some() {
+        if self.held.is_some() && self.is_in_place() {
             let _ = fs::remove_file(&self.path);
         }
     }
 }
 
+/// Tells whether a folder has been taken by another program since it was locked.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    path: PathBuf,
+    own: Option<(u64, u64)>,
+}
+
+impl Watch {
+    /// Whether another lock stands in the place of the one that was taken.
+    pub fn another_has_come(&self) -> bool {
+        let there = fs::metadata(&self.path).ok().and_then(|found| identity(&found));
+        self.own.zip(there).is_some_and(|(own, there)| own != there)
+    }
+}
+
+/// Device and number of a file, where the system has them.
 #[cfg(unix)]
-fn same_file(file: &File, path: &Path) -> bool {
+fn identity(found: &fs::Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
-    let found = |found: fs::Metadata| (found.dev(), found.ino());
-    file.metadata().ok().map(found) == fs::metadata(path).ok().map(found)
+    Some((found.dev(), found.ino()))
 }
 
 #[cfg(not(unix))]
-fn same_file(_: &File, path: &Path) -> bool {
-    path.exists()
+fn identity(_: &fs::Metadata) -> Option<(u64, u64)> {
+    None
+}
+
+fn same_file(file: &File, path: &Path) -> bool {
+    let own = file.metadata().ok().and_then(|found| identity(&found));
+    fs::metadata(path).is_ok_and(|found| identity(&found) == own)
 }
 
 #[cfg(test)]
@@ -71,6 +104,18 @@ mod tests {
         // One that was killed leaves its file and no lock.
         fs::write(folder.join(FILE), "").expect("a file");
         assert!(Lock::take(&folder).expect("a lock").is_some());
+        // One whose folder is removed is told from the one that comes there then, and leaves it its lock.
+        let first = Lock::take(&folder).expect("a lock").expect("free");
+        let watch = first.watch();
+        assert!(first.is_in_place() && !watch.another_has_come());
+        fs::remove_dir_all(&folder).expect("a folder");
+        assert!(!first.is_in_place() && !watch.another_has_come());
+        fs::create_dir(&folder).expect("a folder");
+        let second = Lock::take(&folder).expect("a lock").expect("free");
+        assert!(!first.is_in_place() && watch.another_has_come());
+        drop(first);
+        assert!(second.is_in_place() && Lock::take(&folder).expect("a look").is_none());
+        drop(second);
         fs::remove_dir(&folder).expect("an empty folder");
     }
 }
