@@ -96,7 +96,11 @@ fn a_recording_that_is_none_is_refused() {
 #[test]
 fn recorded_runs_are_held_side_by_side() {
     let [one, two, out] = ["side_one", "side_two", "side_out"].map(|name| match name {
-        "side_out" => Path::new(env!("CARGO_TARGET_TMPDIR")).join(name),
+        "side_out" => {
+            let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+            let _ = std::fs::remove_dir_all(&folder);
+            folder
+        }
         name => reported(name),
     });
     let paths = [&one, &two, &out].map(|path| path.display().to_string());

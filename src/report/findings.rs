@@ -209,8 +209,8 @@ fn wall_rows(seen: &Observed) -> Vec<Row> {
     }
     let list = |values: &[f64]| values.iter().map(|value| with_unit(*value, "N/m")).collect::<Vec<_>>().join(", ");
     vec![
-        row("Wall segments, largest", list(&seen.each(&wall::SEGMENT)), "from the bottom up"),
-        row("Wall segments, at rest", list(&seen.each(&wall::SEGMENT_RESIDUAL)), "from the bottom up"),
+        row("Wall segments, largest", list(seen.each(&wall::SEGMENT)), "from the bottom up"),
+        row("Wall segments, at rest", list(seen.each(&wall::SEGMENT_RESIDUAL)), "from the bottom up"),
         row("Moment about the toe, largest", with_unit(seen.one(&wall::MOMENT), "N m/m"), ""),
     ]
 }

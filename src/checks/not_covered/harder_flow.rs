@@ -79,7 +79,10 @@ fn leave_open_with(design: &Design, guideline: &Guideline, harder: GuidelineInpu
 /// What is harder than given.
 fn in_words(given: GuidelineInput, harder: GuidelineInput) -> String {
     // Asked as "no more", so that what is not a number is told.
-    let more = |harder: f64, given: f64, words: String| (!(harder <= given)).then_some(words);
+    let more = |harder: f64, given: f64, words: String| {
+        let no_more = harder <= given;
+        (!no_more).then_some(words)
+    };
     let found = [
         more(
             harder.velocity,

@@ -246,8 +246,8 @@ fn lateral() -> Result<Vec<Finding>, Broken> {
     let to_dissipators = run_changed(BRAKED, STARTS, |_| ())?;
     let to_anchors = run_changed(BRAKED, STARTS, |design| net(design, |net| net.lateral_to = LateralTo::Anchors))?;
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let stroke = |run: &Simulated| mean(run, |seen| largest(&seen.each(&dissipator::MEAN_STROKE)));
-    let anchor = |run: &Simulated| mean(run, |seen| largest(&seen.each(&anchor_load::PEAK)));
+    let stroke = |run: &Simulated| mean(run, |seen| largest(seen.each(&dissipator::MEAN_STROKE)));
+    let anchor = |run: &Simulated| mean(run, |seen| largest(seen.each(&anchor_load::PEAK)));
     let force = |run: &Simulated| mean(run, |seen| seen.one(&total_force::PEAK));
     let (before, after) = (&to_dissipators, &to_anchors);
     Ok(vec![
