@@ -10,7 +10,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::{BarrierDesign, Design};
+use crate::design::{BarrierDesign, Design, Factors, FlexibleNet, RigidWall};
 
 /// Which flow a simulation lets go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,68 +65,75 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
             BarrierDesign::RigidWall(_) => "on the forces: a rigid wall's are proportional to the action",
         },
     }];
-    match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => {
-            rows.push(Combination {
-                what: "Mass held and residual height",
-                factor: 1.0,
-                by_equations: "not given by the equations",
-                by_simulation: "of the characteristic and of the factored flow, the smaller",
-            });
-            rows.push(Combination {
-                what: "Resistance of ropes",
-                factor: factors.rope,
-                by_equations: "divides the breaking load that the rope ends hold",
-                by_simulation: "the same",
-            });
-            rows.push(Combination {
-                what: "Resistance of anchors and bolts",
-                factor: factors.anchor,
-                by_equations: "divides the characteristic resistance",
-                by_simulation: "the same",
-            });
-            if net.dissipators.is_some() {
-                let given =
-                    "where a dissipator yields, (factor − 1) × plateau is added to the load of its rope and anchor";
-                let taken = "the same; not given, so taken as the factor on loads";
-                rows.push(Combination {
-                    what: "Overstrength of dissipators",
-                    factor: factors.overstrength,
-                    by_equations: given,
-                    by_simulation: if factors.overstrength_given { "the same" } else { taken },
-                });
-            }
-        }
-        BarrierDesign::RigidWall(wall) => {
-            if wall.resistance.is_some() || wall.moment_resistance.is_some() {
-                rows.push(Combination {
-                    what: "Resistance of the wall",
-                    factor: wall.resistance_factor,
-                    by_equations: "divides the characteristic resistance",
-                    by_simulation: "the same",
-                });
-            }
-            if let Some(stability) = wall.stability {
-                rows.push(Combination {
-                    what: "Resistance to sliding",
-                    factor: stability.sliding_factor,
-                    by_equations: "divides the friction under the base",
-                    by_simulation: "the same",
-                });
-                rows.push(Combination {
-                    what: "Moment that holds the wall",
-                    factor: stability.overturning_factor,
-                    by_equations: "divides the moment of its weight",
-                    by_simulation: "the same",
-                });
-                rows.push(Combination {
-                    what: "Bearing resistance under the wall",
-                    factor: stability.bearing_factor,
-                    by_equations: "divides the characteristic resistance; the weight of the wall has no factor",
-                    by_simulation: "the same",
-                });
-            }
-        }
+    rows.extend(match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => of_a_net(net, factors),
+        BarrierDesign::RigidWall(wall) => of_a_wall(wall),
+    });
+    rows
+}
+
+fn of_a_net(net: &FlexibleNet, factors: &Factors) -> Vec<Combination> {
+    let mut rows = Vec::new();
+    rows.push(Combination {
+        what: "Mass held and residual height",
+        factor: 1.0,
+        by_equations: "not given by the equations",
+        by_simulation: "of the characteristic and of the factored flow, the smaller",
+    });
+    rows.push(Combination {
+        what: "Resistance of ropes",
+        factor: factors.rope,
+        by_equations: "divides the breaking load that the rope ends hold",
+        by_simulation: "the same",
+    });
+    rows.push(Combination {
+        what: "Resistance of anchors and bolts",
+        factor: factors.anchor,
+        by_equations: "divides the characteristic resistance",
+        by_simulation: "the same",
+    });
+    if net.dissipators.is_some() {
+        let given = "where a dissipator yields, (factor − 1) × plateau is added to the load of its rope and anchor";
+        let taken = "the same; not given, so taken as the factor on loads";
+        rows.push(Combination {
+            what: "Overstrength of dissipators",
+            factor: factors.overstrength,
+            by_equations: given,
+            by_simulation: if factors.overstrength_given { "the same" } else { taken },
+        });
+    }
+    rows
+}
+
+fn of_a_wall(wall: &RigidWall) -> Vec<Combination> {
+    let mut rows = Vec::new();
+    if wall.resistance.is_some() || wall.moment_resistance.is_some() {
+        rows.push(Combination {
+            what: "Resistance of the wall",
+            factor: wall.resistance_factor,
+            by_equations: "divides the characteristic resistance",
+            by_simulation: "the same",
+        });
+    }
+    if let Some(stability) = wall.stability {
+        rows.push(Combination {
+            what: "Resistance to sliding",
+            factor: stability.sliding_factor,
+            by_equations: "divides the friction under the base",
+            by_simulation: "the same",
+        });
+        rows.push(Combination {
+            what: "Moment that holds the wall",
+            factor: stability.overturning_factor,
+            by_equations: "divides the moment of its weight",
+            by_simulation: "the same",
+        });
+        rows.push(Combination {
+            what: "Bearing resistance under the wall",
+            factor: stability.bearing_factor,
+            by_equations: "divides the characteristic resistance; the weight of the wall stands with and without the factor on loads, whichever is the worse",
+            by_simulation: "the same",
+        });
     }
     rows
 }

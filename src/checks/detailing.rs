@@ -129,17 +129,6 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
             )
         },
     ];
-    let coefficient = |title, found, smallest| Rule {
-        bearing: Bearing::Pressures,
-        ..least(
-            title,
-            found,
-            smallest,
-            "",
-            "Volkwein 2014 (after Albaba 2015): K = 1, λ = 0.7 to 2",
-            "smaller than the guideline has it: say where the value is from, and compare with what the simulation shows",
-        )
-    };
     rules.push(Rule {
         bearing: Bearing::Pressures,
         ..least(
@@ -173,9 +162,23 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
             "the pressure normal to a face that leans more is not what the guideline has",
         )
     });
-    rules.push(coefficient("Coefficient K", input.earth_pressure, 1.0));
-    rules.push(coefficient("Coefficient λ", input.dynamic_pressure, 0.7));
+    rules.extend(of_coefficients(input));
     rules
+}
+
+fn of_coefficients(input: &GuidelineInput) -> [Rule; 2] {
+    let coefficient = |title, found, smallest| Rule {
+        bearing: Bearing::Pressures,
+        ..least(
+            title,
+            found,
+            smallest,
+            "",
+            "Volkwein 2014 (after Albaba 2015): K = 1, λ = 0.7 to 2",
+            "smaller than the guideline has it: say where the value is from, and compare with what the simulation shows",
+        )
+    };
+    [coefficient("Coefficient K", input.earth_pressure, 1.0), coefficient("Coefficient λ", input.dynamic_pressure, 0.7)]
 }
 
 /// Greatest lean from plumb for which the guideline's pressures are taken (deg); a wall normal to the bed is that of the source.

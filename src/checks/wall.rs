@@ -12,83 +12,135 @@ use crate::quantities::wall as quantity;
 use crate::sources::WALL_BALANCE;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let (Some(input), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
-    let with_own = |demand: Demand, guideline: Option<f64>, own: f64| Demand {
-        guideline: guideline.map(|value| value + own),
-        simulation: demand.simulation.map(|value| value + own),
-        characteristic: demand.characteristic.map(|value| value + own),
-        cap: None,
-    };
+    let (Some(wall), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
     let (force, moment) = (demands.one(&quantity::SLIDING), demands.one(&quantity::OVERTURNING));
-    let slides = force.guideline.map(|load| load * input.sliding_share());
-    let tips = moment.guideline.zip(force.guideline);
-    let tips = tips.map(|(moment, load)| moment + load * input.lift_share() * input.base_width);
-    let [holds_back, pull] = input.sliding();
-    let [holds_up, tilt] = input.overturning();
-    let sliding = CheckName::new("wall_sliding", "Sliding of the wall, per width", Unit::NewtonPerMetre, WALL_BALANCE);
-    let overturning = CheckName::new(
-        "wall_overturning",
-        "Overturning of the wall, per width",
-        Unit::NewtonMetrePerMetre,
-        WALL_BALANCE,
-    );
-    let eccentricity = CheckName::new(
-        "wall_eccentricity",
-        "Eccentricity of the pressure under the wall",
-        Unit::Metre,
-        "EN 1997-1, 6.5.4, from memory: beyond a third of the base special precautions are needed",
-    );
-    // The resultant stands holds_up − demand over what bears from the downstream edge; the lift of the load, which makes that less, is left
-    // out on the safe side.
-    let normal = input.bears();
-    // Of the wall without the flow as much of a third of its thickness may be used.
-    let at_rest = input.eccentricity_at_rest() * input.base_width / input.thickness;
-    let off_centre = |demand: f64| larger(0.5 * input.base_width - (holds_up - demand) / normal, at_rest);
-    let tipped = with_own(moment, tips, tilt);
-    let off = Demand {
-        guideline: tipped.guideline.map(off_centre),
-        simulation: tipped.simulation.map(off_centre),
-        ..Demand::default()
+    let base = Base {
+        wall,
+        stability,
+        force,
+        tips: Demand {
+            guideline: (moment.guideline.zip(force.guideline))
+                .map(|(moment, load)| moment + load * wall.lift_share() * wall.base_width),
+            ..moment
+        },
+        press: demands.one(&quantity::PRESS),
+        load_factor: design.factors.load,
     };
-    let press = demands.one(&quantity::PRESS);
-    let under_it = UnderAWall {
-        wall: input,
-        // What presses on the ground is unfavourable there.
-        weight_factor: design.factors.load,
-        guideline: tips.zip(press.guideline).map(|(moment, load)| [moment, load * input.press_share()]),
-        simulation: moment.simulation.zip(press.simulation).map(|(moment, press)| [moment, press]),
-    };
-    let bearing = Demand {
-        guideline: under_it.pressure(Route::Guideline, 1.0),
-        simulation: under_it.pressure(Route::Simulation, 1.0),
-        ..Demand::default()
-    };
-    let under = CheckName::new(
-        "wall_bearing",
-        "Pressure under the wall",
-        Unit::Pascal,
-        "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
-    );
-    let held = |name: CheckName, demand: Demand, characteristic: f64, factor: f64| {
-        Outcome::at_most(name, demand, Resistance { characteristic, factor }, 1.0)
-    };
-    let pressure = match stability.bearing_resistance {
-        Some(characteristic) => held(under, bearing, characteristic, stability.bearing_factor),
-        None => Outcome::without_resistance(under, bearing, "barrier.rigid_wall.stability.bearing_resistance"),
-    };
-    let without_the_flow = 0.5 * input.base_width - (holds_up - tilt) / normal;
-    let but_for = |fixed: f64, outcome: Outcome| Outcome { growth: Growth::InProportion { fixed }, ..outcome };
-    let off_the_middle = but_for(without_the_flow, held(eccentricity, off, input.base_width / 3.0, 1.0));
-    let mut outcomes = vec![
-        Outcome { kind: Kind::OnTheBase, growth: Growth::UnderAWall(under_it), ..pressure },
-        Outcome { kind: Kind::OnTheBase, ..off_the_middle },
-        but_for(pull, held(sliding, with_own(force, slides, pull), holds_back, stability.sliding_factor)),
-        but_for(tilt, held(overturning, tipped, holds_up, stability.overturning_factor)),
-    ];
+    let off_centre = base.off_centre();
+    let mut outcomes = vec![base.pressure(), base.eccentricity(off_centre), base.sliding(), base.overturning()];
     leave_open_untold(&stability, &mut outcomes);
-    leave_open_where_the_base_gapes(&input, off, &mut outcomes);
+    leave_open_where_the_base_gapes(&wall, off_centre, &mut outcomes);
     leave_open_below_water(design, &stability, &mut outcomes);
     outcomes
+}
+
+/// A wall on its base, and what the flow does to it, per width.
+struct Base {
+    wall: WallInput,
+    stability: Stability,
+    /// By the equations the load along the bed, by the simulation what slides the wall along its base (N/m).
+    force: Demand,
+    /// Moment about the upstream end of the base, lift included (N m/m).
+    tips: Demand,
+    /// By the equations the load along the bed, by the simulation what presses on the base (N/m).
+    press: Demand,
+    load_factor: f64,
+}
+
+impl Base {
+    fn sliding(&self) -> Outcome {
+        let [holds, pull] = self.wall.sliding();
+        let name = CheckName::new("wall_sliding", "Sliding of the wall, per width", Unit::NewtonPerMetre, WALL_BALANCE);
+        let slides = self.force.guideline.map(|load| load * self.wall.sliding_share());
+        let demand = with_own(Demand { guideline: slides, ..self.force }, pull);
+        but_for(pull, held(name, demand, holds, self.stability.sliding_factor))
+    }
+
+    fn overturning(&self) -> Outcome {
+        let [holds, tilt] = self.wall.overturning();
+        let name = CheckName::new(
+            "wall_overturning",
+            "Overturning of the wall, per width",
+            Unit::NewtonMetrePerMetre,
+            WALL_BALANCE,
+        );
+        but_for(tilt, held(name, with_own(self.tips, tilt), holds, self.stability.overturning_factor))
+    }
+
+    /// How far the resultant stands off the middle of the base, under a moment that tips the wall, its own included: it stands what holds less
+    /// that moment over what bears from the downstream edge; the lift of the load, which makes that less, is left out on the safe side.
+    fn eccentricity_under(&self, tips: f64) -> f64 {
+        let [holds, _] = self.wall.overturning();
+        0.5 * self.wall.base_width - (holds - tips) / self.wall.bears()
+    }
+
+    fn off_centre(&self) -> Demand {
+        // Of the wall without the flow as much of a third of its thickness may be used.
+        let at_rest = self.wall.eccentricity_at_rest() * self.wall.base_width / self.wall.thickness;
+        let [_, tilt] = self.wall.overturning();
+        let tipped = with_own(self.tips, tilt);
+        let off = |tips: f64| larger(self.eccentricity_under(tips), at_rest);
+        Demand { guideline: tipped.guideline.map(off), simulation: tipped.simulation.map(off), ..Demand::default() }
+    }
+
+    fn eccentricity(&self, off_centre: Demand) -> Outcome {
+        let name = CheckName::new(
+            "wall_eccentricity",
+            "Eccentricity of the pressure under the wall",
+            Unit::Metre,
+            "EN 1997-1, 6.5.4, from memory: beyond a third of the base special precautions are needed",
+        );
+        let [_, tilt] = self.wall.overturning();
+        let outcome = held(name, off_centre, self.wall.base_width / 3.0, 1.0);
+        Outcome { kind: Kind::OnTheBase, ..but_for(self.eccentricity_under(tilt), outcome) }
+    }
+
+    fn pressure(&self) -> Outcome {
+        let under = UnderAWall {
+            wall: self.wall,
+            // What presses on the ground is unfavourable there.
+            weight_factor: self.load_factor,
+            guideline: (self.tips.guideline.zip(self.press.guideline))
+                .map(|(moment, load)| [moment, load * self.wall.press_share()]),
+            simulation: self.tips.simulation.zip(self.press.simulation).map(|(moment, press)| [moment, press]),
+        };
+        let demand = Demand {
+            guideline: under.pressure(Route::Guideline, 1.0),
+            simulation: under.pressure(Route::Simulation, 1.0),
+            ..Demand::default()
+        };
+        let name = CheckName::new(
+            "wall_bearing",
+            "Pressure under the wall",
+            Unit::Pascal,
+            "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
+        );
+        let outcome = match self.stability.bearing_resistance {
+            Some(characteristic) => held(name, demand, characteristic, self.stability.bearing_factor),
+            None => Outcome::without_resistance(name, demand, "barrier.rigid_wall.stability.bearing_resistance"),
+        };
+        Outcome { kind: Kind::OnTheBase, growth: Growth::UnderAWall(under), ..outcome }
+    }
+}
+
+/// A demand with what is there without the flow.
+fn with_own(demand: Demand, own: f64) -> Demand {
+    let with = |value: f64| value + own;
+    Demand {
+        guideline: demand.guideline.map(with),
+        simulation: demand.simulation.map(with),
+        characteristic: demand.characteristic.map(with),
+        cap: None,
+    }
+}
+
+fn held(name: CheckName, demand: Demand, characteristic: f64, factor: f64) -> Outcome {
+    Outcome::at_most(name, demand, Resistance { characteristic, factor }, 1.0)
+}
+
+/// An outcome whose demand grows in proportion to the load, but for what is there without it.
+fn but_for(fixed: f64, outcome: Outcome) -> Outcome {
+    Outcome { growth: Growth::InProportion { fixed }, ..outcome }
 }
 
 /// Where the resultant leaves the middle third of the base, the joint under the upstream edge opens, and water fills it with its full head:

@@ -23,7 +23,8 @@ use crate::starts::side_by_side;
 use crate::studies::knobs::Knob;
 use crate::studies::plan::{Plan, StabilityPlan, Study};
 use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
-use crate::studies::stability::{Mapped, SCENES, map};
+use crate::studies::stability::{Mapped, map};
+use crate::studies::stability_scenes::SCENES;
 use crate::terminal;
 
 /// Runs what is not kept yet, and writes the page below `out`.

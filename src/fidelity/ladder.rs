@@ -23,9 +23,20 @@ pub struct Band {
     pub share: f64,
 }
 
+/// Which rung it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RungKind {
+    Equations,
+    CoarseGrains,
+    Grains,
+    Starts,
+    Fine,
+}
+
 /// A rung of the ladder.
 #[derive(Clone, Copy, Debug)]
 pub struct Rung {
+    pub kind: RungKind,
     pub name: &'static str,
     pub what: &'static str,
     /// Packings; 0 where nothing is simulated.
@@ -54,6 +65,7 @@ pub const COARSE: f64 = 1.5;
 /// deviation of one packing, or than what the model leaves open.
 pub const RUNGS: [Rung; 5] = [
     Rung {
+        kind: RungKind::Equations,
         name: "equations",
         what: "the guideline alone",
         starts: 0,
@@ -63,7 +75,8 @@ pub const RUNGS: [Rung; 5] = [
         apply: |_| {},
     },
     Rung {
-        name: COARSE_GRAINS,
+        kind: RungKind::CoarseGrains,
+        name: "coarse",
         what: "grains half as large again, ropes that slide, one start",
         starts: 1,
         band: Band { force: 1.2, stroke: 3.0, share: 0.05 },
@@ -72,7 +85,8 @@ pub const RUNGS: [Rung; 5] = [
         apply: coarsen,
     },
     Rung {
-        name: GRAINS,
+        kind: RungKind::Grains,
+        name: "grains",
         what: "grains as they are, ropes that slide, one start",
         starts: 1,
         band: Band { force: 0.8, stroke: 2.0, share: 0.03 },
@@ -81,6 +95,7 @@ pub const RUNGS: [Rung; 5] = [
         apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
     },
     Rung {
+        kind: RungKind::Starts,
         name: "starts",
         what: "the same with five starts, their scatter in the demand",
         starts: 5,
@@ -90,7 +105,8 @@ pub const RUNGS: [Rung; 5] = [
         apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
     },
     Rung {
-        name: FINE,
+        kind: RungKind::Fine,
+        name: "fine",
         what: "half the step, ropes and rings of cylinders that bend, sides of the mesh divided as the grains need, five starts",
         starts: 5,
         band: Band { force: 0.0, stroke: 0.0, share: 0.0 },
@@ -128,15 +144,11 @@ pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     let pinned = design.simulation.barrier_model == BarrierModel::PinnedRopes
         && matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     if pinned || design.simulation.fidelity == FidelityWish::Fast {
-        return RUNGS.iter().find(|rung| rung.name == COARSE_GRAINS).unwrap_or(&RUNGS[0]);
+        return RUNGS.iter().find(|rung| rung.kind == RungKind::CoarseGrains).unwrap_or(&RUNGS[0]);
     }
-    let like = |rung: &&Rung| rung.starts > 1 && starts >= LEAST_STARTS && (fine || rung.name != FINE);
-    RUNGS.iter().rfind(like).or_else(|| RUNGS.iter().find(|rung| rung.name == GRAINS)).unwrap_or(&RUNGS[0])
+    let like = |rung: &&Rung| rung.starts > 1 && starts >= LEAST_STARTS && (fine || rung.kind != RungKind::Fine);
+    RUNGS.iter().rfind(like).or_else(|| RUNGS.iter().find(|rung| rung.kind == RungKind::Grains)).unwrap_or(&RUNGS[0])
 }
-
-const COARSE_GRAINS: &str = "coarse";
-const GRAINS: &str = "grains";
-const FINE: &str = "fine";
 
 impl Rung {
     /// The design as this rung models it.
@@ -150,11 +162,11 @@ impl Rung {
     pub fn suits(&self, design: &Design) -> bool {
         match &design.barrier {
             // If only the finest tenth could pass, coarse grains hide little.
-            BarrierDesign::FlexibleNet(net) if self.name == COARSE_GRAINS => {
+            BarrierDesign::FlexibleNet(net) if self.kind == RungKind::CoarseGrains => {
                 design.flow.sizes.quantile(0.1) > net.mesh_opening
             }
             // Slack is a matter of ropes that only pull.
-            BarrierDesign::FlexibleNet(net) if self.name == FINE => net.net_slack == 0.0,
+            BarrierDesign::FlexibleNet(net) if self.kind == RungKind::Fine => net.net_slack == 0.0,
             _ => true,
         }
     }

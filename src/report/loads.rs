@@ -12,7 +12,7 @@ use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
-use crate::report::row::{Row, lower_first};
+use crate::report::row::{Row, lower_first, row};
 use crate::sensitivity;
 
 #[derive(Debug, Serialize)]
@@ -90,7 +90,7 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
         moment: with_unit(case.mean_moment(width), "N m/m"),
         total: with_unit(case.total_force(width), "N"),
         formula: case.formula,
-        working: working(run, case),
+        working: working(case),
         remark: remark(run, case),
         source: format!("{}; {}", case.source, case.certainty.word()),
         file: format!("case_{}.svg", case.id),
@@ -99,58 +99,15 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
     run.guideline.cases.iter().map(row).collect()
 }
 
-/// The formula with numbers, in kN and m so that it can be followed with a pocket calculator.
-fn working(run: &Run, case: &LoadCase) -> String {
-    let input = &run.guideline.input;
-    let unit = case.diagram.unit / 1e3;
-    let unit_text = format!("{unit:.3}");
-    let result = with_unit(case.force_per_width(), "N/m");
-    let block = format!("{:.3} · {:.3}", case.diagram.block / 1e3, case.moving);
-    let surge = |height: f64| {
-        let over = height - case.diagram.top;
-        if over > 0.0 {
-            let beside = case.diagram.top - case.deposit;
-            return format!(
-                "½ · {unit_text} · ({height:.3}² − {over:.3}²) + {:.3} · {beside:.3} (the flow is deeper than the barrier)",
-                case.diagram.block / 1e3
-            );
-        }
-        format!("½ · {unit_text} · {height:.3}² + {block}")
-    };
-    let body = match case.id {
-        "first_surge" => surge(case.moving),
-        "last_surge" | "point_load" => surge(case.deposit + case.moving),
-        "overtopped" => {
-            let top = case.diagram.top;
-            format!("½ · {unit_text} · ({top:.3}² + 2 · {top:.3} · {:.3})", case.moving)
-        }
-        "snow" => format!("{:.3} · {:.3}", case.diagram.block / 1e3, case.diagram.top),
-        _ => format!("½ · {unit_text} · {:.3}²", case.diagram.surface),
-    };
-    let pressures = match case.id {
-        "snow" => String::new(),
-        "full" | "overtopped" => format!(
-            "K ρ g' = {:.2} · {:.0} · {:.3} = {unit_text} kN/m³. ",
-            input.earth_pressure, input.density, input.gravity_normal
-        ),
-        "drained" => format!("K ρ g' = {unit_text} kN/m³. "),
-        _ => format!(
-            "K ρ g' = {:.2} · {:.0} · {:.3} = {unit_text} kN/m³; λ ρ v² = {:.2} · {:.0} · {:.2}² = {:.1} kPa. ",
-            input.earth_pressure,
-            input.density,
-            input.gravity_normal,
-            input.dynamic_pressure,
-            input.density,
-            input.velocity,
-            input.impact_pressure() / 1e3,
-        ),
-    };
+/// The formula with its numbers.
+fn working(case: &LoadCase) -> String {
     let drag = if case.shear > 0.0 && case.shear_certainty.decides() {
         format!(" + {:.3} (drag on the top)", case.shear / 1e3)
     } else {
         String::new()
     };
-    format!("{pressures}R = {body}{drag} = {result}")
+    let result = with_unit(case.force_per_width(), "N/m");
+    format!("{}R = {}{drag} = {result}", case.working.pressures, case.working.force)
 }
 
 fn remark(run: &Run, case: &LoadCase) -> String {
@@ -189,7 +146,7 @@ pub fn ropes(run: &Run) -> Vec<RopeRow> {
         } else {
             format!("{:.2} m to the top", rope.strip[0])
         };
-        let deposit = if case.id == "later_surge" { format!(" of {:.2} m", case.deposit) } else { String::new() };
+        let deposit = if case.one_of_the_stages { format!(" of {:.2} m", case.deposit) } else { String::new() };
         Some(RopeRow {
             rope: index + 1,
             strip,
@@ -308,7 +265,6 @@ pub fn ladder(run: &Run) -> Vec<LadderRow> {
 /// What the barrier holds, and what a flow of this volume is like by rules of thumb.
 pub fn holding(run: &Run) -> Vec<Row> {
     let design = &run.file.design;
-    let row = |name: &str, value: String, remark: String| Row { name: name.into(), value, remark };
     let mut rows = Vec::new();
     if let Some(held) = run.guideline.retention {
         rows.push(row(
@@ -338,7 +294,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
     rows.push(row(
         "Run-up on the barrier",
         format!("{} / {}", with_unit(run_up::by_jump(input), "m"), with_unit(run_up::by_energy(input), "m")),
-        "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; dry friction is left out".into(),
+        "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; dry friction is left out",
     ));
     let one_event = event.height();
     rows.push(row(
@@ -352,12 +308,20 @@ pub fn holding(run: &Run) -> Vec<Row> {
             if event.heap.is_finite() { with_unit(event.heap, "m") } else { "without end".into() },
         ),
     ));
+    rows.extend(estimates(run));
+    rows
+}
+
+/// Velocity and depth by other ways, for comparison.
+fn estimates(run: &Run) -> Vec<Row> {
+    let design = &run.file.design;
+    let mut rows = Vec::new();
     let slope = design.channel.slope;
     if slope > 0.0 {
         for estimate in peak_discharge(design.flow.event_volume) {
             let [velocity, depth] = velocity_and_depth(estimate.value, slope, design.channel.width);
             rows.push(row(
-                &format!("Estimate from the volume alone: {}", estimate.name),
+                format!("Estimate from the volume alone: {}", estimate.name),
                 with_unit(estimate.value, "m³/s"),
                 format!(
                     "{}; with v = 2.1 Q^0.33 S^0.33: {} and {} deep; from memory, not used in any check",
@@ -372,7 +336,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
         rows.push(row(
             "Estimate from the depth: Manning-Strickler",
             format!("{} to {}", with_unit(rough, "m/s"), with_unit(smooth, "m/s")),
-            "v = h^⅔ S^½/n, n 0.18 to 0.05; from memory, not used in any check".into(),
+            "v = h^⅔ S^½/n, n 0.18 to 0.05; from memory, not used in any check",
         ));
     }
     rows

@@ -12,6 +12,7 @@ pub(crate) mod numbers;
 pub(crate) mod pictures;
 pub(crate) mod plots;
 pub mod recording;
+pub(crate) mod reliability;
 pub mod render;
 pub(crate) mod replay;
 pub(crate) mod row;

@@ -14,6 +14,11 @@ pub struct Row {
     pub remark: String,
 }
 
+/// A row with its three texts.
+pub fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) -> Row {
+    Row { name: name.into(), value: value.into(), remark: remark.into() }
+}
+
 /// Outcomes by their verdict, then by how much is used.
 pub fn worst_first(run: &Run) -> Vec<&Outcome> {
     let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();

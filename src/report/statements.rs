@@ -24,14 +24,22 @@ const EITHER: &str = "either way";
 /// What is assumed, as far as it bears on this design.
 pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let design = &run.file.design;
-    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
-    let default_arrival = match design.flow.arrival {
-        Arrival::DamBreak(block) => block.depth_at_barrier.is_none() || block.velocity_at_barrier.is_none(),
-        Arrival::Surge(_) => false,
-    };
     let simulated = run.simulated.is_some();
+    let list = of_the_model(design, simulated).into_iter().chain(of_the_equations(design));
+    let kept = list.filter(|(applies, ..)| *applies);
+    let kept = kept.map(|(_, text, safe)| Assumption { text: text.to_string(), safe });
+    let of_net = [of_ropes(design).map(str::to_string), of_gap(design)].into_iter().flatten().filter(|_| simulated);
+    kept.chain(of_net.map(|text| Assumption { text, safe: EITHER })).collect()
+}
+
+/// A statement: whether it applies, what it says, on which side it errs.
+type Statement = (bool, &'static str, &'static str);
+
+/// What the simulation rests on, and net and channel in it.
+fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
-    let list = [
+    vec![
         (
             simulated,
             "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a non-adhesive dashpot, and Coulomb friction with the smaller of the two friction angles.",
@@ -83,6 +91,17 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             "A surge is released upstream of the barrier as a body of even depth with a sloping front, every grain with the same velocity and none pressed on another, and runs in before it hits (flow.arrival.surge.front_angle and run_in). A vertical front without a run-in would hit the whole barrier at once, and the contact modulus of the grains would decide how hard.",
             EITHER,
         ),
+    ]
+}
+
+/// What the equations rest on.
+fn of_the_equations(design: &Design) -> Vec<Statement> {
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let default_arrival = match design.flow.arrival {
+        Arrival::DamBreak(block) => block.depth_at_barrier.is_none() || block.velocity_at_barrier.is_none(),
+        Arrival::Surge(_) => false,
+    };
+    vec![
         (
             default_arrival,
             "For a dam break the guideline's depth is 4/9 of the block's height (Ritter 1892), and its velocity the larger of that of a block sliding on the bed and that of a front without inner friction, where the design does not give them: an upper bound, often twice what arrives.",
@@ -98,11 +117,7 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
             "By the equations each main rope carries its strip as a uniform load across the channel, alone: neither net nor lateral ropes share it out.",
             EITHER,
         ),
-    ];
-    let kept = list.into_iter().filter(|(applies, ..)| *applies);
-    let kept = kept.map(|(_, text, safe)| Assumption { text: text.to_string(), safe });
-    let of_net = [of_ropes(design).map(str::to_string), of_gap(design)].into_iter().flatten().filter(|_| simulated);
-    kept.chain(of_net.map(|text| Assumption { text, safe: EITHER })).collect()
+    ]
 }
 
 /// Where the modelled net ends.

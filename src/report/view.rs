@@ -11,11 +11,11 @@ use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
 use crate::quantities::quantity::Unit;
-use crate::report::findings::{ClimbRow, climb_rows, why_enough};
 use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, with_scatter, with_unit};
 use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
+use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
 use crate::report::replay::Replay;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::report::warnings::{left_by_simulation, warnings};
@@ -166,7 +166,7 @@ impl View {
             why_enough: why_enough(run),
             references: references(run),
             not_checked: not_checked(&run.file.design),
-            numerics: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::numerics_rows(run, seen)),
+            numerics: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::reliability::numerics_rows(run, seen)),
         }
     }
 

@@ -4,3 +4,4 @@ pub(crate) mod knobs;
 pub(crate) mod plan;
 pub(crate) mod speed_accuracy;
 pub(crate) mod stability;
+pub(crate) mod stability_scenes;

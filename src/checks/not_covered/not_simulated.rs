@@ -6,15 +6,10 @@ use crate::checks::outcome::{Kind, Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let (flow, loads) = (&known.design.flow, &known.design.loads);
-    let missing = [
-        (flow.event_volume > 1.001 * flow.volume(), "the later surges of the event"),
-        (loads.point_load.is_some(), "the point load"),
-        (loads.snow_pressure.is_some(), "the snow"),
-        (loads.overflow_depth.is_some(), "the flow over the full barrier"),
-        (loads.drained.is_some(), "the drained deposit"),
-        (loads.self_weight.is_some(), "the weight of the net as given"),
-    ];
-    let missing: Vec<&str> = missing.into_iter().filter(|(asked, _)| *asked).map(|(_, what)| what).collect();
+    let several = (flow.event_volume > 1.001 * flow.volume()).then_some("the later surges of the event");
+    let weight = loads.self_weight.map(|_| "the weight of the net as given");
+    let of_cases = known.guideline.cases.iter().filter_map(|case| case.not_simulated);
+    let missing: Vec<&str> = several.into_iter().chain(of_cases).chain(weight).collect();
     if missing.is_empty() {
         return;
     }

@@ -6,11 +6,13 @@ use crate::loads::input::GuidelineInput;
 
 pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
     let [earth_pressure, density] = extras.drained?;
+    let drained = full::case(&GuidelineInput { earth_pressure, density, ..*input });
     Some(LoadCase {
         id: "drained",
         title: "Full, drained",
+        not_simulated: Some("the drained deposit"),
         certainty: Certainty::Given,
         source: "K and density of the drained deposit: design file",
-        ..full::case(&GuidelineInput { earth_pressure, density, ..*input })
+        ..drained
     })
 }

@@ -8,6 +8,7 @@ pub fn case(input: &GuidelineInput) -> LoadCase {
     LoadCase {
         id: "first_surge",
         title: "First surge on the empty barrier",
+        one_of_the_stages: false,
         formula: "R = ½ K ρ g' h² + λ ρ v² h",
         ..later_surge::case(input, 0.0)
     }

@@ -2,17 +2,21 @@
 
 use crate::loads::cases::later_surge;
 use crate::loads::cases::load_case::LoadCase;
+use crate::loads::cases::working::at_rest;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 
 pub fn case(input: &GuidelineInput) -> LoadCase {
     let height = input.fill_height;
+    let diagram = Diagram { unit: input.unit_pressure(), surface: height, top: height, ..Diagram::default() };
     LoadCase {
         id: "full",
         title: "Full, at rest",
         deposit: height,
         moving: 0.0,
-        diagram: Diagram { unit: input.unit_pressure(), surface: height, top: height, ..Diagram::default() },
+        one_of_the_stages: false,
+        working: at_rest(input, &diagram),
+        diagram,
         formula: "R = ½ K ρ g' H²",
         ..later_surge::case(input, height)
     }

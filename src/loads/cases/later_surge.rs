@@ -1,6 +1,7 @@
 //! A surge over a deposit of height H_d: K ρ g' (H_d + h − z), and λ ρ v² between H_d and H_d + h, as far as the barrier stands.
 
 use crate::loads::cases::load_case::{Certainty, LoadCase};
+use crate::loads::cases::working::of_a_surge;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 use crate::sources::VOLKWEIN_2014;
@@ -9,19 +10,23 @@ pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
     let moving = input.depth;
     let surface = deposit + moving;
     let top = surface.min(input.barrier_height);
+    let diagram = Diagram {
+        unit: input.unit_pressure(),
+        surface,
+        top,
+        block: input.impact_pressure(),
+        block_from: deposit,
+        block_to: top,
+    };
     LoadCase {
         id: "later_surge",
         title: "Surge over a deposit",
         deposit,
         moving,
-        diagram: Diagram {
-            unit: input.unit_pressure(),
-            surface,
-            top,
-            block: input.impact_pressure(),
-            block_from: deposit,
-            block_to: top,
-        },
+        one_of_the_stages: true,
+        not_simulated: None,
+        working: of_a_surge(input, &diagram, deposit, moving),
+        diagram,
         shear: 0.0,
         shear_certainty: Certainty::Derived,
         point: None,
@@ -34,5 +39,10 @@ pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
 /// The last surge, which fills the barrier.
 pub fn last(input: &GuidelineInput) -> LoadCase {
     let deposit = input.fill_height - input.moving_depth();
-    LoadCase { id: "last_surge", title: "Last surge over the deposit", ..case(input, deposit) }
+    LoadCase {
+        id: "last_surge",
+        title: "Last surge over the deposit",
+        one_of_the_stages: false,
+        ..case(input, deposit)
+    }
 }

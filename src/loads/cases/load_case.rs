@@ -1,5 +1,6 @@
 //! One stage of a barrier's life: its pressures, and what acts beside them.
 
+use crate::loads::cases::working::Working;
 use crate::loads::pressure::Diagram;
 
 /// How sure we are of a formula or a value; only what is certain may decide a check.
@@ -52,8 +53,13 @@ pub struct LoadCase {
     /// Whether the drag may decide a check.
     pub shear_certainty: Certainty,
     pub point: Option<PointLoad>,
-    /// The resultant in symbols.
+    /// Whether it is one of several that differ in the depth of their deposit alone.
+    pub one_of_the_stages: bool,
+    /// What of it the simulation of one surge on the empty barrier does not hold, as a sentence names it.
+    pub not_simulated: Option<&'static str>,
+    /// The resultant in symbols, and with its numbers put in.
     pub formula: &'static str,
+    pub working: Working,
     pub certainty: Certainty,
     pub source: &'static str,
 }

@@ -10,6 +10,7 @@ pub(crate) mod load_case;
 pub(crate) mod overtopped;
 pub(crate) mod point_load;
 pub(crate) mod snow;
+pub(crate) mod working;
 
 use self::load_case::{Extras, LoadCase};
 use crate::loads::input::GuidelineInput;

@@ -5,6 +5,7 @@
 
 use crate::loads::cases::full;
 use crate::loads::cases::load_case::{Certainty, Extras, LoadCase};
+use crate::loads::cases::working::overtopped;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 
@@ -18,12 +19,15 @@ pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
     let weight = input.density * input.gravity_normal * depth;
     let [friction, length] = extras.overflow_drag.unwrap_or([DEFAULT_FRICTION, depth]);
     let shear = weight * friction * length;
+    let diagram = Diagram { unit: input.unit_pressure(), surface: height + depth, top: height, ..Diagram::default() };
     (input.fills() || extras.overflow_depth.is_some()).then(|| LoadCase {
         id: "overtopped",
         title: "Full and overtopped",
         deposit: height,
         moving: depth,
-        diagram: Diagram { unit: input.unit_pressure(), surface: height + depth, top: height, ..Diagram::default() },
+        not_simulated: extras.overflow_depth.map(|_| "the flow over the full barrier"),
+        working: overtopped(input, &diagram, depth),
+        diagram,
         shear,
         shear_certainty: if extras.overflow_drag.is_some() { Certainty::Given } else { Certainty::Memory },
         formula: "R = ½ K ρ g' (H² + 2 H h_o)",

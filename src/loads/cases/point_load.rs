@@ -10,6 +10,7 @@ pub fn case(input: &GuidelineInput, point: PointLoad) -> LoadCase {
         id: "point_load",
         title: "Last surge with a boulder or log",
         point: Some(point),
+        not_simulated: Some("the point load"),
         certainty: Certainty::Given,
         source: "point load: design file",
         ..later_surge::last(input)

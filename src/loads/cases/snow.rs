@@ -2,16 +2,20 @@
 
 use crate::loads::cases::full;
 use crate::loads::cases::load_case::{Certainty, LoadCase};
+use crate::loads::cases::working::even;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 
 pub fn case(input: &GuidelineInput, pressure: f64) -> LoadCase {
     let top = input.barrier_height;
+    let diagram = Diagram { block: pressure, block_to: top, top, ..Diagram::default() };
     LoadCase {
         id: "snow",
         title: "Snow",
         deposit: 0.0,
-        diagram: Diagram { block: pressure, block_to: top, top, ..Diagram::default() },
+        not_simulated: Some("the snow"),
+        working: even(&diagram),
+        diagram,
         formula: "R = p H",
         certainty: Certainty::Given,
         source: "pressure of the snow: design file",

@@ -1,0 +1,221 @@
+//! Rows of the report that tell how its numbers were obtained, and how far they can be relied on.
+
+use serde::Serialize;
+
+use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PACKING_LIMIT, STEP_LIMIT, STORED_LIMIT};
+use crate::design::{BarrierDesign, BarrierModel};
+use crate::fidelity::ladder::{RUNGS, Step};
+use crate::pipeline::{Run, Verdict};
+use crate::program::COMMIT;
+use crate::report::numbers::with_unit;
+use crate::report::row::{Row, row};
+use crate::report::validation::Kept;
+use crate::report::warnings::pinned_fidelity;
+use crate::simulated::Simulated;
+use crate::starts::k_n;
+
+/// How the numbers were obtained, and the limits of credibility.
+pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
+    let fidelity = pinned_fidelity(whole).map(|why| row("Fidelity", fidelity_in_a_word(whole, run), why));
+    fidelity.into_iter().chain(limit_rows(run)).chain(model_rows(run)).collect()
+}
+
+/// What the audits found, beside the limits of credibility.
+fn limit_rows(run: &Simulated) -> Vec<Row> {
+    let (facts, numerics) = (&run.facts, &run.numerics);
+    vec![
+        row(
+            "Energy imbalance",
+            format!("{:.3} %", 100.0 * numerics.energy_error),
+            format!("of the energy put in; limit {} %", 100.0 * ENERGY_LIMIT),
+        ),
+        row(
+            "Largest overlap",
+            format!("{:.1} %", 100.0 * numerics.overlap),
+            format!("of a grain's radius; limit {} %", 100.0 * OVERLAP_LIMIT),
+        ),
+        row(
+            "Time step over critical step",
+            format!("{:.2}", numerics.step_ratio),
+            format!(
+                "largest an audit met, of a mode with {:.0} % of its energy in the barrier; a step that is found too long is cut at once, and the energy account tells whether it did harm; limit {STEP_LIMIT}",
+                100.0 * facts.step_ratio.in_barrier
+            ),
+        ),
+        row("Time step", format!("{:.2e} s", facts.time_step), step_remark(run)),
+        row(
+            "Grains through ropes",
+            numerics.crossings.to_string(),
+            match facts.barrier_parts {
+                0 | 1 => "none is allowed".to_string(),
+                parts => format!("none is allowed; the barrier takes {parts} steps in one of the grains'"),
+            },
+        ),
+        row(
+            "Grains outside the channel",
+            numerics.escaped.to_string(),
+            format!(
+                "through the bed or a side wall, {:.3} % of the mass, counted as lost; at most {} %",
+                100.0 * numerics.escaped_share,
+                100.0 * ESCAPED_LIMIT
+            ),
+        ),
+        row(
+            "Energy stored at the release",
+            format!("{:.3} %", 100.0 * numerics.stored_at_release),
+            format!("in the contacts of a surge, of its energy of motion; limit {} %", 100.0 * STORED_LIMIT),
+        ),
+    ]
+}
+
+/// What was simulated, and what it took.
+fn model_rows(run: &Simulated) -> Vec<Row> {
+    let facts = &run.facts;
+    let ending = if facts.steady { "force and masses no longer changed" } else { "stopped before it was steady" };
+    vec![
+        row("Simulated time", with_unit(facts.simulated, "s"), ending),
+        row(
+            "Model",
+            format!("{} grains of {} spheres", facts.grains, facts.spheres),
+            format!("{} nodes and {} elements of the barrier", facts.barrier_nodes, facts.barrier_elements),
+        ),
+        row(
+            "Packing",
+            format!("{:.0} %", 100.0 * facts.packed_share),
+            format!(
+                "of the bulk density asked for at the start; less where the grains are large against the block; at least {} %",
+                100.0 * (1.0 - PACKING_LIMIT)
+            ),
+        ),
+        seed_row(run),
+        validation_row(),
+        row(
+            "Smoothing",
+            format!("{:.0} ms", 1e3 * facts.smoothing),
+            format!("of total and wall forces; ropes and anchors are means over {:.1} ms", 1e3 * facts.sampling),
+        ),
+        row(
+            "Cost",
+            format!("{:.1} s", facts.wall_clock),
+            format!("{} steps on {}, {} neighbour lists", facts.steps, threads(facts.threads), facts.renewals),
+        ),
+    ]
+}
+
+/// How the step was chosen, and what became of it.
+fn step_remark(run: &Simulated) -> String {
+    let (wished, now) = (run.fidelity.time_step, run.facts.time_step);
+    let cuts = match run.facts.step_cuts {
+        0 => "never cut".to_string(),
+        cuts => format!("{:.2e} s at first, cut {cuts} times by audits, to {:.2} of that", wished, now / wished),
+    };
+    format!("at first {}; {cuts}", run.fidelity.reason)
+}
+
+fn threads(count: usize) -> String {
+    if count == 1 { "one thread".to_string() } else { format!("{count} threads") }
+}
+
+/// The model in a few words.
+fn fidelity_in_a_word(whole: &Run, run: &Simulated) -> String {
+    let design = &whole.file.design;
+    let model = match (&design.barrier, design.simulation.barrier_model) {
+        (BarrierDesign::RigidWall(_), _) => "rigid wall",
+        (_, BarrierModel::PinnedRopes) => "ropes, rings pinned",
+        (_, BarrierModel::SlidingRopes) => "ropes that slide",
+        (_, BarrierModel::Cylinders) => "cylinders",
+    };
+    let starts = match run.starts.len() {
+        1 => "one start".to_string(),
+        starts => format!("{starts} starts"),
+    };
+    format!("{}, {model}, {starts}", run.fidelity.name)
+}
+
+/// The rungs of the ladder that ran.
+pub fn climb_rows(run: &Run) -> Vec<ClimbRow> {
+    let row = |step: &Step| {
+        let rung = &RUNGS[step.rung];
+        ClimbRow {
+            name: rung.name,
+            what: rung.what,
+            wall_clock: format!("{:.1} s", step.wall_clock),
+            said: step.said.clone(),
+            governing: step.governing.clone(),
+            open: match step.open.as_slice() {
+                [] => "nothing: no verdict can flip".to_string(),
+                open => open.join("; "),
+            },
+        }
+    };
+    run.climb.iter().map(row).collect()
+}
+
+/// Why no finer rung ran.
+pub fn why_enough(run: &Run) -> String {
+    let Some(last) = run.climb.last() else { return String::new() };
+    let rung = &RUNGS[last.rung];
+    match last.open.is_empty() {
+        true if run.verdict == Verdict::Undecided => format!(
+            "A model finer than \"{}\" would not close what is open: see the open checks and the doubts.",
+            rung.name
+        ),
+        false => format!(
+            "\"{}\" is the finest rung there is for this design; what is open on it is too close to its limit for this program to tell.",
+            rung.name
+        ),
+        true => format!(
+            "The level \"{}\" was sufficient: a finer model may differ from it by {:.0} % in forces, {:.0} % in strokes and {:.0} points in shares, and even so the verdict stands.",
+            rung.name,
+            100.0 * rung.band.force,
+            100.0 * rung.band.stroke,
+            100.0 * rung.band.share
+        ),
+    }
+}
+
+/// A rung in the report.
+#[derive(Clone, Debug, Serialize)]
+pub struct ClimbRow {
+    pub name: &'static str,
+    pub what: &'static str,
+    pub wall_clock: String,
+    pub said: String,
+    pub governing: String,
+    pub open: String,
+}
+
+/// What the validation of the program came to.
+fn validation_row() -> Row {
+    let Some(kept) = Kept::of_this_version() else {
+        return row("Validation of this program", "unknown", "no outcome is kept with it");
+    };
+    let failed: Vec<String> =
+        kept.cases.iter().filter(|case| !case.held).map(|case| format!("{} ({})", case.id, case.title)).collect();
+    let this = COMMIT;
+    let commit = if kept.commit == this {
+        format!("at this commit, {this}")
+    } else {
+        format!("at commit {}; this program is of commit {this}, which was not validated in full", kept.commit)
+    };
+    let remark = match failed.as_slice() {
+        [] => commit,
+        failed => format!("{commit}; not held: {}", failed.join("; ")),
+    };
+    row(
+        "Validation of this program",
+        format!("{} of {} cases hold", kept.cases.len() - failed.len(), kept.cases.len()),
+        remark,
+    )
+}
+
+fn seed_row(run: &Simulated) -> Row {
+    let seeds: Vec<String> = run.starts.iter().map(|start| start.seed.to_string()).collect();
+    let remark = match run.starts.len() {
+        1 => "of the packing; one run, so no scatter is known: ask for more with --seeds".to_string(),
+        starts => {
+            format!("of the packings; demands are mean + {:.2} standard deviations (EN 1990, annex D)", k_n(starts))
+        }
+    };
+    row(if seeds.len() > 1 { "Seeds" } else { "Seed" }, seeds.join(", "), remark)
+}
