@@ -69,6 +69,20 @@ pub struct RopeLoad {
 const RITTER_DEPTH: f64 = 4.0 / 9.0;
 const RITTER_FRONT: f64 = 2.0;
 
+/// All that the equations say of a design: its load cases, the ropes under them, what the barrier holds.
+///
+/// ```
+/// use barrier_check::design::read::read_design;
+/// use barrier_check::guideline::guideline;
+///
+/// let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/designs/small_net.yaml"));
+/// let file = read_design("small_net.yaml", text).unwrap();
+/// let loads = guideline(&file.design);
+/// // The first surge pushes with R = (½ K ρ g' h² + λ ρ v² h) b: K = 1, λ = 2.5, 0.6 m deep with 4.6 m/s, 3 m wide.
+/// let unit = 1400.0 * 9.81 * 25_f64.to_radians().cos();
+/// let by_hand = (0.5 * unit * 0.36 + 2.5 * 1400.0 * 4.6_f64.powi(2) * 0.6) * 3.0;
+/// assert!((loads.first_surge() / by_hand - 1.0).abs() < 1e-9);
+/// ```
 pub fn guideline(design: &Design) -> Guideline {
     guideline_for(design, input(design))
 }

@@ -60,6 +60,16 @@ pub struct Run {
 }
 
 /// By equations alone: loads, ropes, checks.
+///
+/// ```
+/// use barrier_check::design::read::read_design;
+/// use barrier_check::pipeline::{Verdict, by_equations};
+///
+/// let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/designs/small_net.yaml"));
+/// let run = by_equations(read_design("small_net.yaml", text).unwrap());
+/// // The equations alone never pass a net: some of its checks only a simulation can make.
+/// assert_eq!(run.verdict, Verdict::Undecided);
+/// ```
 pub fn by_equations(file: DesignFile) -> Run {
     let guideline = guideline(&file.design);
     finish(file, guideline, None, None)
@@ -67,6 +77,21 @@ pub fn by_equations(file: DesignFile) -> Run {
 
 /// Runs one design from words to verdict, with as many packings as `starts` asks for, from the design's seed on, under each of its
 /// load cases. Call inside the thread pool that shall do the work: one simulation uses all its threads, several run side by side.
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+///
+/// use barrier_check::design::read::read_design;
+/// use barrier_check::pipeline::run;
+/// use barrier_check::quantities::mass;
+/// use barrier_check::scene::event::Watch;
+///
+/// let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/tiny_wall.yaml"));
+/// let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+/// let run = run(read_design("tiny_wall.yaml", text).unwrap(), 1, &watch).unwrap();
+/// let simulated = run.simulated.unwrap();
+/// assert!(simulated.first().one(&mass::RETAINED) > 0.9);
+/// ```
 pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
     run_on(None, file, starts, watch)
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::check::{Options, load, simulate};
-use crate::commands::output::{exit_code, put, write_report};
+use crate::commands::output::{exit_code, put, tell_of_replaced, write_report};
 use crate::commands::report::{kind_of, read_recording};
 use crate::pipeline::Run;
 use crate::report::compare::{PAGE_FILES, Variant, files};
@@ -54,6 +54,7 @@ pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
             return ExitCode::Undecided;
         }
     };
+    tell_of_replaced(&page, Kind::Comparison);
     for (((path, source), folder), report) in paths.iter().zip(sources).zip(names).zip(&mut reports) {
         terminal::warn(format_args!("{}", path.display()));
         let ran = source.run(options).and_then(|run| {

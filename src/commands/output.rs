@@ -7,6 +7,7 @@ use crate::commands::Failure;
 use crate::pipeline::{Run, Verdict};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;
+use crate::report::kind::Kind;
 use crate::report::recording;
 use crate::report::render::render;
 use crate::report::series;
@@ -50,6 +51,17 @@ pub fn put(folder: &mut Folder, files: &[ReportFile]) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// Tells that a page which is made of many runs takes the place of another.
+pub fn tell_of_replaced(folder: &Folder, kind: Kind) {
+    if folder.holds_a_report() {
+        terminal::warn(format_args!(
+            "note: {} holds {} of before, whose place this one takes",
+            folder.path().display(),
+            kind.words()
+        ));
+    }
 }
 
 /// What the program ends with after a verdict.

@@ -10,10 +10,10 @@ use crate::commands::Failure;
 use crate::commands::check::load;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
-use crate::commands::output::put;
+use crate::commands::output::{put, tell_of_replaced};
 use crate::commands::signals::{listen, stop};
 use crate::design::read::DesignFile;
-use crate::report::folder::{Folder, Named, folder_name};
+use crate::report::folder::{Folder, Named, Refusal, folder_name};
 use crate::report::kind::Kind;
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
@@ -48,14 +48,19 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let folder_of = |name: &str| {
         let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
         let folder = out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
-        Folder::claim(&folder, Some(path), named)?.for_kind(Kind::Study)
+        let folder = Folder::claim(&folder, Some(path), named)?.for_kind(Kind::Study)?;
+        tell_of_replaced(&folder, Kind::Study);
+        Ok::<_, Refusal>(folder)
     };
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,
         Study::Stability(plan) => return stability_map(&plan, folder_of(&plan.name)?),
     };
     let beside = path.parent().unwrap_or(Path::new("."));
-    let scenes = plan.scenes.iter().map(|scene| load(&beside.join(scene)).map_err(|problems| problems.to_string()));
+    let scenes = plan
+        .scenes
+        .iter()
+        .map(|scene| load(&beside.join(scene)).map_err(|problems| format!("a scene cannot be read\n{problems}")));
     let scenes = scenes.collect::<Result<Vec<DesignFile>, String>>()?;
     let mut folder = folder_of(&plan.name)?;
     let kept = KeptResults::within(folder.path())?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::commands::ExitCode;
-use crate::commands::output::put;
+use crate::commands::output::{put, tell_of_replaced};
 use crate::report::folder::Folder;
 use crate::report::kind::Kind;
 use crate::report::validation::{Row, render, verdict_line};
@@ -61,6 +61,7 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
             return ExitCode::Undecided;
         }
     };
+    tell_of_replaced(&folder, Kind::Validation);
     let asked = cases.len();
     let mut rows = Vec::new();
     let mut written = Ok(());

@@ -23,7 +23,19 @@ pub struct DesignFile {
     pub entries: Entries,
 }
 
-/// Reads the bytes of the file called `file`, to be simulated.
+/// Reads the bytes of the file called `file`, to be simulated. On failure returns every problem that was found, with its place.
+///
+/// ```
+/// use barrier_check::design::read::read_design;
+///
+/// let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/designs/small_net.yaml"));
+/// let file = read_design("small_net.yaml", text).unwrap();
+/// // Everything inside is in SI units: metres, newtons, radians.
+/// assert_eq!(file.design.channel.width, 3.0);
+///
+/// let problems = read_design("empty.yaml", b"").unwrap_err();
+/// assert!(problems.to_string().contains("an empty file"));
+/// ```
 pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
     read_design_for(Purpose::Simulation, file, bytes)
 }

@@ -189,6 +189,11 @@ impl Folder {
         Ok(folder)
     }
 
+    /// Whether there is a report in it, whose place the one that is to be written takes.
+    pub fn holds_a_report(&self) -> bool {
+        !self.manifest.files.is_empty()
+    }
+
     /// Takes a folder within this one, of a report of its own.
     pub fn claim_inner(&self, name: &str, source: Option<&Path>, kind: Kind) -> Result<Self, Refusal> {
         let path = inner(&self.path, name)

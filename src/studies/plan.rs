@@ -36,6 +36,7 @@ const KEYS: &str = "a study with the keys kind, name and those of its kind, as i
 impl Study {
     /// Reads the file's text; tells all that is wrong with it.
     pub fn read(text: &str) -> Result<Self, Vec<String>> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let document = Document::parse(text.as_bytes(), KEYS).map_err(|problem| vec![told(&problem)])?;
         let at = |path: &str| document.position(path).map_or(String::new(), |place| format!("line {}, ", place.line));
         let doubled = doubled("", &document.root);
@@ -221,6 +222,7 @@ mod tests {
         assert!(Study::read(text).is_ok());
         let wrong = Study::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
         assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
+        assert!(Study::read(&format!("\u{feff}{text}")).is_ok());
         assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
         for (from, to, wanted) in [
             ("starts: ", "starts: few # ", "starts: found the text \"few\", expected a whole number at line "),

@@ -23,16 +23,7 @@ pub fn ball(id: u32, position: Vec3, radius: f64, density: f64) -> Grain {
 
 /// Grains in empty space, without gravity.
 pub fn free_model(grains: Vec<Grain>, shape: GrainShape) -> Model {
-    Model {
-        shape,
-        grains,
-        surfaces: Vec::new(),
-        barrier: None,
-        material: material(0.3, 0.5),
-        gravity: Vec3::zeros(),
-        wall_levels: Vec::new(),
-        outlet: f64::INFINITY,
-    }
+    Model { grains, material: material(0.3, 0.5), ..Model::empty(shape) }
 }
 
 /// An unbounded plane through `origin`.

@@ -21,6 +21,8 @@ pub struct Material {
 }
 
 /// Everything that is simulated.
+///
+/// [`Simulation::new`](crate::simulation::Simulation::new) has an example.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Model {
     pub shape: GrainShape,
@@ -35,4 +37,20 @@ pub struct Model {
     pub wall_levels: Vec<f64>,
     /// Grains beyond this x are taken out of the model (m).
     pub outlet: f64,
+}
+
+impl Model {
+    /// Empty space without gravity, whose grains will be of this shape, of a soft stone.
+    pub fn empty(shape: GrainShape) -> Self {
+        Self {
+            shape,
+            grains: Vec::new(),
+            surfaces: Vec::new(),
+            barrier: None,
+            material: Material { modulus: 1e8, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 },
+            gravity: Vec3::zeros(),
+            wall_levels: Vec::new(),
+            outlet: f64::INFINITY,
+        }
+    }
 }

@@ -127,6 +127,24 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// A model at rest in time, to be stepped by `time_step` (s). `skin` is the reach of the neighbour lists beyond contact (m), `speed_limit` the
+    /// speed beyond which a body has been shot out by an error (m/s).
+    ///
+    /// ```
+    /// use dem::Vec3;
+    /// use dem::model::Model;
+    /// use dem::simulation::Simulation;
+    /// use dem::tables::grains::{Grain, GrainBody, GrainShape};
+    ///
+    /// // One ball falls freely: after n steps of Δt it has the velocity −g n Δt.
+    /// let ball = Grain::at(0, Vec3::new(0.0, 0.0, 5.0), Vec3::x(), GrainBody::sphere(0.1, 2600.0));
+    /// let model = Model { grains: vec![ball], gravity: Vec3::new(0.0, 0.0, -9.81), ..Model::empty(GrainShape::Sphere) };
+    /// let mut simulation = Simulation::new(model, 1e-3, 0.05, 100.0);
+    /// for _ in 0..100 {
+    ///     simulation.step().unwrap();
+    /// }
+    /// assert!((simulation.snapshot()[0].velocity.z + 0.981).abs() < 1e-9);
+    /// ```
     pub fn new(mut model: Model, time_step: f64, skin: f64, speed_limit: f64) -> Self {
         let grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
         Self {
