@@ -31,7 +31,7 @@ pub const UNBRAKED: Case = Case {
     tier: Tier::SecondHand,
     weakness: "the release of the flow is not printed and was chosen by its velocity; peaks are means over 50 ms",
     cost: Cost::Long,
-    run: || compare(include_str!("../../../designs/site_a_no_brakes.yaml"), &FB_NO, |_| ()),
+    run: || compare(include_str!("../../../designs/site_a_no_dissipators.yaml"), &FB_NO, |_| ()),
 };
 
 /// What the thesis prints, and how well it must be met.

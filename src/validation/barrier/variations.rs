@@ -70,7 +70,7 @@ pub const EXTENSION: Case = Case {
 };
 
 const BRAKED: &str = include_str!("../../../designs/site_a.yaml");
-const UNBRAKED: &str = include_str!("../../../designs/site_a_no_brakes.yaml");
+const UNBRAKED: &str = include_str!("../../../designs/site_a_no_dissipators.yaml");
 const WALL: &str = include_str!("../../../designs/rigid_wall.yaml");
 
 fn net(design: &mut Design, change: impl FnOnce(&mut FlexibleNet)) {
