@@ -179,7 +179,7 @@ pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
         level: height(0.0),
         heap: height(repose),
         run_up: run_up::bound(input),
-        several: design.flow.event_volume > 1.001 * design.flow.volume(),
+        several: design.flow.is_one_of_several(),
     }
 }
 
@@ -249,13 +249,7 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
 pub fn height_over_bed(design: &Design) -> f64 {
     match &design.barrier {
         BarrierDesign::RigidWall(wall) => wall.height * libm::cos(wall.lean),
-        BarrierDesign::FlexibleNet(net) => {
-            let gap = match net.bottom {
-                Bottom::Fixed => 0.0,
-                Bottom::Opening(gap) => gap,
-            };
-            net.height * libm::cos(design.channel.slope + net.tilt) + gap
-        }
+        BarrierDesign::FlexibleNet(net) => net.height * libm::cos(design.channel.slope + net.tilt) + net.bottom.gap(),
     }
 }
 

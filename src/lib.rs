@@ -11,20 +11,20 @@
 //! |---|---|
 //! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
-//! | a contact law | a file beside [`dem::contact::law`]; its stiffness in [`dem::contact::grain_touch`], [`dem::contact::surfaces`], [`dem::contact::ropes`] and, for the stable step, [`dem::time::links`] and [`fidelity`]; its damping in [`dem::contact::restitution`]; rings and what lies on the ground in [`dem::elements::ring`] and [`dem::elements::ground`] |
+//! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes; for the stable step [`dem::time::links`]; its damping in [`dem::contact::restitution`]; `Simulation::surface_contacts` works the normal force out again for pictures |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
-//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] |
+//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] (film and snapshots list what pulls as well); raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
-//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its words in `report::loads`; a line in `checks::not_covered::not_simulated` |
+//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its working with [`loads::cases::working`] |
 //! | another impact model | an entry of [`loads::ladder::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
-//! | a shape of surface | [`dem::tables::surfaces`], what it does to a grain in [`dem::contact::surfaces`], where it stands in [`scene::build`] |
+//! | a shape of surface | [`dem::tables::surfaces`] (`Surface::nearest` tells what it does to a grain), where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
-//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter, comparison and demands follow (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
+//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, beside `pipeline::slower_than_designed` |
@@ -64,7 +64,7 @@
 //! * A run that becomes unstable or breaks a limit of [`checks::credibility`] never passes.
 //! * A run that is kept at a stop and resumed goes on bit for bit ([`checkpoint`]): whatever a step depends on is either kept or made
 //!   anew at every stop of every run.
-//! * Only [`commands`] and the writers of reports and checkpoints touch files; only one file names the broad-phase library; `unsafe` stands in
+//! * Only [`commands`], the writers of reports and checkpoints and the lock of a folder touch files; only one file names the broad-phase library; `unsafe` stands in
 //!   [`dem::workers`], [`dem::simd`], [`dem::tables::prefetch`], and around the rows that are moved while others are read
 //!   ([`dem::tables::grain_rows`], [`dem::sweep`]).
 

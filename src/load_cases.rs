@@ -60,7 +60,7 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
         by_equations: "on the pressures; sag, tension and stroke follow under the factored load",
         by_simulation: match design.barrier {
             BarrierDesign::FlexibleNet(_) => {
-                "on the densities and the contact modulus of the flow, which is simulated beside the characteristic one"
+                "applied to the densities and the contact modulus of the flow; the factored flow is simulated as well as the characteristic one"
             }
             BarrierDesign::RigidWall(_) => "on the forces: a rigid wall's are proportional to the action",
         },
@@ -77,8 +77,8 @@ fn of_a_net(net: &FlexibleNet, factors: &Factors) -> Vec<Combination> {
     rows.push(Combination {
         what: "Mass held and residual height",
         factor: 1.0,
-        by_equations: "not given by the equations",
-        by_simulation: "of the characteristic and of the factored flow, the smaller",
+        by_equations: "not given by the guideline",
+        by_simulation: "the smaller of the values from the characteristic and the factored flow",
     });
     rows.push(Combination {
         what: "Resistance of ropes",

@@ -6,15 +6,14 @@ pub const CUNDALL_STRACK_1979: &str =
     "Cundall & Strack 1979, A discrete numerical model for granular assemblies, Géotechnique 29";
 pub const EN_1990: &str = "EN 1990, annex D: design assisted by testing";
 pub const EN_1993_1_11: &str =
-    "EN 1993-1-11: structures with tension components (the partial factor of ropes; quoted from memory)";
+    "EN 1993-1-11: structures with tension components (the partial factor of ropes; not checked against the original)";
 pub const EN_1997_1: &str = "EN 1997-1: geotechnical design (the partial factor of anchors)";
 pub const OTHER_MODELS: &str = "Other models of impact and rules of detailing: named with their range and how sure we are of them where they are used; none of them decides a check";
 pub const NO_LIMIT: &str = "no limit set; for information";
 pub const NOTHING_BREAKS: &str = "no rope may break";
 pub const DESIGN_LIMIT: &str = "limit of the design file, or its default (see the inputs)";
-pub const ROPE_FACTOR: &str = "breaking load that the ends hold over the rope's partial factor (after EN 1993-1-11, from memory; both are in the design file)";
-pub const ANCHOR_FACTOR: &str =
-    "anchor resistance over its partial factor (after EN 1997-1; set it in the design file)";
+pub const ROPE_FACTOR: &str = "breaking load × termination efficiency / partial factor of the rope (after EN 1993-1-11, not checked against the original; all are in the design file)";
+pub const ANCHOR_FACTOR: &str = "anchor resistance / partial factor (after EN 1997-1; set it in the design file)";
 pub const STROKE_DATA: &str = "stroke of the dissipator, data of the design file";
 pub const PLATEAU_DATA: &str = "plateau force of the dissipator, data of the design file";
 pub const WALL_BALANCE: &str = "balance of forces and moments on the wall, with the factors of the design file";

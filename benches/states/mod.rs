@@ -237,5 +237,5 @@ fn folder() -> PathBuf {
 fn plane(role: SurfaceRole, origin: Vec3, normal: Vec3, friction: f64) -> Surface {
     let mut spans = [Vec3::z(), Vec3::y(), Vec3::x()].into_iter().filter(|axis| axis.dot(&normal) == 0.0);
     let spans = [(); 2].map(|()| Span::unbounded(spans.next().expect("two axes lie in the plane")));
-    Surface { role, origin, normal, spans, friction }
+    Surface::new(role, origin, normal, spans, friction)
 }

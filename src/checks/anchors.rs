@@ -34,7 +34,7 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capaci
     let plateau = net.dissipators?.plateau;
     let name = CheckName::new(
         "anchor_plateau",
-        "Anchors against the plateau of their dissipators",
+        "Anchor resistance against dissipator force, overstrength included",
         Unit::Newton,
         ANCHOR_FACTOR,
     );

@@ -50,8 +50,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             outcome.kind = kind;
             if kind == Kind::BetweenBolts {
                 leave_open_what_is_not_known(design, &net.main_ropes.rope, &mut outcome);
-            }
-            if kind == Kind::BetweenBolts {
                 outcome.growth = Growth::BetweenBolts { axial };
             }
             if outcome.holds() && spacing > MOST_RINGS * net.main_ropes.ring_spacing {

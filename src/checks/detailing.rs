@@ -154,7 +154,7 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
     rules.push(Rule {
         bearing: Bearing::Pressures,
         ..most(
-            "Lean of the barrier from plumb",
+            "Inclination of the barrier from the vertical",
             tilt_of(design).abs().to_degrees(),
             MOST_TILT,
             "deg",
@@ -199,7 +199,7 @@ fn tilt_of(design: &Design) -> f64 {
 fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
     let input = &guideline.input;
     least(
-        "Freeboard over one event",
+        "Freeboard after one event",
         input.barrier_height - event_fill(design, input).height(),
         0.0,
         "m",
@@ -222,8 +222,8 @@ fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
         least: Some(1.0 / LIKE_DISCHARGES),
         most: Some(LIKE_DISCHARGES),
         unit: "",
-        source: "Rickenmann 1999, Q = 0.1 V^0.833, from memory; such estimates scatter by a factor of two and more",
-        advice: "volume, depth and velocity do not belong together: is flow.volume one surge of a larger event (flow.event_volume)?",
+        source: "Rickenmann 1999, Q = 0.1 V^0.833, not checked against the original; such estimates scatter by a factor of two and more",
+        advice: "volume, depth and velocity look inconsistent: is flow.volume one surge of a larger event (flow.event_volume)?",
         bearing: Bearing::Flow,
     }
 }
@@ -234,7 +234,7 @@ fn of_sag(design: &Design, guideline: &Guideline) -> Option<Rule> {
     Some(Rule {
         bearing: Bearing::Ropes,
         ..most(
-            "Largest sag of a main rope over its span, by the equations",
+            "Largest sag of a main rope / span, by the guideline",
             sag / design.channel.width,
             LARGEST_SAG,
             "-",
@@ -299,7 +299,7 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
             5.0,
             "deg",
             ALBABA,
-            "a net normal to the bed holds much less and ends lower than a plumb one",
+            "a net normal to the bed retains much less and ends lower than a vertical one",
         ),
     ];
     if let Bottom::Opening(gap) = net.bottom {
@@ -363,7 +363,7 @@ mod tests {
                 let slope = design.channel.slope;
                 net(design).tilt = -slope;
             }),
-            ["Lean of the barrier from plumb", "Angle between the net and the bed's normal"]
+            ["Inclination of the barrier from the vertical", "Angle between the net and the bed's normal"]
         );
     }
 }

@@ -36,12 +36,7 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
 /// is no utilisation to tell; more means that the stroke is used up.
 pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let Some((_, given)) = dissipators(design) else { return Vec::new() };
-    let name = CheckName::new(
-        "brake_plateau",
-        "Largest tension of a dissipator against its plateau",
-        Unit::Newton,
-        PLATEAU_DATA,
-    );
+    let name = CheckName::new("brake_plateau", "Dissipator tension against its plateau", Unit::Newton, PLATEAU_DATA);
     let mut outcome = Outcome::at_most(
         name,
         demands.one(&dissipator::TENSION),

@@ -12,7 +12,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if matches!(design.barrier, BarrierDesign::RigidWall(_)) {
         return Vec::new();
     }
-    let name = CheckName::new("residual_height", "Residual height over initial height", Unit::Share, DESIGN_LIMIT);
+    let name = CheckName::new("residual_height", "Residual height / initial height", Unit::Share, DESIGN_LIMIT);
     let outcome = Outcome::at_least(name, demands.one(&height::RESIDUAL), design.limits.residual_height);
     vec![Outcome { kind: Kind::HeightLeft, ..outcome }]
 }

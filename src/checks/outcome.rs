@@ -50,6 +50,10 @@ pub enum Kind {
     WallStrength,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
+    /// The tension of a free main rope, of the lateral ropes, of the net.
+    MainRope,
+    LateralRopes,
+    NetRopes,
     /// What acts at the base of a wall that stands by its weight, and does not grow in proportion to the load.
     OnTheBase,
 }

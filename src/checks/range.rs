@@ -4,7 +4,7 @@
 //! A check fails all the same: outside its range a formula may say too little, and what fails by it is not saved by that.
 
 use crate::checks::detailing::{Bearing, LARGEST_SAG, LARGEST_STRAIN, rules};
-use crate::checks::outcome::{Opening, Outcome};
+use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::design::{BarrierDesign, Design, OutsideRange};
 use crate::guideline::Guideline;
 
@@ -58,10 +58,10 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
 /// Strain of a rope in the simulation, where it is more than is known to be elastic.
 fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    let rope = match outcome.id.as_str() {
-        "net_tension" => &net.net_rope,
-        "lateral_tension" => &net.lateral_rope,
-        id if id.starts_with("rope_") && id.ends_with("_tension") => &net.main_ropes.rope,
+    let rope = match outcome.kind {
+        Kind::NetRopes => &net.net_rope,
+        Kind::LateralRopes => &net.lateral_rope,
+        Kind::MainRope | Kind::BetweenBolts => &net.main_ropes.rope,
         _ => return None,
     };
     outcome.demand.simulation.map(|tension| tension / rope.axial_stiffness()).filter(|strain| *strain > LARGEST_STRAIN)

@@ -2,14 +2,14 @@
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome};
 use crate::demand::Demands;
-use crate::design::{BarrierDesign, Bottom, Design};
+use crate::design::{BarrierDesign, Design};
 use crate::guideline::{event_fill, height_over_bed, held_below, input};
 use crate::quantities::mass;
 use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = CheckName::new("retained_mass", "Mass held by the barrier", Unit::Share, DESIGN_LIMIT);
+    let name = CheckName::new("retained_mass", "Mass retained by the barrier", Unit::Share, DESIGN_LIMIT);
     let mut outcome = Outcome::at_least(name, demands.one(&mass::RETAINED), design.limits.retained_mass);
     outcome.kind = Kind::MassHeld;
     if matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn)
@@ -25,11 +25,7 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     let flow = &design.flow;
     let allowed = 1.0 - design.limits.retained_mass;
     if let (Some(cut), BarrierDesign::FlexibleNet(net)) = (&flow.cut, &design.barrier) {
-        let gap = match net.bottom {
-            Bottom::Fixed => 0.0,
-            Bottom::Opening(gap) => gap,
-        };
-        let finer = cut.whole.finer_than(net.mesh_opening.max(gap));
+        let finer = cut.whole.finer_than(net.mesh_opening.max(net.bottom.gap()));
         let lost = 1.0 - held_in_simulation.unwrap_or(1.0);
         // Asked as "within", so that what is not a number is not.
         let within = finer + lost <= allowed;
@@ -54,7 +50,7 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
             "nine tenths of the simulated grains are larger than the mesh and cannot pass it, and whether the real flow has finer ones is not said (give the whole curve, with simulation.coarsen: auto where it has too many grains)".into(),
         ));
     }
-    if flow.event_volume <= 1.001 * flow.volume() {
+    if !flow.is_one_of_several() {
         return None;
     }
     let heaped = event_fill(design, &input(design)).height();
@@ -83,6 +79,7 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
 mod tests {
     use super::*;
     use crate::demand::Demand;
+    use crate::design::Bottom;
     use crate::design::read::read_design;
     use crate::quantities::mass;
 

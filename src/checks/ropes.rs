@@ -1,6 +1,6 @@
 //! Tension of main, net and lateral ropes against their design resistance.
 
-use crate::checks::outcome::{CheckName, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Rope};
 use crate::quantities::quantity::Unit;
@@ -14,7 +14,8 @@ pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
     tensions
         .map(|(index, demand)| {
             let name = CheckName::of(&rope_tension::PEAK, index, format!("rope_{}_tension", index + 1), ROPE_FACTOR);
-            check(design, &net.main_ropes.rope, name, *demand).of_rope(index)
+            let outcome = check(design, &net.main_ropes.rope, name, *demand).of_rope(index);
+            Outcome { kind: Kind::MainRope, ..outcome }
         })
         .collect()
 }
@@ -22,13 +23,15 @@ pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
 pub fn check_net(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
     let name = CheckName::of(&other_ropes::NET, 0, "net_tension", ROPE_FACTOR);
-    vec![check(design, &net.net_rope, name, demands.one(&other_ropes::NET))]
+    let outcome = check(design, &net.net_rope, name, demands.one(&other_ropes::NET));
+    vec![Outcome { kind: Kind::NetRopes, ..outcome }]
 }
 
 pub fn check_lateral(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
     let name = CheckName::of(&other_ropes::LATERAL, 0, "lateral_tension", ROPE_FACTOR);
-    vec![check(design, &net.lateral_rope, name, demands.one(&other_ropes::LATERAL))]
+    let outcome = check(design, &net.lateral_rope, name, demands.one(&other_ropes::LATERAL));
+    vec![Outcome { kind: Kind::LateralRopes, ..outcome }]
 }
 
 fn check(design: &Design, rope: &Rope, name: CheckName, demand: Demand) -> Outcome {
@@ -49,7 +52,7 @@ pub fn resistance(design: &Design, rope: &Rope) -> Resistance {
 /// Share of the elastic limit from which a simulated tension counts as cut off by it.
 const CUT_OFF: f64 = 0.999;
 
-/// Share of the breaking load that ferrules and grips hold at the least (EN 13411-3 and -5, from memory: 0.8 to 0.9).
+/// Share of the breaking load that ferrules and grips hold at the least (EN 13411-3 and -5, not checked against the original: 0.8 to 0.9).
 const WEAKEST_END: f64 = 0.8;
 
 /// Leaves a check open where the rope would draw out, as far as nobody knows, and where it holds only with ends that nobody has described.
@@ -75,7 +78,7 @@ pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
     let own = Demand { guideline: Some(design.factors.overstrength * dissipators.plateau), ..Demand::default() };
     let name = CheckName::new(
         "rope_plateau",
-        "Main ropes against the plateau of their dissipators",
+        "Main rope strength against dissipator force, overstrength included",
         Unit::Newton,
         ROPE_FACTOR,
     );

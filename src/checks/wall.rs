@@ -88,7 +88,7 @@ impl Base {
             "wall_eccentricity",
             "Eccentricity of the pressure under the wall",
             Unit::Metre,
-            "EN 1997-1, 6.5.4, from memory: beyond a third of the base special precautions are needed",
+            "EN 1997-1, 6.5.4, not checked against the original: beyond a third of the base special precautions are needed",
         );
         let [_, tilt] = self.wall.overturning();
         let outcome = held(name, off_centre, self.wall.base_width / 3.0, 1.0);
@@ -113,7 +113,7 @@ impl Base {
             "wall_bearing",
             "Pressure under the wall",
             Unit::Pascal,
-            "EN 1997-1, annex D, from memory: the load over the part of the base that is centred under it",
+            "EN 1997-1, annex D, not checked against the original: the load on the part of the base that is centred under it",
         );
         let outcome = match self.stability.bearing_resistance {
             Some(characteristic) => held(name, demand, characteristic, self.stability.bearing_factor),

@@ -80,7 +80,7 @@ fn tell_what_auto_leaves_out(file: &DesignFile, options: Options) {
         return;
     }
     let left_out = [
-        (options.starts > 1, "--seeds is not used: it chooses the number of packings itself"),
+        (options.starts > 1, "--seeds is not used: it chooses the number of runs itself"),
         (options.vary, "--vary is used only where a simulation runs"),
     ];
     for (_, what) in left_out.into_iter().filter(|(asked, _)| *asked) {
@@ -119,7 +119,7 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
     let Some(mut claimed) = claimed else { return ExitCode::Undecided };
     claimed.go_on_with(request.source.clone());
     if !(1..=MOST_STARTS).contains(&request.starts) {
-        terminal::warn(format_args!("error: the run kept in {} asks for {} packings", kept.display(), request.starts));
+        terminal::warn(format_args!("error: the run kept in {} asks for {} runs", kept.display(), request.starts));
         return ExitCode::Undecided;
     }
     let Request { starts, vary, vtk, .. } = request;
@@ -202,7 +202,7 @@ pub fn dry_run(path: &Path, options: Options) -> ExitCode {
     if runs > 1 {
         let flows = if cases > 1 { ", the flow as it is and with the partial factor on loads" } else { "" };
         let inputs = if varied > 0 { format!(", {varied} with one input changed") } else { String::new() };
-        say(format!("simulations       {runs}: {} packings{flows}{inputs}", options.starts));
+        say(format!("simulations       {runs}: {} initial packings{flows}{inputs}", options.starts));
     }
     let time = duration(seconds * runs as f64);
     say(format!("time              about {time} on one core, to a factor of two"));
@@ -213,7 +213,7 @@ pub fn dry_run(path: &Path, options: Options) -> ExitCode {
     }
     say(format!("memory            about {:.0} MB for each simulation", bytes / 1e6));
     if file.design.simulation.fidelity == FidelityWish::Auto {
-        let most = "this is one start; a marginal design takes up to eleven, five of them of the finest model";
+        let most = "this is one run; a marginal design takes up to eleven, five of them with the finest model";
         say(format!("fidelity: auto    {most}"));
     }
     match estimate.too_much() {

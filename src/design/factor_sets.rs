@@ -14,17 +14,17 @@ struct FactorSet {
 const SETS: &[FactorSet] = &[
     FactorSet {
         name: "en_1997",
-        source: "EN 1997-1: variable action 1.5, anchor 1.1; EN 1993-1-11, from memory: rope 1.5",
+        source: "EN 1997-1: variable action 1.5, anchor 1.1; EN 1993-1-11, not checked against the original: rope 1.5",
         factors: [("factors.load", "1.5"), ("factors.rope", "1.5"), ("factors.anchor", "1.1")],
     },
     FactorSet {
         name: "onr_24810",
-        source: "ONR 24810 (rockfall nets), consequence classes 1 and 2: action 1.5, anchor in the ground 1.2; EN 1993-1-11, from memory: rope 1.5",
+        source: "ONR 24810 (rockfall nets), consequence classes 1 and 2: action 1.5, anchor in the ground 1.2; EN 1993-1-11, not checked against the original: rope 1.5",
         factors: [("factors.load", "1.5"), ("factors.rope", "1.5"), ("factors.anchor", "1.2")],
     },
     FactorSet {
         name: "onr_24810_cc3",
-        source: "ONR 24810 (rockfall nets), consequence class 3: action 1.5, anchor in the ground 1.5; EN 1993-1-11, from memory: rope 1.5",
+        source: "ONR 24810 (rockfall nets), consequence class 3: action 1.5, anchor in the ground 1.5; EN 1993-1-11, not checked against the original: rope 1.5",
         factors: [("factors.load", "1.5"), ("factors.rope", "1.5"), ("factors.anchor", "1.5")],
     },
 ];

@@ -96,6 +96,11 @@ pub struct CurveCut {
 }
 
 impl Flow {
+    /// Whether it is one of several surges of its event: more than rounding lies between their volumes.
+    pub fn is_one_of_several(&self) -> bool {
+        self.event_volume > 1.001 * self.volume()
+    }
+
     /// Volume of the flow with its pores (m³).
     pub fn volume(&self) -> f64 {
         self.mass / self.bulk_density
@@ -314,6 +319,16 @@ pub enum Bottom {
     Fixed,
     /// Free, this far above the bed (m).
     Opening(f64),
+}
+
+impl Bottom {
+    /// Height of the gap under the net, normal to the bed (m).
+    pub fn gap(self) -> f64 {
+        match self {
+            Self::Fixed => 0.0,
+            Self::Opening(gap) => gap,
+        }
+    }
 }
 
 /// What a design must keep.

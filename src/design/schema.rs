@@ -193,7 +193,7 @@ const RIGID_WALL: &[Key] = &[
     Key::optional(
         "tilt",
         quantity(D::Angle, -STEEPEST, STEEPEST),
-        "angle of the face against plumb, positive leans upstream; by default the face is normal to the bed, or upright on its base where stability is given",
+        "angle of the face against the vertical, positive leans upstream; by default the face is normal to the bed, or upright on its base where stability is given",
     ),
     Key::optional(
         "segments",
@@ -271,7 +271,7 @@ const FLEXIBLE_NET: &[Key] = &[
         "tilt",
         quantity(D::Angle, -STEEPEST, STEEPEST),
         "0 deg",
-        "angle against plumb, positive leans upstream",
+        "angle against the vertical, positive leans upstream",
     ),
     Key::required("mesh_opening", Kind::LengthOrGrains { low: 0.005, high: 3.0 }, "side of the square mesh"),
     Key::required("net_rope", Kind::Section(ROPE), "rope of the net"),
@@ -433,7 +433,7 @@ const LIMITS: &[Key] = &[
         "outside_range",
         Kind::Choice(&["undecided", "warn"]),
         "undecided",
-        "what becomes of a check that a formula governs outside the range it is known for: it stays undecided, or it stands with a warning",
+        "treatment of a check that is governed by a formula outside its range: it is left undecided, or stands with a warning",
     ),
 ];
 
@@ -442,7 +442,7 @@ const FACTORS: &[Key] = &[
         "set",
         Kind::Choice(factor_sets::NAMES),
         "none",
-        "named partial factors on loads, ropes and anchors; each that is given below stands above the set",
+        "named set of partial factors on loads, ropes and anchors; factors given one by one override it",
     ),
     Key::default(
         "earth_pressure_k",
@@ -463,7 +463,7 @@ const FACTORS: &[Key] = &[
         "rope_end",
         Kind::Number { low: 0.5, high: 1.0 },
         "1",
-        "share of a rope's breaking load that its ends hold: 1 for sockets, less for ferrules and grips",
+        "termination efficiency: share of its breaking load that a rope holds at its ends, 1 for sockets, less for ferrules and grips",
     ),
     Key::optional(
         "dissipator_overstrength",
@@ -492,7 +492,7 @@ const LOADS: &[Key] = &[
         "filling",
         Kind::Choice(&["to_the_top", "one_event"]),
         "to_the_top",
-        "surges come until the barrier is full; or one event only fills what it can and the barrier is emptied before the next",
+        "repeated surges until the barrier is full; or a single event, with the barrier cleared afterwards",
     ),
     Key::optional("drained", Kind::Section(DRAINED), "the deposit once it has drained"),
     Key::optional("point_load", Kind::Section(POINT_LOAD), "a boulder or log, added to every surge"),
@@ -502,13 +502,13 @@ const LOADS: &[Key] = &[
         "filled_height",
         quantity(D::Share, 0.1, 1.0),
         "75 %",
-        "height of a filled net over its first, for the volume it holds (from memory of practice)",
+        "height of the filled net as a share of its initial height, for the volume it holds (from practice, not verified)",
     ),
     Key::default(
         "deposit_slope",
         quantity(D::Share, 0.0, 0.99),
         "67 %",
-        "slope of the deposit's surface over that of the bed, for the volume it holds (from memory of practice)",
+        "slope of the deposit's surface as a share of that of the bed, for the volume it holds (from practice, not verified)",
     ),
 ];
 
@@ -527,7 +527,7 @@ const SIMULATION: &[Key] = &[
         "fidelity",
         Kind::Choice(&["fast", "standard", "fine", "auto"]),
         "standard",
-        "how small a time step; auto: from the equations up, model and number of starts as fine as the verdict needs",
+        "how small a time step; auto: from the guideline calculation up, with model and number of runs as fine as the verdict needs",
     ),
     Key::default(
         "barrier_model",
@@ -541,7 +541,12 @@ const SIMULATION: &[Key] = &[
         "never",
         "whether the fine end of the grain-size curve is cut where there are more grains than run in minutes; the report says where, and what of it the mesh would let through",
     ),
-    Key::default("seed", Kind::Count { low: 0, high: u32::MAX as u64 }, "1", "seed of the packing"),
+    Key::default(
+        "seed",
+        Kind::Count { low: 0, high: u32::MAX as u64 },
+        "1",
+        "seed of the initial packing of the grains",
+    ),
     Key::default(
         "longest",
         quantity(D::Time, 0.01, 1e4),

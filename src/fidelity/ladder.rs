@@ -77,7 +77,7 @@ pub const RUNGS: [Rung; 5] = [
     Rung {
         kind: RungKind::CoarseGrains,
         name: "coarse",
-        what: "grains half as large again, ropes that slide, one start",
+        what: "grains half as large again, ropes that slide, one run",
         starts: 1,
         band: Band { force: 1.2, stroke: 3.0, share: 0.05 },
         above: Band { force: 0.4, stroke: 1.0, share: 0.05 },
@@ -87,7 +87,7 @@ pub const RUNGS: [Rung; 5] = [
     Rung {
         kind: RungKind::Grains,
         name: "grains",
-        what: "grains as they are, ropes that slide, one start",
+        what: "grains as they are, ropes that slide, one run",
         starts: 1,
         band: Band { force: 0.8, stroke: 2.0, share: 0.03 },
         above: Band { force: 0.16, stroke: 0.28, share: 0.02 },
@@ -97,7 +97,7 @@ pub const RUNGS: [Rung; 5] = [
     Rung {
         kind: RungKind::Starts,
         name: "starts",
-        what: "the same with five starts, their scatter in the demand",
+        what: "the same with five runs, their scatter in the demand",
         starts: 5,
         band: Band { force: 0.15, stroke: 0.2, share: 0.02 },
         above: Band { force: 0.15, stroke: 0.2, share: 0.01 },
@@ -107,7 +107,7 @@ pub const RUNGS: [Rung; 5] = [
     Rung {
         kind: RungKind::Fine,
         name: "fine",
-        what: "half the step, ropes and rings of cylinders that bend, sides of the mesh divided as the grains need, five starts",
+        what: "half the step, ropes and rings of cylinders that bend, sides of the mesh divided as the grains need, five runs",
         starts: 5,
         band: Band { force: 0.0, stroke: 0.0, share: 0.0 },
         above: Band { force: 0.0, stroke: 0.0, share: 0.0 },
@@ -195,8 +195,8 @@ impl Rung {
             };
             if close {
                 let finer = match packings {
-                    1 => "one simulation is not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)".to_string(),
-                    2 => format!("{packings} simulations are not enough: the scatter between packings could reverse the result (run with --seeds 5 or simulation.fidelity: auto)"),
+                    1 => "one simulation is not enough: the scatter between runs could reverse the result (run with --seeds 5 or simulation.fidelity: auto)".to_string(),
+                    2 => format!("{packings} simulations are not enough: the scatter between runs could reverse the result (run with --seeds 5 or simulation.fidelity: auto)"),
                     _ => "it is closer to its limit than this model is accurate".to_string(),
                 };
                 outcome.leave_open(Opening::TooClose(finer));

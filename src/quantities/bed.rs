@@ -13,14 +13,16 @@ pub const FORCE: Quantity =
     .meaning("On what holds the lowest main rope to the bed.")
     .demanded(Demanded::Load(|guideline, _| guideline.bed_force));
 
-/// Largest force on one of its bolts, and the largest lift of one; 0 where their distance is not known.
+/// Largest force on one of its bolts; 0 where their distance is not given.
 pub const BOLT: Quantity =
     Quantity::new("bolt_force", "Load of the worst bolt of the lowest rope", Newton, Of::Run, |run| {
         run.peak(&of_anchors::BOLT)
     })
     .json("bolt_force_peak_n")
-    .meaning("On its worst bolt, and the largest lift of one; 0 where anchors.bed_bolt_spacing is not given.")
+    .meaning("On its worst bolt; 0 where anchors.bed_bolt_spacing is not given.")
     .demanded(Demanded::Load(|guideline, _| guideline.bolt_force));
+/// Largest lift of one of its bolts, likewise.
 pub const BOLT_LIFT: Quantity =
     Quantity::new("bolt_lift", "Largest lift of a bolt", Newton, Of::Run, |run| run.peak(&of_anchors::BOLT_LIFT))
-        .json("bolt_lift_peak_n");
+        .json("bolt_lift_peak_n")
+        .meaning("The largest lift of one; 0 where anchors.bed_bolt_spacing is not given.");

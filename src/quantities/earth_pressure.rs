@@ -23,15 +23,20 @@ pub const DYNAMIC: Quantity =
     .told(Told::WhereKnown);
 
 /// The same by the split into grains at rest and moving ones.
-pub const K_SPLIT: Quantity =
-    Quantity::new("k_split", "K by the split, when F₁ is largest", Number, Of::RunIfKnown, |run| {
+pub const K_SPLIT: Quantity = Quantity::new(
+    "k_split",
+    "K back-calculated from the grains at rest, at their peak force F₁",
+    Number,
+    Of::RunIfKnown,
+    |run| {
         let told = &run.coefficients;
         Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead).into_iter().collect()
-    })
-    .told(Told::WhereKnown);
+    },
+)
+.told(Told::WhereKnown);
 pub const LAMBDA_UPSTREAM: Quantity = Quantity::new(
     "lambda_split_upstream",
-    "λ by the split, when F₂ is largest, velocity upstream",
+    "λ back-calculated from the moving grains, with the approach velocity",
     Number,
     Of::RunIfKnown,
     |run| {
@@ -42,7 +47,7 @@ pub const LAMBDA_UPSTREAM: Quantity = Quantity::new(
 .told(Told::WhereKnown);
 pub const LAMBDA_MEAN: Quantity = Quantity::new(
     "lambda_split_mean",
-    "λ by the split, when F₂ is largest, mean velocity",
+    "λ back-calculated from the moving grains, with the mean velocity of all grains",
     Number,
     Of::RunIfKnown,
     |run| {

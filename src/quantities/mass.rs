@@ -24,7 +24,7 @@ fn velocity(run: &Reading) -> Vec<f64> {
 }
 
 /// Of the mass that has come to the barrier, the share that it holds.
-pub const RETAINED: Quantity = Quantity::new("retained", "Mass held", Share, Of::Run, |run| {
+pub const RETAINED: Quantity = Quantity::new("retained", "Mass retained", Share, Of::Run, |run| {
     let all_lost = lost(run).iter().sum::<f64>();
     let held = 1.0 - all_lost - run.histories.stopped_upstream;
     vec![held / (held + all_lost)]

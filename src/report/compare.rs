@@ -225,7 +225,7 @@ fn marking(variants: &[Variant]) -> String {
             "Marked: differs from the first design by more than {CLEAR:.0} standard deviations of the difference."
         ),
         false => format!(
-            "Marked: differs from the first design by more than {:.0} %. These are single starts; how far two packings of one design differ, --seeds tells.",
+            "Marked: differs from the first design by more than {:.0} %. These are single runs; --seeds shows how far runs of one design differ.",
             100.0 * UNTOLD
         ),
     }
@@ -292,7 +292,7 @@ fn chart(
     };
     let series = seen.iter().zip(curves.iter().map(Vec::as_slice)).enumerate().map(series).collect();
     let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new(), band: None }.svg();
-    Chart { title, file: file.into(), svg, note: "First start of each design; time since its release.".into() }
+    Chart { title, file: file.into(), svg, note: "First run of each design; time since release.".into() }
 }
 
 #[cfg(test)]

@@ -82,7 +82,7 @@ fn extension_row(seen: &Observed) -> Option<Row> {
         seen.each(&rope_tension::BULGE).iter().map(|extension| with_unit(*extension, "m")).collect();
     (most > 0.0).then(|| {
         let remark = format!(
-            "downstream, in the simulated surge; of main ropes from the bottom: {}. Keep free the larger of this and the sag by the equations",
+            "downstream, in the simulated surge; of main ropes from the bottom: {}. Keep clear the larger of this and the sag by the guideline",
             ropes.join(", ")
         );
         row("Largest extension of the net", with_unit(most, "m"), remark)
@@ -125,12 +125,12 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
         row("λ from the largest force", format!("{lambda:.2}"), remark)
     });
     let at_peak = row(
-        "K by the split, when F₁ is largest",
+        "K back-calculated from the grains at rest, at their peak force F₁",
         of(Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead)),
         format!("F₁ over ρ g' H_d (H_d/2 + h); {}", words_at(told, Coefficients::peak_of(&told.force_dead))),
     );
     let moving = row(
-        "λ by the split, when F₂ is largest",
+        "λ back-calculated from the moving grains, at their peak force F₂",
         format!(
             "{} / {}",
             of(Coefficients::at_peak_of(&told.dynamic_upstream, &told.force_moving)),
@@ -175,7 +175,7 @@ fn side_row(told: &Coefficients) -> Row {
     let dead = side(highest(&told.force_dead), highest(&told.guideline_dead));
     let moving = side(highest(&told.force_moving), highest(&told.guideline_moving));
     row(
-        "The guideline against this simulation",
+        "Guideline compared with this simulation",
         format!("F₁ {dead}; F₂ {moving}"),
         "largest values, from the same depths and the mean velocity, with the design's K and λ",
     )
@@ -187,7 +187,11 @@ fn loss_rows(seen: &Observed) -> Vec<Row> {
     let stopped = with_unit(seen.one(&mass::STOPPED_UPSTREAM), "-");
     vec![
         row("Mass lost", with_unit(seen.lost().iter().sum(), "-"), ways),
-        row("Mass that stopped upstream", stopped, "came to rest without leaning on the barrier; not counted as held"),
+        row(
+            "Mass that stopped upstream",
+            stopped,
+            "came to rest without contact with the deposit at the barrier; not counted as retained",
+        ),
     ]
 }
 

@@ -39,7 +39,7 @@ impl Kind {
     /// As a sentence has it.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Equations => "the report of a design by the equations alone",
+            Self::Equations => "the report of a design by the guideline alone",
             Self::Simulation => "the report of a simulated design",
             Self::Comparison => "a comparison",
             Self::Validation => "a validation",

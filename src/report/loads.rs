@@ -228,7 +228,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
             "M of the load about the upstream end of the base + lift × width of the base + W sin β H/2 + 2 U b/3",
         ),
         row(
-            "Left out, on the safe side",
+            "Left out, which is conservative",
             "–".into(),
             "that the load presses the wall down; the weight of the deposit; friction of the deposit on the wall",
         ),
@@ -271,7 +271,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
             "Volume held behind the barrier",
             with_unit(held.volume, "m³"),
             format!(
-                "V = ½ b H² (cot(θ − θ') + tan of the lean), H = {}, θ = {:.1}°, θ' = {:.1}°, lean from the bed's normal {:.1}°, over {} of channel; shares of height and slope from the design or from memory of practice",
+                "V = ½ b H² (cot(θ − θ') + tan of the lean), H = {}, θ = {:.1}°, θ' = {:.1}°, lean from the bed's normal {:.1}°, over {} of channel; filled height and deposit slope as given, or by default (from practice, not verified)",
                 with_unit(held.deposit.height, "m"),
                 held.deposit.slope.to_degrees(),
                 held.deposit.surface.to_degrees(),
@@ -280,7 +280,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
             ),
         ));
         rows.push(row(
-            "Capacity, in design surges",
+            "Storage capacity, in design surges",
             figures(held.surges),
             format!(
                 "of {} each, the design flow; the event has {}",
@@ -298,10 +298,10 @@ pub fn holding(run: &Run) -> Vec<Row> {
     ));
     let one_event = event.height();
     rows.push(row(
-        "Freeboard over one event",
+        "Freeboard after one event",
         with_unit(input.barrier_height - one_event, "m"),
         format!(
-            "the barrier's {} less what the event may heap up, {} (level {}, at the angle of repose {}, no higher than it runs up), normal to the bed; no guideline value was found",
+            "barrier height {} − highest deposit {} ({} with a level surface; {} at the angle of repose, capped by the run-up), normal to the bed; no guideline value was found",
             with_unit(input.barrier_height, "m"),
             with_unit(event.height(), "m"),
             with_unit(event.level, "m"),
@@ -324,7 +324,7 @@ fn estimates(run: &Run) -> Vec<Row> {
                 format!("Estimate from the volume alone: {}", estimate.name),
                 with_unit(estimate.value, "m³/s"),
                 format!(
-                    "{}; with v = 2.1 Q^0.33 S^0.33: {} and {} deep; from memory, not used in any check",
+                    "{}; with v = 2.1 Q^0.33 S^0.33: {} and {} deep; not checked against the original, and not used in any check",
                     estimate.formula,
                     with_unit(velocity, "m/s"),
                     with_unit(depth, "m")
@@ -336,7 +336,7 @@ fn estimates(run: &Run) -> Vec<Row> {
         rows.push(row(
             "Estimate from the depth: Manning-Strickler",
             format!("{} to {}", with_unit(rough, "m/s"), with_unit(smooth, "m/s")),
-            "v = h^⅔ S^½/n, n 0.18 to 0.05; from memory, not used in any check",
+            "v = h^⅔ S^½/n, n 0.18 to 0.05; not checked against the original, and not used in any check",
         ));
     }
     rows
@@ -392,21 +392,21 @@ pub fn margin(run: &Run) -> String {
         )
     });
     let tell = |name: &str, limit: Limit| match limit {
-        Limit::Unjudged => "no check is judged by the equations".to_string(),
-        Limit::AlwaysFails => format!("reducing only the {name} does not make all checks by the equations hold"),
-        Limit::NeverFails => format!("no {name} up to ten times the design's fails a check by the equations"),
+        Limit::Unjudged => "no check is judged by the guideline".to_string(),
+        Limit::AlwaysFails => format!("reducing only the {name} does not make all guideline checks pass"),
+        Limit::NeverFails => format!("no {name} up to ten times the design's fails a guideline check"),
         Limit::At(factor) if factor >= 1.0 => {
             let grown = 100.0 * (factor - 1.0);
-            format!("the {name} may grow by {grown:.0} % until the first check by the equations fails")
+            format!("the {name} alone could increase by {grown:.0} % before a check fails by the guideline")
         }
         Limit::At(factor) => {
             let less = 100.0 * (1.0 - factor);
-            format!("the {name} would have to be {less:.0} % smaller for all checks by the equations to hold")
+            format!("the {name} would have to be {less:.0} % smaller for all guideline checks to pass")
         }
     };
     let margin = sensitivity::margin(&run.file.design);
     if margin.velocity == Limit::Unjudged {
-        return "No check is judged by the equations.".into();
+        return "No check is judged by the guideline.".into();
     }
     let still = if margin.velocity == Limit::AlwaysFails { still } else { String::new() };
     format!("Alone, {}; {}.{still}", tell("velocity", margin.velocity), tell("depth", margin.depth))

@@ -35,10 +35,10 @@ fn limit_rows(run: &Simulated) -> Vec<Row> {
             format!("of a grain's radius; limit {} %", 100.0 * OVERLAP_LIMIT),
         ),
         row(
-            "Time step over critical step",
+            "Time step / critical step",
             format!("{:.2}", numerics.step_ratio),
             format!(
-                "largest an audit met, of a mode with {:.0} % of its energy in the barrier; a step that is found too long is cut at once, and the energy account tells whether it did harm; limit {STEP_LIMIT}",
+                "largest ratio found by the stability checks during the run, which shorten a step that is too long at once (mode with {:.0} % of its energy in the barrier); the energy balance shows whether it did harm; the run is rejected above {STEP_LIMIT}",
                 100.0 * facts.step_ratio.in_barrier
             ),
         ),
@@ -63,7 +63,10 @@ fn limit_rows(run: &Simulated) -> Vec<Row> {
         row(
             "Energy stored at the release",
             format!("{:.3} %", 100.0 * numerics.stored_at_release),
-            format!("in the contacts of a surge, of its energy of motion; limit {} %", 100.0 * STORED_LIMIT),
+            format!(
+                "elastic energy in the contacts of a surge, as a share of its kinetic energy; limit {} %",
+                100.0 * STORED_LIMIT
+            ),
         ),
     ]
 }
@@ -83,7 +86,7 @@ fn model_rows(run: &Simulated) -> Vec<Row> {
             "Packing",
             format!("{:.0} %", 100.0 * facts.packed_share),
             format!(
-                "of the bulk density asked for at the start; less where the grains are large against the block; at least {} %",
+                "of the specified bulk density at release; large grains pack less densely; minimum {} %",
                 100.0 * (1.0 - PACKING_LIMIT)
             ),
         ),
@@ -106,8 +109,12 @@ fn model_rows(run: &Simulated) -> Vec<Row> {
 fn step_remark(run: &Simulated) -> String {
     let (wished, now) = (run.fidelity.time_step, run.facts.time_step);
     let cuts = match run.facts.step_cuts {
-        0 => "never cut".to_string(),
-        cuts => format!("{:.2e} s at first, cut {cuts} times by audits, to {:.2} of that", wished, now / wished),
+        0 => "never shortened".to_string(),
+        cuts => format!(
+            "{:.2e} s initially, shortened {cuts} times by stability checks, to {:.2} of that",
+            wished,
+            now / wished
+        ),
     };
     format!("at first {}; {cuts}", run.fidelity.reason)
 }
@@ -126,8 +133,8 @@ fn fidelity_in_a_word(whole: &Run, run: &Simulated) -> String {
         (_, BarrierModel::Cylinders) => "cylinders",
     };
     let starts = match run.starts.len() {
-        1 => "one start".to_string(),
-        starts => format!("{starts} starts"),
+        1 => "one run".to_string(),
+        starts => format!("{starts} runs"),
     };
     format!("{}, {model}, {starts}", run.fidelity.name)
 }
@@ -165,7 +172,7 @@ pub fn why_enough(run: &Run) -> String {
             rung.name
         ),
         true => format!(
-            "The level \"{}\" was sufficient: a finer model may differ from it by {:.0} % in forces, {:.0} % in strokes and {:.0} points in shares, and even so the verdict stands.",
+            "The level \"{}\" was sufficient: a finer model may differ by {:.0} % in forces, {:.0} % in strokes and {:.0} percentage points in retained mass and height, and the verdict stands even so.",
             rung.name,
             100.0 * rung.band.force,
             100.0 * rung.band.stroke,
@@ -212,9 +219,12 @@ fn validation_row() -> Row {
 fn seed_row(run: &Simulated) -> Row {
     let seeds: Vec<String> = run.starts.iter().map(|start| start.seed.to_string()).collect();
     let remark = match run.starts.len() {
-        1 => "of the packing; one run, so no scatter is known: ask for more with --seeds".to_string(),
+        1 => "of the initial packing; a single run, so the scatter is not known: use --seeds for more".to_string(),
         starts => {
-            format!("of the packings; demands are mean + {:.2} standard deviations (EN 1990, annex D)", k_n(starts))
+            format!(
+                "of the initial packings, one for each run; demands are mean + {:.2} standard deviations (EN 1990, annex D)",
+                k_n(starts)
+            )
         }
     };
     row(if seeds.len() > 1 { "Seeds" } else { "Seed" }, seeds.join(", "), remark)

@@ -51,7 +51,7 @@ pub fn used(outcome: &Outcome) -> String {
     let stroke = outcome.resistance.filter(|_| is_stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     match (outcome.utilisation, outcome.verdict) {
-        (None, CheckVerdict::Pass) => "at plateau, as designed".to_string(),
+        (None, CheckVerdict::Pass) => "yielding, as intended".to_string(),
         (Some(_), _) if is_share(outcome) => {
             outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit.symbol()))
         }

@@ -109,12 +109,12 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
         ),
         (
             true,
-            "By the equations pressures act normal to the barrier's face, and the forces of the load cases are their part along the bed: a face that leans by θ from the bed's normal takes R/cos θ.",
+            "In the guideline calculation pressures act normal to the barrier's face, and the forces of the load cases are their part along the bed: a face that leans by θ from the bed's normal takes R/cos θ.",
             EITHER,
         ),
         (
             net,
-            "By the equations each main rope carries its strip as a uniform load across the channel, alone: neither net nor lateral ropes share it out.",
+            "In the guideline calculation each main rope carries its strip as a uniform load across the channel; net and lateral ropes share no load.",
             EITHER,
         ),
     ]

@@ -153,7 +153,7 @@ fn bargain(scene: &Scene, told: &[Told]) -> String {
     match best {
         None => "Nothing tried is cheaper than the model as it is.".into(),
         Some(best) => format!(
-            "The best bargain is \"{}\": {:.2} of the cost, largest error {:.1} % instead of {:.1} %; one start alone scatters by {:.1} %.",
+            "The best bargain is \"{}\": {:.2} of the cost, largest error {:.1} % instead of {:.1} %; a single run scatters by {:.1} %.",
             best.setting.word(),
             best.cost,
             100.0 * best.error(),

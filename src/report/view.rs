@@ -232,8 +232,8 @@ pub fn summary(run: &Run) -> String {
     let rules = detailing::rules(&run.file.design, &run.guideline);
     let broken = match rules.iter().filter(|rule| !rule.holds()).count() {
         0 => String::new(),
-        1 => " One rule of detailing or of the range of the formulas is not met.".to_string(),
-        count => format!(" {count} rules of detailing or of the range of the formulas are not met."),
+        1 => " One detailing rule or formula range is not met.".to_string(),
+        count => format!(" {count} detailing rules or formula ranges are not met."),
     };
     let open = match count(CheckVerdict::Open) {
         0 => String::new(),
@@ -246,20 +246,20 @@ pub fn summary(run: &Run) -> String {
             format!("The simulation cannot be relied on{open}; see the reasons below.{governing}{broken}")
         }
         Verdict::Undecided => {
-            let failed = if run.simulated.is_some() { "" } else { " by the equations alone" };
+            let failed = if run.simulated.is_some() { "" } else { " by the guideline alone" };
             format!(
-                "{} of {} checks hold{failed}; {open}, see the reasons below.{governing}{broken}",
+                "{} of {} checks pass{failed}; {open}, see the reasons below.{governing}{broken}",
                 held.len() - count(CheckVerdict::Open),
                 held.len()
             )
         }
         Verdict::Fail => {
-            let alone = if run.simulated.is_some() { "" } else { " by the equations alone" };
+            let alone = if run.simulated.is_some() { "" } else { " by the guideline alone" };
             let open = if open.is_empty() { open } else { format!("; {open}") };
             let doubt = if run.doubts.is_empty() {
                 ""
             } else {
-                " The simulation cannot be relied on, but what fails by the equations fails whatever it says."
+                " The simulation cannot be relied on, but a check that fails by the guideline fails regardless of it."
             };
             format!(
                 "{} of {} checks fail{alone}{open}.{doubt}{governing}{broken}",
@@ -270,7 +270,7 @@ pub fn summary(run: &Run) -> String {
         Verdict::Pass => {
             let one = match &run.simulated {
                 Some(simulated) if simulated.starts.len() == 1 && run.climb.is_empty() => {
-                    "; by one packing, with margins for the scatter of others"
+                    "; based on a single run, with margins for the scatter between runs"
                 }
                 _ => "",
             };
@@ -278,8 +278,8 @@ pub fn summary(run: &Run) -> String {
                 0 => String::new(),
                 count => format!(", {count} with less than 10 % to spare"),
             };
-            let left = loads::least_margin(run).map_or(String::new(), |left| format!(" By the equations {left}."));
-            format!("{0} of {0} checks hold{close}{one}.{governing}{broken}{left}", held.len())
+            let left = loads::least_margin(run).map_or(String::new(), |left| format!(" By the guideline {left}."));
+            format!("{0} of {0} checks pass{close}{one}.{governing}{broken}{left}", held.len())
         }
     }
 }
@@ -353,7 +353,7 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
     let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
     let design = &run.file.design;
     let filling = if input.fills() {
-        "normal to the bed: surges come until the barrier is full (loads.filling)"
+        "normal to the bed: repeated surges until the barrier is full (loads.filling)"
     } else {
         "normal to the bed: one event only, heaped up against the barrier at the angle of repose, no higher than it runs up; the barrier is emptied before the next (loads.filling)"
     };
@@ -391,7 +391,7 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
 fn start_named(run: &Simulated) -> String {
     match run.starts.len() {
         1 => String::new(),
-        starts => format!(" (start 1 of {starts}, seed {})", run.starts[0].seed),
+        starts => format!(" (run 1 of {starts}, seed {})", run.starts[0].seed),
     }
 }
 
@@ -399,7 +399,7 @@ fn by_starts(run: &Simulated) -> String {
     match run.starts.len() {
         1 => String::new(),
         starts => format!(
-            "Demands of the simulation are the mean of {starts} starts plus {:.2} standard deviations (for what must be kept: minus), the value that the next start exceeds with a probability of 5 % (EN 1990, annex D); what a dissipator caps stays at its cap.",
+            "Simulated demands are the mean of {starts} runs plus {:.2} standard deviations (for what must be kept: minus), the value that the next run exceeds with a probability of 5 % (EN 1990, annex D); what a dissipator caps stays at its cap.",
             crate::starts::k_n(starts)
         ),
     }
@@ -412,7 +412,7 @@ fn start_rows(run: &Simulated) -> Vec<Row> {
     let row = |(observable, spread): (super::spreads::Observable, crate::starts::Spread)| Row {
         name: observable.title,
         value: with_scatter(spread.mean, spread.deviation, observable.unit.symbol()),
-        remark: format!("mean ± standard deviation of {} starts", spread.starts),
+        remark: format!("mean ± standard deviation of {} runs", spread.starts),
     };
     super::spreads::over_packings(run).into_iter().map(row).collect()
 }

@@ -252,25 +252,30 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     let channel = &design.channel;
     let (x, y, z) = (Vec3::x(), Vec3::y(), Vec3::z());
     let up_to = |height: f64| Span::bounded(z, f64::NEG_INFINITY, height);
-    let surface = |role, origin, normal, spans, friction| Surface { role, origin, normal, spans, friction };
     let across = Span::unbounded(y);
     let along = Span::unbounded(x);
     let walls = up_to(channel.wall_height);
     let back = x * (block.front - block.length);
     let mut all = vec![
-        surface(SurfaceRole::Base, Vec3::zeros(), z, [along, across], channel.base_friction),
-        surface(SurfaceRole::Side, Vec3::zeros(), y, [along, walls], channel.side_friction),
-        surface(SurfaceRole::Side, y * channel.width, -y, [along, walls], channel.side_friction),
+        Surface::new(SurfaceRole::Base, Vec3::zeros(), z, [along, across], channel.base_friction),
+        Surface::new(SurfaceRole::Side, Vec3::zeros(), y, [along, walls], channel.side_friction),
+        Surface::new(SurfaceRole::Side, y * channel.width, -y, [along, walls], channel.side_friction),
     ];
     if matches!(design.flow.arrival, Arrival::DamBreak(_)) {
-        all.push(surface(SurfaceRole::Side, back, x, [Span::unbounded(z), across], channel.side_friction));
-        all.push(surface(SurfaceRole::Gate, x * block.front, -x, [Span::unbounded(z), across], channel.side_friction));
+        all.push(Surface::new(SurfaceRole::Side, back, x, [Span::unbounded(z), across], channel.side_friction));
+        all.push(Surface::new(
+            SurfaceRole::Gate,
+            x * block.front,
+            -x,
+            [Span::unbounded(z), across],
+            channel.side_friction,
+        ));
     }
     if let BarrierDesign::RigidWall(wall) = &design.barrier {
         let (sine, cosine) = libm::sincos(wall.lean);
         let (up, upstream) = (z * cosine - x * sine, -x * cosine - z * sine);
         let spans = [Span::bounded(up, 0.0, wall.height), across];
-        all.push(surface(SurfaceRole::Wall, Vec3::zeros(), upstream, spans, channel.barrier_friction));
+        all.push(Surface::new(SurfaceRole::Wall, Vec3::zeros(), upstream, spans, channel.barrier_friction));
     }
     all
 }

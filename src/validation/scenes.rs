@@ -4,7 +4,7 @@ use dem::Vec3;
 use dem::model::{Material, Model};
 use dem::simulation::{Simulation, Unstable};
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
-use dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use dem::tables::surfaces::{Surface, SurfaceRole};
 
 /// m/s²
 pub const GRAVITY: f64 = crate::units::GRAVITY;
@@ -28,11 +28,7 @@ pub fn free_model(grains: Vec<Grain>, shape: GrainShape) -> Model {
 
 /// An unbounded plane through `origin`.
 pub fn plane(role: SurfaceRole, origin: Vec3, normal: Vec3, friction: f64) -> Surface {
-    // Two directions that complete the normal to a frame.
-    let helper = if normal.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
-    let first = normal.cross(&helper).normalize();
-    let spans = [Span::unbounded(first), Span::unbounded(normal.cross(&first))];
-    Surface { role, origin, normal, spans, friction }
+    Surface::plane(role, origin, normal, friction)
 }
 
 /// The plane z = 0.

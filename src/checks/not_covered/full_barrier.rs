@@ -25,21 +25,20 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         let Some([used, may_be]) = used_under_more(outcome, more, seen) else { continue };
         let full = if seen.push > 0.0 {
             format!(
-                "the simulation is of the first surge, and by the equations {more:.1} times as much presses on {when}"
+                "the simulation is of the first surge, and by the guideline {more:.1} times as much presses on {when}"
             )
         } else {
-            "the simulated first surge does not push the barrier, and by the equations the full barrier is pushed"
+            "the simulated first surge does not push the barrier, and by the guideline the full barrier is pushed"
                 .into()
         };
         // Written so that a NaN counts as not within.
         let within = |used: f64| used <= 1.0;
         if !within(used) {
-            outcome.leave_open(Opening::Contradicted(format!(
-                "{full}, which it would not hold in proportion ({instead})"
-            )));
+            outcome
+                .leave_open(Opening::Contradicted(format!("{full}, and scaled up to that it would fail ({instead})")));
         } else if !within(may_be) {
             outcome.leave_open(Opening::TooClose(format!(
-                "{full}: in proportion it would hold, but by less than the simulation may be off (run with --seeds 5 or simulation.fidelity: auto)"
+                "{full}: scaled up it would pass, but by less than the error of the simulation (run with --seeds 5 or simulation.fidelity: auto)"
             )));
         }
     }
@@ -57,7 +56,14 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
             let lost = |band: f64| more * (1.0 - demand + band) / (1.0 - capacity).max(1e-9);
             return Some([lost(0.0), lost(seen.share_band)]);
         }
-        Kind::Any | Kind::WallStrength | Kind::Bolts | Kind::BetweenBolts | Kind::OnTheBase => {}
+        Kind::Any
+        | Kind::WallStrength
+        | Kind::Bolts
+        | Kind::BetweenBolts
+        | Kind::MainRope
+        | Kind::LateralRopes
+        | Kind::NetRopes
+        | Kind::OnTheBase => {}
     }
     // The equations spread the load evenly over the bolts, so theirs is no measure of the worst one.
     let of_bolts = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts);

@@ -19,10 +19,10 @@ pub enum Certainty {
 impl Certainty {
     pub fn word(self) -> &'static str {
         match self {
-            Self::Read => "read in the source or second hand",
+            Self::Read => "after the source named, or as a thesis cites it",
             Self::Given => "given in the design",
             Self::Derived => "derived",
-            Self::Memory => "from memory, to be verified",
+            Self::Memory => "not checked against the original; for information only",
         }
     }
 

@@ -83,7 +83,7 @@ impl Pareto {
         let y = scales.y(self.floor);
         let _ = write!(out, r#"<line class="level" x1="{LEFT}" x2="{END}" y1="{y:.1}" y2="{y:.1}"/>"#);
         let (x, y) = (LEFT + 4.0, y - 4.0);
-        let _ = write!(out, r#"<text class="tick" x="{x}" y="{y:.1}">scatter of one start</text>"#);
+        let _ = write!(out, r#"<text class="tick" x="{x}" y="{y:.1}">scatter of one run</text>"#);
     }
 }
 

@@ -252,7 +252,7 @@ fn walls(room: PackingRoom) -> Vec<Surface> {
                 surfaces.push(sloping_front(room));
                 continue;
             }
-            surfaces.push(Surface { role: SurfaceRole::Side, origin, normal, spans, friction: 0.0 });
+            surfaces.push(Surface::new(SurfaceRole::Side, origin, normal, spans, 0.0));
         }
     }
     surfaces
@@ -262,7 +262,7 @@ fn sloping_front(room: PackingRoom) -> Surface {
     let front = room.front();
     let spans = [Span::unbounded(Vec3::y()), Span::unbounded(front.cross(&Vec3::y()))];
     let origin = Vec3::new(room.size.x, 0.0, 0.0);
-    Surface { role: SurfaceRole::Side, origin, normal: -front, spans, friction: 0.0 }
+    Surface::new(SurfaceRole::Side, origin, -front, spans, 0.0)
 }
 
 #[cfg(test)]

@@ -109,10 +109,7 @@ impl Builder<'_> {
     /// A point of the barrier's plane: `across` from the first side wall, `up` along the plane.
     pub(super) fn place(&self, across: f64, up: f64) -> Vec3 {
         let lean = self.channel.slope + self.design.tilt;
-        let lift = match self.design.bottom {
-            Bottom::Fixed => 0.0,
-            Bottom::Opening(gap) => gap,
-        };
+        let lift = self.design.bottom.gap();
         Vec3::new(-libm::sin(lean) * up, across, libm::cos(lean) * up + lift)
     }
 

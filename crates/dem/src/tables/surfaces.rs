@@ -46,6 +46,20 @@ impl Span {
 }
 
 impl Surface {
+    /// A rectangle; the first of `spans` points up the surface.
+    pub fn new(role: SurfaceRole, origin: Vec3, normal: Vec3, spans: [Span; 2], friction: f64) -> Self {
+        Self { role, origin, normal, spans, friction }
+    }
+
+    /// An unbounded plane through `origin`.
+    pub fn plane(role: SurfaceRole, origin: Vec3, normal: Vec3, friction: f64) -> Self {
+        // Two directions that complete the normal to a frame.
+        let helper = if normal.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
+        let first = normal.cross(&helper).normalize();
+        let spans = [Span::unbounded(first), Span::unbounded(normal.cross(&first))];
+        Self::new(role, origin, normal, spans, friction)
+    }
+
     /// The point of the surface nearest to `point`.
     #[inline(always)]
     pub fn nearest(&self, point: &Vec3) -> Vec3 {
