@@ -266,6 +266,19 @@ fn incoming(design: &Design) -> (f64, f64) {
     }
 }
 
+/// Velocity that the slope of the bed less its friction gives the flow on its way to the barrier (m/s): of a dam break that of the block or of
+/// its front, of a surge from its release on.
+pub fn velocity_on_its_way(design: &Design) -> f64 {
+    let slope = design.channel.slope;
+    match design.flow.arrival {
+        Arrival::DamBreak(block) => front_velocity(design, &block),
+        Arrival::Surge(surge) => {
+            let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
+            (surge.velocity.powi(2) + 2.0 * acceleration.max(0.0) * surge.run_in).sqrt()
+        }
+    }
+}
+
 /// With a = g (sin α − tan φ cos α): the block's centre, at √(2 a s) after its way s to the barrier; and the front of a wave without
 /// friction inside, which starts at 2 √(g cos α h) (Ritter 1892) and speeds up on its way d from the gate, √(4 g cos α h + 2 a d)
 /// (Mangeney, Heinrich & Roche 2000). No granular front is faster, so this is an upper bound.

@@ -179,7 +179,7 @@ fn rules_of_the_net() {
         ("Density of a debris flow", 1800.0, Some(1000.0), None, Bearing::Pressures),
         ("Froude number", 1.27561, Some(2.31983), None, Bearing::Pressures),
         ("Height of filling", 2.7189, None, Some(4.0), Bearing::Pressures),
-        ("Lean of the barrier", 5.0, None, Some(20.0), Bearing::Pressures),
+        ("Inclination of the barrier", 5.0, None, Some(20.0), Bearing::Pressures),
         ("Coefficient K", 1.2, Some(1.0), None, Bearing::Pressures),
         ("Coefficient λ", 1.5, Some(0.7), None, Bearing::Pressures),
         ("Largest sag", 0.3472, None, Some(0.3), Bearing::Ropes),
@@ -213,7 +213,8 @@ fn rules_of_the_net() {
         rules_of(&design, &guideline)
     };
     assert!(titles(&free).iter().all(|(title, _)| !title.starts_with("Height of the point load")));
-    let lean = |text: &str| titles(text).into_iter().find(|(title, _)| title.starts_with("Lean")).expect("a rule").1;
+    let lean =
+        |text: &str| titles(text).into_iter().find(|(title, _)| title.starts_with("Inclination")).expect("a rule").1;
     near(lean(WALL), 3.0);
     let normal = WALL.replace("tilt: -3 deg", "tilt: -23 deg").replace("base_slope: 5 deg", "base_slope: 21 deg");
     near(lean(&normal), 2.0);

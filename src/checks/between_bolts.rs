@@ -7,8 +7,8 @@ pub fn tension_between(load: f64, axial: f64) -> f64 {
     libm::hypot(libm::cbrt(load * load * axial / 24.0), 0.5 * load)
 }
 
-/// Tension (N) of that rope under `more` times the load under which it has the given one (N). NaN stays NaN.
-pub fn tension_under_more(tension: f64, more: f64, axial: f64) -> f64 {
+/// Load (N) under which that rope has a tension (N). NaN stays NaN.
+fn load_of(tension: f64, axial: f64) -> f64 {
     // Half of the load is less than the tension.
     let (mut low, mut high) = (0.0, 2.0 * tension);
     for _ in 0..100 {
@@ -19,5 +19,25 @@ pub fn tension_under_more(tension: f64, more: f64, axial: f64) -> f64 {
             high = middle;
         }
     }
-    tension_between(more * high, axial)
+    high
+}
+
+/// Tension (N) of that rope under `more` times the load under which it has the given one (N). NaN stays NaN.
+pub fn tension_under_more(tension: f64, more: f64, axial: f64) -> f64 {
+    tension_between(more * load_of(tension, axial), axial)
+}
+
+/// Load (N) of the bolt at an end of the rope, which no rope pulls from the other side, or of one along it if that is more.
+pub fn end_bolt(load: f64, axial: f64) -> f64 {
+    let end = tension_between(load, axial);
+    // Written so that a NaN stays one.
+    if end <= load { load } else { end }
+}
+
+/// Load (N) of that bolt under `more` times the load under which it has the given one (N). NaN stays NaN.
+pub fn end_bolt_under_more(bolt: f64, more: f64, axial: f64) -> f64 {
+    let at_the_end = load_of(bolt, axial);
+    // Where the rope pulls less than the load of a bolt along it, that is the load itself.
+    let load = if at_the_end > bolt { bolt } else { at_the_end };
+    end_bolt(more * load, axial)
 }

@@ -5,7 +5,7 @@
 //! load P of the worst bolt on each space, a rope that lay straight is pulled along its span with H = (P² EA/24)^⅓; at its bolts its tension
 //! is T = √(H² + (P/2)²), which the bolts at its ends hold. The bolts are taken as unyielding, the load between them as even.
 
-use crate::checks::between_bolts::tension_between;
+use crate::checks::between_bolts::{end_bolt, tension_between};
 use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance};
 use crate::checks::ropes::{leave_open_what_is_not_known, resistance};
 use crate::demand::{Demand, Demands};
@@ -48,6 +48,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let mut outcome =
                 outcome.only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
             outcome.kind = kind;
+            outcome.growth = Growth::EndBolt { axial };
             if kind == Kind::BetweenBolts {
                 leave_open_what_is_not_known(design, &net.main_ropes.rope, &mut outcome);
                 outcome.growth = Growth::BetweenBolts { axial };
@@ -60,13 +61,6 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             outcome
         })
         .collect()
-}
-
-/// Load (N) of the bolt at an end of the rope, which no rope pulls from the other side, or of one along it if that is more.
-fn end_bolt(load: f64, axial: f64) -> f64 {
-    let end = tension_between(load, axial);
-    // Written so that a NaN stays one.
-    if end <= load { load } else { end }
 }
 
 /// The demand with its loads made something else.
@@ -82,7 +76,7 @@ fn each(demand: Demand, change: impl Fn(f64) -> f64) -> Demand {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::between_bolts::tension_under_more;
+    use crate::checks::between_bolts::{end_bolt_under_more, tension_under_more};
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
@@ -103,6 +97,9 @@ mod tests {
         assert_relative_eq!(end_bolt(40e3, 12.57e6), 96.4e3, max_relative = 1e-3);
         // A soft rope sags so far that a bolt along it holds more.
         assert_eq!(end_bolt(40e3, 1e3), 40e3);
+        assert_relative_eq!(end_bolt_under_more(96.4e3, 2.0, 12.57e6), 155.0e3, max_relative = 1e-3);
+        assert_relative_eq!(end_bolt_under_more(40e3, 2.0, 1e3), 80e3, max_relative = 1e-3);
+        assert!(end_bolt_under_more(f64::NAN, 2.0, 1e3).is_nan());
         assert!(end_bolt(f64::NAN, 1e6).is_nan());
     }
 

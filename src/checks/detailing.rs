@@ -166,6 +166,10 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
     rules
 }
 
+/// The smallest K and λ of the guideline.
+pub const LEAST_K: f64 = 1.0;
+pub const LEAST_LAMBDA: f64 = 0.7;
+
 fn of_coefficients(input: &GuidelineInput) -> [Rule; 2] {
     let coefficient = |title, found, smallest| Rule {
         bearing: Bearing::Pressures,
@@ -178,7 +182,10 @@ fn of_coefficients(input: &GuidelineInput) -> [Rule; 2] {
             "smaller than the guideline has it: say where the value is from, and compare with what the simulation shows",
         )
     };
-    [coefficient("Coefficient K", input.earth_pressure, 1.0), coefficient("Coefficient λ", input.dynamic_pressure, 0.7)]
+    [
+        coefficient("Coefficient K", input.earth_pressure, LEAST_K),
+        coefficient("Coefficient λ", input.dynamic_pressure, LEAST_LAMBDA),
+    ]
 }
 
 /// Greatest lean from plumb for which the guideline's pressures are taken (deg); a wall normal to the bed is that of the source.
@@ -217,7 +224,7 @@ fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
     let input = &guideline.input;
     let [estimate, ..] = peak_discharge(design.flow.event_volume);
     Rule {
-        title: "Discharge b h v over the estimate from the event's volume",
+        title: "Discharge b h v / estimate from the event volume",
         found: design.channel.width * input.depth * input.velocity / estimate.value,
         least: Some(1.0 / LIKE_DISCHARGES),
         most: Some(LIKE_DISCHARGES),

@@ -1,7 +1,7 @@
 //! The outcome of one check: demand, capacity, utilisation, verdict and where the rule comes from. The report
 //! prints this object and never recomputes.
 
-use crate::checks::between_bolts::tension_under_more;
+use crate::checks::between_bolts::{end_bolt_under_more, tension_under_more};
 use crate::demand::Demand;
 use crate::loads::wall::WallInput;
 use crate::quantities::quantity::{Quantity, Unit};
@@ -65,6 +65,8 @@ pub enum Growth {
     InProportion { fixed: f64 },
     /// As the tension of a rope of this axial stiffness (N) between bolts that the load pulls on.
     BetweenBolts { axial: f64 },
+    /// As the load of the bolt at the end of such a rope.
+    EndBolt { axial: f64 },
     /// As the pressure under a wall that stands by its weight.
     UnderAWall(UnderAWall),
 }
@@ -262,6 +264,12 @@ impl Outcome {
         matches!(self.verdict, CheckVerdict::Pass | CheckVerdict::Warn)
     }
 
+    /// Whether it is of a rigid wall, which takes impacts as they come.
+    pub fn is_of_a_wall(&self) -> bool {
+        matches!(self.unit, Unit::NewtonPerMetre | Unit::NewtonMetrePerMetre | Unit::Pascal)
+            || matches!(self.kind, Kind::WallStrength | Kind::OnTheBase)
+    }
+
     /// Whether the guideline's demand alone is beyond the capacity: no simulation can make such a check hold.
     pub fn fails_by_equations(&self) -> bool {
         let limit = self.capacity.filter(|_| self.resistance.is_some());
@@ -278,6 +286,7 @@ impl Outcome {
         match self.growth {
             Growth::InProportion { fixed } => Some(fixed + (demand - fixed) * more),
             Growth::BetweenBolts { axial } => Some(tension_under_more(demand, more, axial)),
+            Growth::EndBolt { axial } => Some(end_bolt_under_more(demand, more, axial)),
             Growth::UnderAWall(wall) => wall.pressure(route, more),
         }
     }

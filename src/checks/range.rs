@@ -3,7 +3,7 @@
 //!
 //! A check fails all the same: outside its range a formula may say too little, and what fails by it is not saved by that.
 
-use crate::checks::detailing::{Bearing, LARGEST_SAG, LARGEST_STRAIN, rules};
+use crate::checks::detailing::{Bearing, LARGEST_SAG, LARGEST_STRAIN, LEAST_K, LEAST_LAMBDA, rules};
 use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::design::{BarrierDesign, Design, OutsideRange};
 use crate::guideline::Guideline;
@@ -39,7 +39,10 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
             continue;
         }
         // A simulation is of the first surge: only the equations cover later surges and the full barrier.
-        let alone = outcome.governed_by_equations() || (design.loads.to_the_top && outcome.demand.guideline.is_some());
+        // With coefficients below those of the guideline it may govern for that reason alone.
+        let low = guideline.input.earth_pressure < LEAST_K || guideline.input.dynamic_pressure < LEAST_LAMBDA;
+        let alone =
+            outcome.governed_by_equations() || ((design.loads.to_the_top || low) && outcome.demand.guideline.is_some());
         if !alone {
             continue;
         }

@@ -50,6 +50,15 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
             "nine tenths of the simulated grains are larger than the mesh and cannot pass it, and whether the real flow has finer ones is not said (give the whole curve, with simulation.coarsen: auto where it has too many grains)".into(),
         ));
     }
+    // On a bed that holds the flow by friction it stops where it likes: what is wetter than the simulated one goes on to the barrier.
+    let bed_holds = design.channel.base_friction > libm::tan(design.channel.slope);
+    let behind = held_below(design, design.loads.deposit_slope * design.channel.slope).map_or(0.0, |held| held.volume);
+    if bed_holds && behind < design.limits.retained_mass * flow.volume() {
+        return Some(Opening::NotGiven(format!(
+            "the bed is flatter than its friction angle and holds the simulated flow itself, spread out upstream, while the barrier stores {behind:.0} m³ of its {:.0} m³: a wetter flow of that volume would go over it (give the friction of the wettest flow, or a higher barrier)",
+            flow.volume()
+        )));
+    }
     if !flow.is_one_of_several() {
         return None;
     }
@@ -193,12 +202,32 @@ mod tests {
         let same = |more: f64| {
             verdict(
                 |design| {
-                    design.channel.slope = 0.0;
+                    (design.channel.slope, design.channel.base_friction) = (0.0, 0.0);
                     design.flow.event_volume = more * design.flow.volume();
                 },
                 1.0,
             )
         };
         assert_eq!((same(1.0005), same(1.002)), (CheckVerdict::Pass, CheckVerdict::Open));
+    }
+
+    /// On a bed of 20° with a friction of 22° the grains stop where they like: the barrier must store what it retains, 90 % of the flow.
+    #[test]
+    fn what_the_bed_holds_itself_is_no_test_of_what_the_barrier_stores() {
+        let on = |friction: f64, share: f64| {
+            let change = |design: &mut Design| {
+                (design.channel.slope, design.channel.base_friction) =
+                    (20_f64.to_radians(), friction.to_radians().tan());
+                let surface = design.loads.deposit_slope * design.channel.slope;
+                let stored = held_below(design, surface).expect("a deposit").volume;
+                design.flow.mass *= share * stored / 0.9 / design.flow.volume();
+                design.flow.event_volume = design.flow.volume();
+            };
+            verdict(change, 1.0)
+        };
+        assert_eq!(
+            (on(22.0, 0.99), on(22.0, 1.01), on(18.0, 1.01)),
+            (CheckVerdict::Pass, CheckVerdict::Open, CheckVerdict::Pass)
+        );
     }
 }

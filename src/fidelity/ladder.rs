@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::checks::not_covered::rigid_wall::SIMULATIONS_REACH;
-use crate::checks::outcome::{CheckVerdict, Opening, Outcome, Route};
+use crate::checks::outcome::{CheckVerdict, Kind, Opening, Outcome, Route};
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
 use crate::fidelity::{needed_pieces, net_pieces};
 use crate::quantities::quantity::Unit;
@@ -42,6 +42,10 @@ pub struct Rung {
     /// Packings; 0 where nothing is simulated.
     pub starts: u32,
     pub band: Band,
+    /// The same of forces on a rigid wall, which no net softens.
+    pub on_a_wall: f64,
+    /// The same of the tension of the net, which a single grain may decide.
+    pub of_the_net: f64,
     /// How far its demands may lie above what a finer one says: below that, what it fails is not failed for certain.
     pub above: Band,
     /// Whether the ladder does without it where it would take too long.
@@ -55,7 +59,9 @@ pub const COARSE: f64 = 1.5;
 /// From cheap to fine. The bands hold what was seen of the examples:
 /// * equations: simulations come to 0.1 to 1.8 times the guideline's loads and strokes, 3.3 times for the bolts in the bed;
 /// * one start: packings of one design scatter by 2 to 16 % in forces and by 1 to 28 % in strokes, five starts put 2.3 standard
-///   deviations of it on their mean, and a single one may be the mildest of them (1.6 below): factors of 1.8 and 3;
+///   deviations of it on their mean, and a single one may be the mildest of them (1.6 below): factors of 2.2 and 3; on a rigid wall a single
+///   one showed half of what five ask for: a factor of 2.5; of eight runs of one net its tension came to 1 to 2.9 times the least: 3, and the
+///   mass held to 89 to 95 %: 6 points;
 /// * coarse grains: besides, what `designs/studies/speed_accuracy.yaml` measures of their size, up to 36 % in forces, and a stroke
 ///   twice as long in `small_net`;
 /// * five starts: what cylinders change against sliding ropes, 3 to 14 % in forces, and what divided sides of the mesh let through besides,
@@ -70,6 +76,8 @@ pub const RUNGS: [Rung; 5] = [
         what: "the guideline alone",
         starts: 0,
         band: Band { force: SIMULATIONS_REACH - 1.0, stroke: 4.0, share: 1.0 },
+        on_a_wall: SIMULATIONS_REACH - 1.0,
+        of_the_net: SIMULATIONS_REACH - 1.0,
         above: Band { force: 0.0, stroke: 0.0, share: 0.0 },
         may_be_left_out: false,
         apply: |_| {},
@@ -79,7 +87,9 @@ pub const RUNGS: [Rung; 5] = [
         name: "coarse",
         what: "grains half as large again, ropes that slide, one run",
         starts: 1,
-        band: Band { force: 1.2, stroke: 3.0, share: 0.05 },
+        band: Band { force: 1.6, stroke: 3.0, share: 0.08 },
+        on_a_wall: 2.0,
+        of_the_net: 3.0,
         above: Band { force: 0.4, stroke: 1.0, share: 0.05 },
         may_be_left_out: true,
         apply: coarsen,
@@ -89,7 +99,9 @@ pub const RUNGS: [Rung; 5] = [
         name: "grains",
         what: "grains as they are, ropes that slide, one run",
         starts: 1,
-        band: Band { force: 0.8, stroke: 2.0, share: 0.03 },
+        band: Band { force: 1.2, stroke: 2.0, share: 0.06 },
+        on_a_wall: 1.5,
+        of_the_net: 2.0,
         above: Band { force: 0.16, stroke: 0.28, share: 0.02 },
         may_be_left_out: false,
         apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
@@ -100,6 +112,8 @@ pub const RUNGS: [Rung; 5] = [
         what: "the same with five runs, their scatter in the demand",
         starts: 5,
         band: Band { force: 0.15, stroke: 0.2, share: 0.02 },
+        on_a_wall: 0.15,
+        of_the_net: 0.5,
         above: Band { force: 0.15, stroke: 0.2, share: 0.01 },
         may_be_left_out: true,
         apply: |design| set(design, FidelityWish::Standard, BarrierModel::SlidingRopes),
@@ -110,6 +124,8 @@ pub const RUNGS: [Rung; 5] = [
         what: "half the step, ropes and rings of cylinders that bend, sides of the mesh divided as the grains need, five runs",
         starts: 5,
         band: Band { force: 0.0, stroke: 0.0, share: 0.0 },
+        on_a_wall: 0.0,
+        of_the_net: 0.0,
         above: Band { force: 0.0, stroke: 0.0, share: 0.0 },
         may_be_left_out: true,
         apply: |design| set(design, FidelityWish::Fine, BarrierModel::Cylinders),
@@ -245,7 +261,12 @@ impl Rung {
         if self.starts == 0 && outcome.verdict == CheckVerdict::Open {
             return Answer::Open;
         }
-        let band = if outcome.unit == Unit::Metre { self.band.stroke } else { self.band.force };
+        let band = match outcome.unit {
+            _ if outcome.is_of_a_wall() => self.on_a_wall,
+            _ if outcome.kind == Kind::NetRopes => self.of_the_net,
+            Unit::Metre => self.band.stroke,
+            _ => self.band.force,
+        };
         let used_by = |demand: Option<f64>| demand.map(|demand| demand / capacity);
         let (guideline, simulation) = (used_by(outcome.demand.guideline), used_by(outcome.demand.simulation));
         let under = |route: Route, more: f64| used_by(outcome.demand_under(route, more)).unwrap_or(f64::NAN);
@@ -323,20 +344,20 @@ mod tests {
     #[test]
     fn clear_cases_are_decided_low_and_marginal_ones_climb() {
         let equations = rung("equations");
-        assert_eq!(equations.answer(&force(Some(28.0), None)), Answer::Holds);
-        assert_eq!(equations.answer(&force(Some(30.0), None)), Answer::Open);
+        assert_eq!(equations.answer(&force(Some(19.0), None)), Answer::Holds);
+        assert_eq!(equations.answer(&force(Some(21.0), None)), Answer::Open);
         assert_eq!(equations.answer(&force(Some(90.0), None)), Answer::Open);
         assert_eq!(equations.answer(&force(Some(101.0), None)), Answer::Fails);
         assert_eq!(equations.answer(&force(None, None)), Answer::Open);
         let grains = rung("grains");
-        assert_eq!(grains.answer(&force(Some(90.0), Some(50.0))), Answer::Holds);
+        assert_eq!(grains.answer(&force(Some(90.0), Some(45.0))), Answer::Holds);
         // What a dissipator caps cannot climb beyond.
         let capped =
             Outcome { demand: Demand { cap: Some(90.0), ..force(None, Some(90.0)).demand }, ..force(None, Some(90.0)) };
         assert_eq!(grains.answer(&capped), Answer::Holds);
         assert_eq!(grains.answer(&force(Some(10.0), Some(95.0))), Answer::Open);
         assert_eq!(grains.answer(&force(Some(10.0), Some(105.0))), Answer::Open);
-        assert_eq!(grains.answer(&force(Some(10.0), Some(190.0))), Answer::Fails);
+        assert_eq!(grains.answer(&force(Some(10.0), Some(230.0))), Answer::Fails);
         assert_eq!(grains.answer(&force(None, Some(f64::NAN))), Answer::Open);
         let fine = rung("fine");
         assert_eq!(fine.answer(&force(None, Some(99.9))), Answer::Holds);
@@ -373,8 +394,8 @@ mod tests {
             outcomes[0].verdict
         };
         for (name, used, expected) in [
-            ("grains", 50.0, CheckVerdict::Pass),
-            ("grains", 60.0, CheckVerdict::Open),
+            ("grains", 45.0, CheckVerdict::Pass),
+            ("grains", 47.0, CheckVerdict::Open),
             ("grains", 104.3, CheckVerdict::Open),
             ("grains", 128.0, CheckVerdict::Fail),
             ("starts", 80.0, CheckVerdict::Pass),
@@ -389,6 +410,12 @@ mod tests {
         assert_eq!(after(rung("grains"), force(Some(101.0), Some(10.0))), CheckVerdict::Fail);
         assert_eq!(after(rung("grains"), force(Some(95.0), Some(10.0))), CheckVerdict::Warn);
         assert_eq!(after(rung("grains"), force(None, Some(f64::NAN))), CheckVerdict::Fail);
+        // Of one run a wall and the net may show less than half and a third of what others do.
+        let of = |kind: Kind, used: f64| Outcome { kind, ..force(Some(10.0), Some(used)) };
+        assert_eq!(after(rung("grains"), of(Kind::WallStrength, 39.0)), CheckVerdict::Pass);
+        assert_eq!(after(rung("grains"), of(Kind::WallStrength, 41.0)), CheckVerdict::Open);
+        assert_eq!(after(rung("grains"), of(Kind::NetRopes, 33.0)), CheckVerdict::Pass);
+        assert_eq!(after(rung("grains"), of(Kind::NetRopes, 34.0)), CheckVerdict::Open);
         // A used-up stroke is used up.
         let demand = Demand { simulation: Some(2.5), ..Demand::default() };
         let stroke = Resistance { characteristic: 2.5, factor: 1.0 };
@@ -401,6 +428,8 @@ mod tests {
         for pair in RUNGS.windows(2) {
             let [before, after] = [pair[0].band, pair[1].band];
             assert!(after.force < before.force && after.stroke < before.stroke && after.share < before.share);
+            let [before, after] = [pair[0], pair[1]].map(|rung| [rung.on_a_wall, rung.of_the_net]);
+            assert!(after[0] < before[0] && after[1] < before[1]);
         }
     }
 }

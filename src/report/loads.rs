@@ -397,7 +397,7 @@ pub fn margin(run: &Run) -> String {
         Limit::NeverFails => format!("no {name} up to ten times the design's fails a guideline check"),
         Limit::At(factor) if factor >= 1.0 => {
             let grown = 100.0 * (factor - 1.0);
-            format!("the {name} alone could increase by {grown:.0} % before a check fails by the guideline")
+            format!("the {name} could increase by {grown:.0} % before a check fails by the guideline")
         }
         Limit::At(factor) => {
             let less = 100.0 * (1.0 - factor);

@@ -352,7 +352,9 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
     let input = &run.guideline.input;
     let row = |name: &str, value: String, remark: &str| Row { name: name.into(), value, remark: remark.into() };
     let design = &run.file.design;
-    let filling = if input.fills() {
+    let filling = if !design.loads.to_the_top && input.fills() {
+        "normal to the bed: one event fills the barrier to its top (loads.filling)"
+    } else if input.fills() {
         "normal to the bed: repeated surges until the barrier is full (loads.filling)"
     } else {
         "normal to the bed: one event only, heaped up against the barrier at the angle of repose, no higher than it runs up; the barrier is emptied before the next (loads.filling)"

@@ -356,7 +356,7 @@ fn validation_case_like_this(run: &Run) -> Option<String> {
     let kept = Kept::of_this_version()?;
     let case = kept.cases.iter().find(|case| case.id == "FS1" && !case.held)?;
     Some(format!(
-        "Validation: for Albaba's published barrier with dissipators (case {}, not passed) the program reproduces forces and mean rope tensions within 15 %, but overestimates dissipator strokes by 25 to 50 % and retains 7 percentage points less of the mass. Expect strokes and losses that are too large; the reason lies within what is not known of the published flow.",
+        "Validation: for Albaba's published barrier with dissipators (case {}, not passed) the program reproduces forces and mean rope tensions within 15 %, but overestimates dissipator strokes by 25 to 50 % and retains 7 percentage points less of the mass. Expect strokes and losses that are too large; the cause is probably in properties of the published flow that are not documented.",
         case.id
     ))
 }

@@ -195,7 +195,7 @@ mod tests {
         assert_eq!(after("rope_3_tension", 0.8, 0.5), CheckVerdict::Pass);
         assert_eq!(after("rope_3_tension", 0.4, 0.5), CheckVerdict::Open);
         assert_eq!(after("rope_3_tension", 0.8, 0.7), CheckVerdict::Open);
-        assert_eq!(after("bed_bolts", 0.8, 0.5), CheckVerdict::Open);
+        assert_eq!(after("bed_bolts", 0.8, 0.6), CheckVerdict::Open);
         assert_eq!(after("bed_bolts", 0.8, 0.4), CheckVerdict::Pass);
         // A stroke has a band of its own: 0.5 · 1.5 · 1.2.
         assert_eq!(after("brake_3_stroke", 0.4, 0.5), CheckVerdict::Pass);

@@ -4,9 +4,9 @@ use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome, Route};
 use crate::design::BarrierDesign;
 
-/// Simulated over the guideline's loads that may come out. The examples reach 1.8, 3.3 for bolts, and a wall with λ = 0.8 reached 2.2; the
+/// Simulated over the guideline's loads that may come out. The examples reach 1.8, 3.3 for bolts, and walls reached 2.2, and 4.6 under a vertical front at 20 m/s; the
 /// rung of the equations in the ladder of models goes by it as well.
-pub const SIMULATIONS_REACH: f64 = 3.5;
+pub const SIMULATIONS_REACH: f64 = 5.0;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     if known.seen.is_some() || !matches!(known.design.barrier, BarrierDesign::RigidWall(_)) {
@@ -50,9 +50,9 @@ mod tests {
     #[test]
     fn a_wall_by_the_equations_alone_needs_much_to_spare() {
         let wall = read_design("x", include_bytes!("../../../designs/rigid_wall.yaml")).unwrap().design;
-        assert_eq!(verdict(&wall, "total_force", 0.28, false), CheckVerdict::Pass);
-        assert_eq!(verdict(&wall, "total_force", 0.29, false), CheckVerdict::Open);
-        assert_eq!(verdict(&wall, "wall_moment", 0.29, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "total_force", 0.19, false), CheckVerdict::Pass);
+        assert_eq!(verdict(&wall, "total_force", 0.21, false), CheckVerdict::Open);
+        assert_eq!(verdict(&wall, "wall_moment", 0.21, false), CheckVerdict::Open);
         assert_eq!(verdict(&wall, "total_force", f64::NAN, false), CheckVerdict::Open);
         assert_eq!(verdict(&wall, "total_force", 0.56, true), CheckVerdict::Pass);
         assert_eq!(verdict(&small_net(), "rope_2_tension", 0.56, false), CheckVerdict::Pass);

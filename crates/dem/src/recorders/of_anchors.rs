@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_rows, means};
 use crate::recorders::bolts::share_between_bolts;
 use crate::recorders::channels::{Channel, Channels, Rows};
@@ -46,7 +47,7 @@ impl BodyRecorder for OfAnchors {
         channels.push(&LOAD, &means(&done.load, steps));
         channels.push(&BED, &means(&[done.bed.norm()], steps));
         if setup.bolt_spaces > 0 {
-            let most = |of: fn(&Vec3) -> f64| means(&[done.bolts.iter().map(of).fold(0.0, f64::max)], steps);
+            let most = |of: fn(&Vec3) -> f64| means(&[done.bolts.iter().map(of).fold(0.0, larger_or_nan)], steps);
             channels.push(&BOLT, &most(|load| load.norm()));
             channels.push(&BOLT_LIFT, &most(|load| load.z));
         }
@@ -64,7 +65,7 @@ fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
     let mut loads = vec![0.0_f64; ropes];
     for anchor in &barrier.anchors {
         let load = &mut loads[anchor.rope as usize];
-        *load = load.max(forces[anchor.node as usize].norm());
+        *load = larger_or_nan(*load, forces[anchor.node as usize].norm());
     }
     loads
 }

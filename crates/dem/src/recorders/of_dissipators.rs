@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_rows, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
@@ -25,7 +26,7 @@ impl BodyRecorder for OfDissipators {
         let mut tensions = vec![0.0_f64; setup.ropes];
         for (dissipator, &tension) in barrier.dissipators.iter().zip(&simulation.sums.net.dissipators) {
             let rope = dissipator.rope as usize;
-            tensions[rope] = tensions[rope].max(tension);
+            tensions[rope] = larger_or_nan(tensions[rope], tension);
         }
         add_rows(&mut self.tension, &tensions);
     }
@@ -38,7 +39,7 @@ impl BodyRecorder for OfDissipators {
         let mut sums = larger.clone();
         for dissipator in &barrier.dissipators {
             let rope = dissipator.rope as usize;
-            larger[rope] = larger[rope].max(dissipator.used);
+            larger[rope] = larger_or_nan(larger[rope], dissipator.used);
             sums[rope] += dissipator.used;
         }
         channels.push(&STROKE, &larger);

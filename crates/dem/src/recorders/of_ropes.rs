@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::elements::segment::SegmentKind;
+use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_rows, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
@@ -47,16 +48,16 @@ impl BodyRecorder for OfRopes {
                     let [weighted, length] = &mut mean[rope as usize];
                     *weighted += tension * rest_length;
                     *length += rest_length;
-                    largest[rope as usize] = largest[rope as usize].max(tension);
+                    largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
                 }
-                SegmentKind::Net => net_largest = net_largest.max(tension),
-                SegmentKind::Lateral => lateral = lateral.max(tension),
+                SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
+                SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
                 SegmentKind::Ring => {}
             }
         }
         for (dissipator, &tension) in barrier.dissipators.iter().zip(&net.dissipators) {
             let rope = dissipator.rope as usize;
-            largest[rope] = largest[rope].max(tension);
+            largest[rope] = larger_or_nan(largest[rope], tension);
         }
         let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
         add_rows(&mut self.mean, &mean);
@@ -77,7 +78,7 @@ impl BodyRecorder for OfRopes {
         channels.push(&DRAWN_OUT, &[drawn_out]);
         let extension = |(&row, &place): (&usize, &f64)| {
             let nodes = setup.net_rows[row].iter().map(|&node| barrier.nodes[node as usize].position.x - place);
-            nodes.fold(0.0, f64::max)
+            nodes.fold(0.0, larger_or_nan)
         };
         let extensions: Vec<f64> = setup.rope_rows.iter().zip(&setup.rope_places).map(extension).collect();
         channels.push(&EXTENSION, &extensions);
@@ -91,6 +92,6 @@ impl BodyRecorder for OfRopes {
 fn wear(barrier: &Barrier) -> [f64; 2] {
     barrier.strengths().fold([0.0, 0.0], |[broken, drawn_out], strength| {
         let elongation = strength.drawn_out / strength.first_length;
-        [broken + f64::from(u8::from(strength.broken)), f64::max(drawn_out, elongation)]
+        [broken + f64::from(u8::from(strength.broken)), larger_or_nan(drawn_out, elongation)]
     })
 }
