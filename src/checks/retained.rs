@@ -217,7 +217,7 @@ mod tests {
         let on = |friction: f64, share: f64| {
             let change = |design: &mut Design| {
                 (design.channel.slope, design.channel.base_friction) =
-                    (20_f64.to_radians(), friction.to_radians().tan());
+                    (20_f64.to_radians(), libm::tan(friction.to_radians()));
                 let surface = design.loads.deposit_slope * design.channel.slope;
                 let stored = held_below(design, surface).expect("a deposit").volume;
                 design.flow.mass *= share * stored / 0.9 / design.flow.volume();
