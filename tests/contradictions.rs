@@ -175,7 +175,7 @@ fn flow_and_densities() {
 
 #[test]
 fn grain_sizes() {
-    let curve = "curve:                           # by mass; any two or more of d10 to d90\n      d10: 170 mm\n      d30: 220 mm\n      d50: 260 mm\n      d70: 300 mm\n      d90: 360 mm\n";
+    let curve = "curve:                           # by mass; any two or more of d1 to d100\n      d10: 170 mm\n      d30: 220 mm\n      d50: 260 mm\n      d70: 300 mm\n      d90: 360 mm\n";
     let uniform = |min: &str, max: &str| format!("uniform: {{min: {min}, max: {max}}}\n");
     at(NET, "above max", curve, &uniform("301 mm", "300 mm"), &uniform("300 mm", "300 mm"));
     at(NET, "quantile(s)", curve, "curve: {d50: 260 mm}\n", "curve: {d50: 260 mm, d90: 300 mm}\n");
