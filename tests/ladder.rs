@@ -56,8 +56,8 @@ fn a_clear_pass_needs_one_start() {
 
 #[test]
 fn a_marginal_design_climbs() {
-    // On one start the net uses some 110 % of what it holds.
-    let (code, rungs, report) = run("marginal", &[("breaking_load: 137 kN", "breaking_load: 38 kN")]);
+    // In one run the net uses some 150 % of what it holds, and others may show a third of it.
+    let (code, rungs, report) = run("marginal", &[("breaking_load: 137 kN", "breaking_load: 28 kN")]);
     assert!(rungs.len() >= 3 && rungs[2] == "starts", "{rungs:?}");
     // What the last rung cannot tell either is neither passed nor failed.
     let open = report.contains("closer to its limit than this model is accurate");

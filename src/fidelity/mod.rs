@@ -21,7 +21,7 @@ pub struct Fidelity {
     pub reason: String,
 }
 
-/// Steps of the lightest pair's critical step that each wish takes.
+/// Name of each wish, and the share of the critical step of the lightest pair that it takes.
 pub fn step_share(wish: FidelityWish) -> (&'static str, f64) {
     match wish {
         FidelityWish::Fast => ("fast", 0.6),

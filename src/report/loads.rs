@@ -138,6 +138,20 @@ fn remark(run: &Run, case: &LoadCase) -> String {
     parts.join("; ")
 }
 
+/// How the demand of the total force follows from the load cases, where it is more than the largest of them.
+pub fn face_remark(run: &Run) -> String {
+    let (guideline, factor) = (&run.guideline, run.file.design.factors.load);
+    if guideline.lean == 0.0 && factor == 1.0 {
+        return String::new();
+    }
+    format!(
+        "The check of the total force takes what acts normal to the face: {} along the bed / cos {:.1}° · partial factor {factor:.2} = {}.",
+        with_unit(guideline.largest_force, "N"),
+        guideline.lean.abs().to_degrees(),
+        with_unit(factor * guideline.face_force, "N")
+    )
+}
+
 pub fn ropes(run: &Run) -> Vec<RopeRow> {
     let row = |(index, rope): (usize, &RopeLoad)| {
         let case = rope.case.as_ref().filter(|_| rope.load > 0.0)?;

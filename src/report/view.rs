@@ -40,6 +40,8 @@ pub struct View {
     pub simulated: bool,
     pub guideline: Vec<Row>,
     pub cases: Vec<CaseRow>,
+    /// How the demand of the total force follows from them; empty where it is the largest of them.
+    pub face_remark: String,
     pub ropes: Vec<RopeRow>,
     pub ladder: Vec<LadderRow>,
     pub wall: Vec<Row>,
@@ -136,6 +138,7 @@ impl View {
             guideline: guideline_rows(run),
             simulated: run.simulated.is_some(),
             cases: loads::cases(run),
+            face_remark: loads::face_remark(run),
             ropes: loads::ropes(run),
             ladder: loads::ladder(run),
             wall: loads::wall(run),
