@@ -116,7 +116,8 @@ impl Meeting<'_> {
     fn by_rope(&self, quantity: &Quantity, at_plateau: bool) -> Vec<Demand> {
         let cap = if at_plateau && self.guideline.anchors_capped { self.plateau() } else { f64::INFINITY };
         let of = |rope: usize| {
-            let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(0.0);
+            // What a run does not give is not a number, so that nothing is judged by it.
+            let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
             let yields = self.yields(largest(self.governing, &|seen: &Observed| {
                 seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(0.0)
             }));

@@ -1,4 +1,5 @@
-//! K and λ that the simulation means. Neither is told where the deposit or the flow is thinner than two grains: it has no depth then.
+//! K and λ back-calculated from the simulation. Those that are reported are left out where the deposit or the flow is thinner than two
+//! grains, because no depth can be measured there.
 
 use crate::quantities::coefficients::{Coefficients, STANDING};
 use crate::quantities::quantity::Unit::Number;
@@ -12,6 +13,13 @@ pub const AT_REST: Quantity =
         .json("k_effective")
         .meaning("K that the residual force means for the depth of the deposit.")
         .told(Told::WhereKnown);
+
+/// K at rest of a deposit of any depth. Where the deposit is thin the value is rough: it is not reported, and only keeps the equations
+/// from being relied on with too small a K.
+pub const OF_ANY_DEPTH: Quantity =
+    Quantity::new("k_of_any_depth", "K at rest of a deposit of any depth", Number, Of::RunIfKnown, |run| {
+        k_of_deposit(run, 0.0).into_iter().collect()
+    });
 
 /// λ that the largest force along the bed means for the incoming flow, with the design's K for the static part.
 pub const DYNAMIC: Quantity =
@@ -61,12 +69,6 @@ pub const LAMBDA_MEAN: Quantity = Quantity::new(
 fn unit_weight(run: &Reading) -> f64 {
     run.guideline.input.density * run.guideline.input.gravity_normal
 }
-
-/// The same of a deposit of any depth. Where that is thin the value is rough, and says only what the equations must not rest on.
-pub const OF_ANY_DEPTH: Quantity =
-    Quantity::new("k_of_any_depth", "K at rest of a deposit of any depth", Number, Of::RunIfKnown, |run| {
-        k_of_deposit(run, 0.0).into_iter().collect()
-    });
 
 fn k_at_rest(run: &Reading) -> Option<f64> {
     k_of_deposit(run, run.thin())
