@@ -162,6 +162,23 @@ mod tests {
         assert_relative_eq!(seen.one(&wall::OVERTURNING), 50e3 + 2.0 * 57.32e3, max_relative = 1e-3);
     }
 
+    /// A deposit of one grain has no K that could be reported, and still one that the equations are asked with: 2 F / (γ d²).
+    #[test]
+    fn k_of_a_thin_deposit_is_read_but_not_reported() {
+        let design = net();
+        let (grain, width) = (design.flow.sizes.quantile(0.5), design.channel.width);
+        let input = crate::guideline::guideline(&design).input;
+        let histories = Histories {
+            force: vec![Vec3::new(2e3 * width, 0.0, 0.0); 5],
+            barrier_depth: vec![grain; 5],
+            ..forces(&[0.0; 5])
+        };
+        let seen = read(&histories, &design);
+        assert_eq!(seen.known(&earth_pressure::AT_REST), None);
+        let by_hand = 2.0 * 2e3 / (input.density * input.gravity_normal * grain.powi(2));
+        assert_relative_eq!(seen.one(&earth_pressure::OF_ANY_DEPTH), by_hand, max_relative = 1e-9);
+    }
+
     /// Each number of a net is read off its own history: its largest value, or its last, by rope.
     #[test]
     fn every_number_is_read_off_its_history() {
