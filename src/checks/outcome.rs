@@ -150,6 +150,8 @@ pub struct Outcome {
     pub verdict: CheckVerdict,
     /// Why the check is open; nothing for any other verdict.
     pub open: Option<Opening>,
+    /// Why the check would be open, where the design lets it stand all the same (`limits.outside_range`).
+    pub stands_despite: Vec<Opening>,
     /// The main rope, counted from 0, whose parabola by the equations gives the guideline's demand, if one does.
     pub rope: Option<usize>,
     /// Whether the guideline's demand follows from its pressures.
@@ -252,11 +254,12 @@ impl Outcome {
         (self.verdict, self.open) = (CheckVerdict::Open, Some(why));
     }
 
-    /// Lets a check that passes stand with a warning.
-    pub fn warn(&mut self) {
+    /// Lets a check that passes stand with a warning, whatever speaks against it.
+    pub fn stand_despite(&mut self, why: Opening) {
         if self.verdict == CheckVerdict::Pass {
             self.verdict = CheckVerdict::Warn;
         }
+        self.stands_despite.push(why);
     }
 
     /// Whether the check holds, so far as it is judged.
@@ -318,6 +321,7 @@ impl Outcome {
             unit,
             verdict,
             open: None,
+            stands_despite: Vec::new(),
             rope: None,
             rests_on_pressures: true,
             kind: Kind::Any,

@@ -11,23 +11,25 @@ use crate::guideline::Guideline;
 /// Leaves open what would hold by a formula that is used outside its range.
 pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes: &mut [Outcome]) {
     let stand = design.limits.outside_range == OutsideRange::Warn;
-    let outside = |outcome: &mut Outcome, why: Opening| {
+    let outside = |outcome: &mut Outcome, kind: fn(String) -> Opening, why: String| {
         // What is stretched beyond all sense stands by no wish.
         let absurd = strain_beyond(design, outcome).is_some_and(|strain| strain > 3.0 * LARGEST_STRAIN);
         if stand && !absurd {
-            outcome.warn();
+            outcome.stand_despite(kind(why));
+        } else if absurd {
+            outcome.leave_open(kind(format!("{why} (give a stiffer rope)")));
         } else {
-            outcome.leave_open(why);
+            outcome.leave_open(kind(format!("{why} (limits.outside_range: warn would let it stand)")));
         }
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         if let Some(strain) = strain_beyond(design, outcome) {
             let why = format!(
-                "the rope stretches by {:.0} %, beyond the {:.0} % up to which it is known to be elastic (limits.outside_range: warn would let it stand)",
+                "the rope stretches by {:.0} %, beyond the {:.0} % up to which it is known to be elastic",
                 100.0 * strain,
                 100.0 * LARGEST_STRAIN
             );
-            outside(outcome, Opening::Contradicted(why));
+            outside(outcome, Opening::Contradicted, why);
         }
     }
     let broken =
@@ -52,8 +54,7 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
             pressures.map(|titles| format!("its pressures are used outside the range they are known for ({titles}; see the rules of detailing and range)"))
         });
         if let Some(why) = why {
-            let why = format!("the equations govern it and {why} (limits.outside_range: warn would let it stand)");
-            outside(outcome, Opening::OutOfRange(why));
+            outside(outcome, Opening::OutOfRange, format!("the equations govern it and {why}"));
         }
     }
 }
@@ -127,6 +128,12 @@ mod tests {
         assert_eq!(verdict(&design, "anchor_plateau"), CheckVerdict::Pass);
         design.limits.outside_range = OutsideRange::Warn;
         assert_eq!(verdict(&design, "rope_3_tension"), CheckVerdict::Warn);
+        // What speaks against it is kept.
+        let guideline = guideline(&design);
+        let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+        leave_open_outside_range(&design, &guideline, &mut outcomes);
+        let outcome = outcomes.iter().find(|outcome| outcome.id == "rope_3_tension").expect("a check");
+        assert!(outcome.stands_despite[0].words().contains("Froude"), "{:?}", outcome.stands_despite);
     }
 
     #[test]

@@ -53,7 +53,7 @@ impl Meeting<'_> {
             Some(Demanded::Plateau) => vec![Demand {
                 guideline: self.guideline.ropes.iter().map(|rope| rope.state.tension).reduce(larger),
                 // Capped at the plateau, and so judged by the largest of the packings.
-                simulation: self.worst(&|seen| seen.each(quantity).iter().copied().reduce(larger).unwrap_or(0.0)),
+                simulation: self.worst(&|seen| seen.each(quantity).iter().copied().reduce(larger).unwrap_or(f64::NAN)),
                 ..Demand::default()
             }],
             Some(Demanded::Worst) => {
@@ -104,9 +104,10 @@ impl Meeting<'_> {
         self.guideline.dissipator.map_or(f64::INFINITY, |[plateau, _]| plateau)
     }
 
-    /// Whether a load of this size means that a dissipator yields.
+    /// Whether a load of this size means that a dissipator yields; one that is not known may.
     fn yields(&self, load: f64) -> bool {
-        load >= self.plateau() / CAP_TOLERANCE
+        let stays = load < self.plateau() / CAP_TOLERANCE;
+        !stays
     }
 
     fn ropes(&self, quantity: &Quantity) -> usize {
@@ -119,7 +120,7 @@ impl Meeting<'_> {
             // What a run does not give is not a number, so that nothing is judged by it.
             let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
             let yields = self.yields(largest(self.governing, &|seen: &Observed| {
-                seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(0.0)
+                seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(f64::NAN)
             }));
             let excess = if yields { self.excess() } else { 0.0 };
             let most = largest(self.governing, &value);

@@ -82,7 +82,8 @@ mod tests {
 
     /// Starts on that net: its net's tension, the load of anchor 2, the share held.
     fn demands(starts: &[[f64; 3]]) -> Demands {
-        let design = small_net();
+        let mut design = small_net();
+        design.factors.overstrength = 1.0;
         let observed: Vec<Observed> = starts
             .iter()
             .map(|&[net, anchor, retained]| {
@@ -91,7 +92,7 @@ mod tests {
                     .with(&anchor_load::PEAK, &[0.0, anchor, 0.0])
                     .with(&rope_tension::PEAK, &[0.0; 3])
                     .with(&dissipator::STROKE, &[0.0; 3])
-                    .with(&dissipator::TENSION, &[anchor])
+                    .with(&dissipator::TENSION, &[0.0, anchor, 0.0])
                     .with(&mass::RETAINED, &[retained])
             })
             .collect();

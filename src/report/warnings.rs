@@ -5,7 +5,7 @@ use crate::checks::detailing::{Bearing, rules};
 use crate::checks::implausible::implausible;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::rope_outside;
-use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet, OutsideRange};
+use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::rung_of;
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
@@ -55,17 +55,15 @@ fn inputs_far_from_usual(run: &Run) -> Option<String> {
     })
 }
 
-/// What the design lets stand that would be open otherwise.
+/// What the design lets stand that would be open otherwise, with why.
 fn formulas_that_stand(run: &Run) -> Option<String> {
-    let design = &run.file.design;
-    let stand = design.limits.outside_range == OutsideRange::Warn;
-    let warned: Vec<String> =
-        run.outcomes.iter().filter(|one| one.verdict == CheckVerdict::Warn).map(|one| one.title.clone()).collect();
-    (stand && !warned.is_empty()).then(|| {
-        format!(
-            "limits.outside_range: warn lets formulas stand outside the range they are known for, or margins are small, and these checks stand with a warning: {}.",
-            listed(&warned)
-        )
+    let reasons = |one: &Outcome| {
+        let reasons: Vec<&str> = one.stands_despite.iter().map(|why| why.words()).collect();
+        (!reasons.is_empty()).then(|| format!("{} ({})", lower_first(&one.title), reasons.join("; ")))
+    };
+    let stand: Vec<String> = run.outcomes.iter().filter_map(reasons).collect();
+    (!stand.is_empty()).then(|| {
+        format!("limits.outside_range: warn lets checks stand that would be open otherwise: {}.", stand.join("; "))
     })
 }
 

@@ -70,7 +70,8 @@ mod tests {
     /// 8 % lost of the 10 % that may be, with 95 and with 85 % of the momentum: 8.9 and 11.1 %.
     #[test]
     fn what_a_thinner_flow_loses_grows_by_the_square_of_what_it_lacks() {
-        let design = small_net();
+        let mut design = small_net();
+        design.flow.known_from = 0.0;
         let guideline = guideline(&design);
         let held = Demand { simulation: Some(0.92), ..Demand::default() };
         let demands = Demands::default().with(&mass::RETAINED, &[held]);
