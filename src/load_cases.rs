@@ -59,8 +59,11 @@ pub fn combinations(design: &Design) -> Vec<Combination> {
         factor: factors.load,
         by_equations: "on the pressures; sag, tension and stroke follow under the factored load",
         by_simulation: match design.barrier {
+            BarrierDesign::FlexibleNet(_) if factors.load == 1.0 => {
+                "none: characteristic and factored flow are the same, and simulated once"
+            }
             BarrierDesign::FlexibleNet(_) => {
-                "applied to the densities and the contact modulus of the flow; the factored flow is simulated as well as the characteristic one"
+                "applied to the densities and the contact modulus of the flow, so that grains move as before and every force of theirs grows by the factor; the factored flow is simulated as well as the characteristic one"
             }
             BarrierDesign::RigidWall(_) => "on the forces: a rigid wall's are proportional to the action",
         },

@@ -32,7 +32,12 @@ const USUAL_OVERSTRENGTH: f64 = 1.15;
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
 fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capacity: Resistance) -> Option<Outcome> {
     let plateau = net.dissipators?.plateau;
-    let name = CheckName::new("anchor_plateau", "Anchors against dissipator force", Unit::Newton, ANCHOR_FACTOR);
+    let name = CheckName::new(
+        "anchor_plateau",
+        "Anchors against the force of a yielding dissipator",
+        Unit::Newton,
+        ANCHOR_FACTOR,
+    );
     let own = design.factors.overstrength * plateau;
     let lateral = demands.one(&other_ropes::LATERAL).simulation;
     let (demand, tied) = match net.lateral_to {

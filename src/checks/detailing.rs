@@ -107,12 +107,12 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
 fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
     let mut rules = vec![
         Rule {
-            title: "Density of the flow",
+            title: "Density of the flow against the guideline's range",
             found: input.density,
             least: Some(1600.0),
             most: Some(2200.0),
             unit: "kg/m³",
-            source: "Volkwein 2014 (after Albaba 2015)",
+            source: "Volkwein 2014 (as cited by Albaba 2015)",
             advice: "K and λ of the guideline were set for flows within this range: compare with \"Other models for the first surge\", and with K and λ of the simulation",
             // Pressures are proportional to the density; that K or λ hang on it as well is not known.
             bearing: Bearing::Advice,
@@ -124,7 +124,7 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
                 input.froude(),
                 libm::pow(5.3 / input.dynamic_pressure, 1.0 / 1.5),
                 "",
-                "where 5.3 Fr^−1.5 of Cui et al. 2015 equals the design's λ",
+                "below that value the formula of Cui et al. 2015, λ = 5.3 Fr^−1.5, gives more than the design's λ",
                 "a model that follows the Froude number asks for more than the design's λ: compare with \"Other models for the first surge\" and raise λ if they agree",
             )
         },
@@ -132,7 +132,7 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
     rules.push(Rule {
         bearing: Bearing::Pressures,
         ..least(
-            "Density of a debris flow",
+            "Density of the flow against water",
             input.density,
             1000.0,
             "kg/m³",
@@ -178,7 +178,7 @@ fn of_coefficients(input: &GuidelineInput) -> [Rule; 2] {
             found,
             smallest,
             "",
-            "Volkwein 2014 (after Albaba 2015): K = 1, λ = 0.7 to 2",
+            "Volkwein 2014 (as cited by Albaba 2015): K = 1, λ = 0.7 to 2; larger values are on the safe side",
             "smaller than the guideline has it: say where the value is from, and compare with what the simulation shows",
         )
     };
@@ -210,7 +210,7 @@ fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
         input.barrier_height - event_fill(design, input).height(),
         0.0,
         "m",
-        "derived: barrier less the event heaped up against it, no higher than it runs up",
+        "derived: barrier less the event heaped up against it at the angle of repose, no higher than it runs up: an upper bound",
         "the event may go over the barrier: a higher barrier, or a second one",
     )
 }
@@ -224,7 +224,7 @@ fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
     let input = &guideline.input;
     let [estimate, ..] = peak_discharge(design.flow.event_volume);
     Rule {
-        title: "Discharge b h v / estimate from the event volume",
+        title: "Discharge (width × depth × velocity) over the estimate from the event volume",
         found: design.channel.width * input.depth * input.velocity / estimate.value,
         least: Some(1.0 / LIKE_DISCHARGES),
         most: Some(LIKE_DISCHARGES),

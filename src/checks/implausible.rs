@@ -133,7 +133,7 @@ mod tests {
     fn what_is_far_from_usual_is_told() {
         assert!(told("width: 3 m", "width: 3 m").is_empty());
         for (from, to, what) in [
-            ("retained_mass: 90 %", "retained_mass: 0.9 %", "limits.retained_mass"),
+            ("retained_mass: 85 %", "retained_mass: 0.85 %", "limits.retained_mass"),
             ("residual_height: 50 %", "residual_height: 5 %", "limits.residual_height"),
             ("resistance: 290 kN", "resistance: 290 MN", "barrier.flexible_net.anchors.resistance"),
             ("modulus: 10 GPa", "modulus: 200 GPa", "barrier.flexible_net.net_rope.modulus"),

@@ -117,6 +117,7 @@ mod tests {
     /// Verdict of `small_net`, of whose flow 10 % may be lost, after a change and with a share held in the simulation.
     fn verdict(change: impl Fn(&mut Design), held: f64) -> CheckVerdict {
         let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        (design.limits.retained_mass, design.flow.known_from) = (0.9, 0.0);
         change(&mut design);
         let retained = Demand { simulation: Some(held), ..Demand::default() };
         check(&design, &Demands::default().with(&mass::RETAINED, &[retained]))[0].verdict
@@ -130,7 +131,7 @@ mod tests {
             move |design: &mut Design| {
                 let whole = design.flow.sizes.clone();
                 let opening = widest * whole.quantile(0.06);
-                (design.flow.cut, design.flow.known_from) = (Some(CurveCut { share: 0.06, whole }), 0.0);
+                design.flow.cut = Some(CurveCut { share: 0.06, whole });
                 let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
                 net.mesh_opening = opening;
                 if through_gap {

@@ -76,7 +76,12 @@ pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
     let Some(dissipators) = net.dissipators else { return Vec::new() };
     let own = Demand { guideline: Some(design.factors.overstrength * dissipators.plateau), ..Demand::default() };
-    let name = CheckName::new("rope_plateau", "Main ropes against dissipator force", Unit::Newton, ROPE_FACTOR);
+    let name = CheckName::new(
+        "rope_plateau",
+        "Main ropes against the force of a yielding dissipator",
+        Unit::Newton,
+        ROPE_FACTOR,
+    );
     vec![check(design, &net.main_ropes.rope, name, own).whatever_the_pressures()]
 }
 

@@ -312,7 +312,7 @@ const BREAKING_LOAD: Key = Key::required("breaking_load", quantity(D::Force, 1.0
 const ELASTIC_LIMIT: Key = Key::optional(
     "elastic_limit",
     quantity(D::Force, 1.0, 1e9),
-    "tension at which the simulated rope draws out and stays longer; by default it is elastic without end",
+    "tension at which the simulated rope draws out and stays longer; by default it stays elastic at any tension",
 );
 const AT_BREAKING_LOAD: Key = Key::default(
     "at_breaking_load",

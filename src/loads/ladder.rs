@@ -65,7 +65,7 @@ pub const MODELS: &[Model] = &[
         formula: "½ K ρ g' h² + λ ρ v² h, λ 0.7 to 2",
         range: "flexible barriers",
         froude: None,
-        certainty: Certainty::Read,
+        certainty: Certainty::Cited,
         force: |input| {
             let fixed = 0.5 * input.unit_pressure() * input.depth.powi(2);
             factor(input, 0.7, 2.0).map(|moving| fixed + moving)
@@ -76,7 +76,7 @@ pub const MODELS: &[Model] = &[
         formula: "2 ρ v² h",
         range: "laminar, fine-grained",
         froude: None,
-        certainty: Certainty::Read,
+        certainty: Certainty::Cited,
         force: |input| factor(input, 2.0, 2.0),
     },
     Model {
@@ -84,7 +84,7 @@ pub const MODELS: &[Model] = &[
         formula: "3 to 5 ρ v² h",
         range: "coarse; from point gauges",
         froude: None,
-        certainty: Certainty::Read,
+        certainty: Certainty::Cited,
         force: |input| factor(input, 3.0, 5.0),
     },
     Model {
@@ -114,7 +114,7 @@ pub const MODELS: &[Model] = &[
     Model {
         name: "Hungr et al. 1984",
         formula: "1.5 ρ v² h",
-        range: "mean over the section; boulders apart",
+        range: "mean over the section, without boulders",
         froude: None,
         certainty: Certainty::Memory,
         force: |input| factor(input, 1.5, 1.5),
@@ -157,7 +157,7 @@ pub const MODELS: &[Model] = &[
     Model {
         name: "Armanini & Scotton 1993",
         formula: "½ ρ g' h_r², h_r of the reflected bore",
-        range: "slow flows; a vertical jet forms from Fr 1 on and the bore says too little",
+        range: "slow flows; above Fr 1 a vertical jet forms, and the bore underestimates the force",
         froude: Some([0.0, 1.0]),
         certainty: Certainty::Memory,
         force: |input| {

@@ -13,7 +13,7 @@ use crate::units::GRAVITY;
 /// What the first start showed.
 pub fn rows(run: &Run, simulated: &Simulated) -> Vec<Row> {
     let (design, seen) = (&run.file.design, simulated.first());
-    [flow_rows(design, seen), force_rows(design, seen), coefficient_rows(run, seen), loss_rows(seen), wall_rows(seen)]
+    [flow_rows(design, seen), force_rows(design, simulated), coefficient_rows(run, seen), loss_rows(seen), wall_rows(seen)]
         .concat()
 }
 
@@ -37,27 +37,31 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         row(
             "Incoming flow",
             incoming,
-            "0.1 to 0.3 barrier heights upstream, when its momentum flux was largest and before grains came to rest there; depth at bulk density",
+            "0.1 to 0.3 barrier heights upstream of the barrier, when its momentum flux h v² was largest and before grains came to rest there; depth: that of the mass there at the bulk density of the design",
         ),
         row(
             "Velocity of the front",
             seen.known(&incoming::FRONT).map_or("not seen".to_string(), |front| with_unit(front, "m/s")),
-            "over the last 0.4 barrier heights before the gauge; of the position that 2 % of the mass has passed",
+            "over the last 0.4 barrier heights before that section; the front is where 2 % of the mass has passed",
         ),
         row(
             "Depth of the deposit at the barrier",
             with_unit(seen.one(&incoming::DEPOSIT), "m"),
-            "at the end, at bulk density",
+            "at the end of the simulation; that of the mass there at the bulk density of the design",
         ),
     ]
 }
 
-fn force_rows(design: &Design, seen: &Observed) -> Vec<Row> {
+fn force_rows(design: &Design, simulated: &Simulated) -> Vec<Row> {
+    let seen = simulated.first();
     vec![
         row(
             "Largest force within a sampling interval",
             with_unit(seen.one(&total_force::PEAK_SAMPLED), "N"),
-            "mean over one sampling interval only; what responds faster than the smoothing window, such as a stiff wall, feels this",
+            format!(
+                "mean over {:.1} ms only; the check of the total force uses the next row. A part that responds faster than the smoothing window, such as a stiff wall, is loaded by this",
+                1e3 * simulated.facts.sampling
+            ),
         ),
         row(
             "Largest total force",
@@ -114,12 +118,15 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
     let told = &seen.coefficients;
     let of = |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.2}"));
     let k = seen.known(&earth_pressure::AT_REST).map(|k| {
-        let remark = format!("from the force at rest along the channel; the design takes {}", input.earth_pressure);
+        let remark = format!(
+            "from the force at rest along the channel: the value to compare with the design's K of {}",
+            input.earth_pressure
+        );
         row("K at rest", format!("{k:.2}"), remark)
     });
     let lambda = seen.known(&earth_pressure::DYNAMIC).map(|lambda| {
         let remark = format!(
-            "from the largest force along the channel less the static part with the design's K, over ρ v² h of the incoming flow; the design takes {}",
+            "from the largest force along the channel less the static part with the design's K, over ρ v² h of the incoming flow: the value to compare with the design's λ of {}",
             input.dynamic_pressure
         );
         row("λ from the largest force", format!("{lambda:.2}"), remark)
@@ -148,7 +155,7 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
 fn words_at(told: &Coefficients, sample: usize) -> String {
     let of = |series: &[f64], unit| with_unit(series.get(sample).copied().unwrap_or(0.0), unit);
     format!(
-        "at {:.2} s F₁ = {}, F₂ = {}, H_d = {}, h = {}, v = {} / {}",
+        "at {:.3} s F₁ = {}, F₂ = {}, H_d = {}, h = {}, v = {} upstream, {} mean",
         told.time.get(sample).copied().unwrap_or(0.0),
         of(&told.force_dead, "N/m"),
         of(&told.force_moving, "N/m"),
@@ -167,9 +174,9 @@ fn side_row(told: &Coefficients) -> Row {
         if !ratio.is_finite() {
             "cannot be told".to_string()
         } else if ratio < 1.0 {
-            format!("too little by {:.0} %", 100.0 * (1.0 - ratio))
+            format!("{:.0} % of the simulated value", 100.0 * ratio)
         } else {
-            format!("too much by {:.0} %", 100.0 * (ratio - 1.0))
+            format!("{:.0} % of the simulated value", 100.0 * ratio)
         }
     };
     let dead = side(highest(&told.force_dead), highest(&told.guideline_dead));
@@ -177,7 +184,7 @@ fn side_row(told: &Coefficients) -> Row {
     row(
         "Guideline compared with this simulation",
         format!("F₁ {dead}; F₂ {moving}"),
-        "largest values, from the same depths and the mean velocity, with the design's K and λ",
+        "largest value over time of each, not at the same instant: the guideline's with the simulated depths and mean velocity and the design's K and λ. For information; the checks use the larger of guideline and simulation",
     )
 }
 

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
+use crate::checks::between_bolts::tension_between;
 use crate::checks::detailing;
+use crate::design::BarrierDesign;
 use crate::guideline::{RopeLoad, event_fill, wall_of};
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
@@ -124,9 +126,12 @@ fn remark(run: &Run, case: &LoadCase) -> String {
         let enters = if case.shear_certainty.decides() {
             "enters the checks"
         } else {
-            "for information only: give loads.overflow_friction and overflow_length to have it checked"
+            "with a default for friction and length, for information only: give loads.overflow_friction and overflow_length to have it checked"
         };
-        parts.push(format!("drag on the barrier's top = {} ({enters})", with_unit(case.shear, "N/m")));
+        parts.push(format!(
+            "drag on the barrier's top = ρ g' h_o · length · tan φ = {} ({enters})",
+            with_unit(case.shear, "N/m")
+        ));
     }
     if let Some(point) = case.point {
         parts.push(format!(
@@ -145,7 +150,7 @@ pub fn face_remark(run: &Run) -> String {
         return String::new();
     }
     format!(
-        "The check of the total force takes what acts normal to the face: {} along the bed / cos {:.1}° · partial factor {factor:.2} = {}.",
+        "The check of the total force takes what acts normal to the face: {} along the bed / cos {:.1}° (lean of the face from the bed's normal) · partial factor {factor:.2} = {}.",
         with_unit(guideline.largest_force, "N"),
         guideline.lean.abs().to_degrees(),
         with_unit(factor * guideline.face_force, "N")
@@ -180,6 +185,23 @@ pub fn ropes(run: &Run) -> Vec<RopeRow> {
     run.guideline.ropes.iter().enumerate().filter_map(row).collect()
 }
 
+/// How the demand of the lowest rope between its bolts, and of its worst bolt, follows from the guideline; empty where it has none.
+pub fn bolted_rope(run: &Run) -> String {
+    let (BarrierDesign::FlexibleNet(net), Some(load)) = (&run.file.design.barrier, run.guideline.bolt_force) else {
+        return String::new();
+    };
+    let axial = net.main_ropes.rope.axial_stiffness();
+    let along = libm::cbrt(load * load * axial / 24.0);
+    format!(
+        "Rope 1, bolted to the bed: P = {:.2} kN on the space between two bolts, its strip spread evenly; along the rope H = (P² EA/24)^⅓ = ({:.2}² · {:.0}/24)^⅓ = {:.1} kN; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst bolt, and H and T follow likewise.",
+        load / 1e3,
+        load / 1e3,
+        axial / 1e3,
+        along / 1e3,
+        tension_between(load, axial) / 1e3
+    )
+}
+
 /// Load and tension with their numbers, in kN and m.
 fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let design = &run.file.design;
@@ -199,17 +221,27 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let span = design.channel.width;
     let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
     let half = 0.5 * rope.load * span / 1e3;
-    format!(
-        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3})/{leans:.3}{more} = {:.2} kN/m; H = q L²/(8 f) = {:.2} · {span:.2}²/(8 · {:.3}) = {horizontal:.1} kN; T = √({horizontal:.1}² + {half:.1}²) = {:.1} kN",
+    let tension = libm::hypot(horizontal, half);
+    let lean = run.guideline.lean.abs().to_degrees();
+    let load = format!(
+        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3})/cos {lean:.1}°{more} = {:.2} kN/m",
         diagram.unit / 1e3,
         depth(low),
         depth(high),
         diagram.block / 1e3,
         rope.load / 1e3,
-        rope.load / 1e3,
-        rope.state.sag,
-        libm::hypot(horizontal, half),
-    )
+    );
+    let (q, sag) = (rope.load / 1e3, rope.state.sag);
+    let yields = run.guideline.dissipator.is_some_and(|[plateau, _]| rope.state.tension == plateau);
+    if yields {
+        format!(
+            "{load}; the dissipators yield, so T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m"
+        )
+    } else {
+        format!(
+            "{load}; f = {sag:.3} m, at which the rope, stretched by H = q L²/(8 f) = {q:.2} · {span:.2}²/(8 · {sag:.3}) = {horizontal:.1} kN, has the length of its curve; T = √(H² + (q L/2)²) = √({horizontal:.1}² + {half:.1}²) = {tension:.1} kN"
+        )
+    }
 }
 
 /// The balance of a wall that stands by its weight.
@@ -285,7 +317,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
             "Volume held behind the barrier",
             with_unit(held.volume, "m³"),
             format!(
-                "V = ½ b H² (cot(θ − θ') + tan of the lean), H = {}, θ = {:.1}°, θ' = {:.1}°, lean from the bed's normal {:.1}°, over {} of channel; filled height and deposit slope as given, or by default (from practice, not verified)",
+                "V = ½ b H² (cot(α − α') + tan ε), H = {} the height of the sagged net when full (loads.filled_height), α = {:.1}° the slope of the bed, α' = {:.1}° that of the deposit's surface (loads.deposit_slope), ε = {:.1}° the lean of the barrier from the bed's normal; over {} of channel. Defaults are from practice, not verified",
                 with_unit(held.deposit.height, "m"),
                 held.deposit.slope.to_degrees(),
                 held.deposit.surface.to_degrees(),
@@ -315,11 +347,11 @@ pub fn holding(run: &Run) -> Vec<Row> {
         "Freeboard after one event",
         with_unit(input.barrier_height - one_event, "m"),
         format!(
-            "barrier height {} − highest deposit {} ({} with a level surface; {} at the angle of repose, capped by the run-up), normal to the bed; no guideline value was found",
+            "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier at the angle of repose ({}), but no higher than the larger run-up; with a level surface {}. No guideline value was found",
             with_unit(input.barrier_height, "m"),
             with_unit(event.height(), "m"),
+            if event.heap.is_finite() { with_unit(event.heap, "m") } else { "no limit".into() },
             with_unit(event.level, "m"),
-            if event.heap.is_finite() { with_unit(event.heap, "m") } else { "without end".into() },
         ),
     ));
     rows.extend(estimates(run));
@@ -371,7 +403,7 @@ pub fn rules(run: &Run) -> Vec<RuleRow> {
             title: rule.title,
             found: show(rule.found),
             advised,
-            verdict: if rule.holds() { "pass" } else { "warn" },
+            verdict: if rule.holds() { "met" } else { "not met" },
             remark,
         }
     };
@@ -390,7 +422,11 @@ pub fn swing_rows(swings: &[sensitivity::Swing]) -> Vec<SwingRow> {
         governing: if swing.down.governing == swing.up.governing {
             swing.up.governing.clone()
         } else {
-            format!("{}; then {}", swing.down.governing, swing.up.governing.to_lowercase())
+            format!(
+                "decreased: {}; increased: {}",
+                lower_first(&swing.down.governing),
+                lower_first(&swing.up.governing)
+            )
         },
     };
     swings.iter().map(row).collect()
@@ -408,12 +444,16 @@ pub fn margin(run: &Run) -> String {
     let tell = |name: &str, limit: Limit| match limit {
         Limit::Unjudged => "no check is judged by the guideline".to_string(),
         Limit::AlwaysFails => format!("reducing only the {name} does not make all guideline checks pass"),
-        Limit::NeverFails => format!("no {name} up to ten times the design's fails a guideline check"),
-        Limit::At(factor) if factor >= 1.0 => {
-            let grown = 100.0 * (factor - 1.0);
-            format!("the {name} could increase by {grown:.0} % before a check fails by the guideline")
-        }
-        Limit::At(factor) => {
+        Limit::NeverFails(most) => format!(
+            "no {name} up to {} that of the design, the largest that was tried, fails a guideline check",
+            times(most)
+        ),
+        Limit::At(factor, first) if factor >= 1.0 => format!(
+            "the {name} could increase by {:.0} % before a check fails by the guideline ({})",
+            100.0 * (factor - 1.0),
+            lower_first(&first)
+        ),
+        Limit::At(factor, _) => {
             let less = 100.0 * (1.0 - factor);
             format!("the {name} would have to be {less:.0} % smaller for all guideline checks to pass")
         }
@@ -431,10 +471,15 @@ pub fn least_margin(run: &Run) -> Option<String> {
     use sensitivity::Limit;
     let margin = sensitivity::margin(&run.file.design);
     let grown = |name: &'static str, limit: Limit| match limit {
-        Limit::At(factor) if factor >= 1.0 => Some((factor, name)),
+        Limit::At(factor, first) if factor >= 1.0 => Some((factor, name, first)),
         _ => None,
     };
     let both = [grown("velocity", margin.velocity), grown("depth", margin.depth)];
-    let (factor, name) = both.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(format!("{:.0} % more {name} makes a check fail", 100.0 * (factor - 1.0)))
+    let (factor, name, first) = both.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!("{:.0} % more {name} makes a check fail ({})", 100.0 * (factor - 1.0), lower_first(&first)))
+}
+
+/// A factor in words: "2.7 times".
+fn times(factor: f64) -> String {
+    format!("{} times", figures(factor))
 }

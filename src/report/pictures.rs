@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::design::BarrierDesign;
+use crate::design::{BarrierDesign, Bottom};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::quantities::{mass, total_force};
@@ -263,7 +263,7 @@ pub fn profiles(run: &Run, seen: &Simulated) -> Vec<Chart> {
             block_to: deposit + depth,
         };
         let note = format!(
-            "at {:.2} s; strips: forces of grains at that instant; line: guideline with the design's K and λ for H_d = {}, h = {} and the mean velocity of {}",
+            "at {:.3} s; strips: forces of grains at that instant; line: guideline with the design's K and λ for H_d = {}, h = {} and the mean velocity of {}",
             snapshot.time,
             with_unit(deposit, "m"),
             with_unit(depth, "m"),
@@ -293,8 +293,13 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         file: file_name("Barrier from upstream"),
         svg: elevation(snapshot, design.channel.width, resistance),
         note: format!(
-            "At {:.2} s, as deformed then; colour by tension over design resistance at that instant. Main ropes are numbered from the bottom.",
-            snapshot.time
+            "At {:.2} s, as deformed then; colour by tension over design resistance at that instant. Main ropes are numbered from the bottom.{}",
+            snapshot.time,
+            if net.bottom == Bottom::Fixed {
+                " The lowest one is held at every knot here; the check of it between its bolts follows from the load of the worst bolt and is not in the picture."
+            } else {
+                ""
+            }
         ),
     })
 }
@@ -331,7 +336,7 @@ fn split_chart(seen: &Simulated) -> Chart {
         levels: Vec::new(),
         band: None,
     };
-    let note = "By grains at rest and by moving grains that touch the barrier; the guideline with the design's K and λ, the depths seen, and the mean velocity of all grains.";
+    let note = "Force per width of the barrier. Grains at rest (F₁) and moving grains (F₂) that touch the barrier; the guideline's values of the same with the design's K and λ, the simulated depths, and the mean velocity of all grains, from before the first contact on.";
     Chart::of("Deposit and moving flow", chart.svg(), note)
 }
 

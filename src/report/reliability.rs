@@ -32,23 +32,28 @@ fn limit_rows(run: &Simulated) -> Vec<Row> {
         row(
             "Largest overlap",
             format!("{:.1} %", 100.0 * numerics.overlap),
-            format!("of a grain's radius; limit {} %", 100.0 * OVERLAP_LIMIT),
+            format!(
+                "of a grain's radius; limit {} %. Grains are modelled softer than stone (flow.contact_modulus), which lengthens impacts a little",
+                100.0 * OVERLAP_LIMIT
+            ),
         ),
         row(
             "Time step / critical step",
             format!("{:.2}", numerics.step_ratio),
             format!(
-                "largest ratio found by the stability checks during the run, which shorten a step that is too long at once (mode with {:.0} % of its energy in the barrier); the energy balance shows whether it did harm; the run is rejected above {STEP_LIMIT}",
+                "largest found during the run; below 1 is stable. Above 1 the step is shortened at once, and the energy balance shows whether it did harm; above {STEP_LIMIT} the run is rejected. {:.0} % of the energy of the critical mode is in the barrier",
                 100.0 * facts.step_ratio.in_barrier
             ),
         ),
         row("Time step", format!("{:.2e} s", facts.time_step), step_remark(run)),
         row(
-            "Grains through ropes",
+            "Grains that passed through a rope",
             numerics.crossings.to_string(),
             match facts.barrier_parts {
-                0 | 1 => "none is allowed".to_string(),
-                parts => format!("none is allowed; the barrier takes {parts} steps in one of the grains'"),
+                0 | 1 => "a numerical error, none is allowed; what passes the mesh is under mass lost".to_string(),
+                parts => format!(
+                    "a numerical error, none is allowed; what passes the mesh is under mass lost. The barrier takes {parts} steps in one of the grains'"
+                ),
             },
         ),
         row(
@@ -203,15 +208,18 @@ fn validation_row() -> Row {
     let commit = if kept.commit == this {
         format!("at this commit, {this}")
     } else {
-        format!("at commit {}; this program is of commit {this}, which was not validated in full", kept.commit)
+        format!(
+            "the full validation was last run on an earlier version (commit {}); this version ({this}) has passed the tests only",
+            kept.commit
+        )
     };
     let remark = match failed.as_slice() {
         [] => commit,
-        failed => format!("{commit}; not held: {}", failed.join("; ")),
+        failed => format!("{commit}; not passed: {}", failed.join("; ")),
     };
     row(
         "Validation of this program",
-        format!("{} of {} cases hold", kept.cases.len() - failed.len(), kept.cases.len()),
+        format!("{} of {} cases pass", kept.cases.len() - failed.len(), kept.cases.len()),
         remark,
     )
 }
@@ -219,10 +227,10 @@ fn validation_row() -> Row {
 fn seed_row(run: &Simulated) -> Row {
     let seeds: Vec<String> = run.starts.iter().map(|start| start.seed.to_string()).collect();
     let remark = match run.starts.len() {
-        1 => "of the initial packing; a single run, so the scatter is not known: use --seeds for more".to_string(),
+        1 => "number of the random initial packing. A single run: its scatter is not measured but allowed for, see Fidelity; --seeds 5 measures it".to_string(),
         starts => {
             format!(
-                "of the initial packings, one for each run; demands are mean + {:.2} standard deviations (EN 1990, annex D)",
+                "numbers of the random initial packings, one for each run; demands are mean + {:.2} standard deviations (EN 1990, annex D)",
                 k_n(starts)
             )
         }

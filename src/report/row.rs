@@ -1,6 +1,7 @@
 //! A row of a table of the report, and how an outcome is told in one.
 
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
+use crate::demand::CAP_TOLERANCE;
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
 use crate::report::numbers::{percent, with_unit};
@@ -51,12 +52,26 @@ pub fn used(outcome: &Outcome) -> String {
     let stroke = outcome.resistance.filter(|_| is_stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     match (outcome.utilisation, outcome.verdict) {
-        (None, CheckVerdict::Pass) => "yielding, as intended".to_string(),
+        (None, CheckVerdict::Pass) => at_the_plateau(outcome).to_string(),
         (Some(_), _) if is_share(outcome) => {
             outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit.symbol()))
         }
         (used, _) if used_up && used.is_none_or(|used| used <= 10.0) => format!("≥ {}", percent(used)),
         (used, _) => percent(used),
+    }
+}
+
+/// By which route a dissipator yields, where its stroke is not used up.
+fn at_the_plateau(outcome: &Outcome) -> &'static str {
+    let plateau = outcome.capacity.unwrap_or(f64::INFINITY) / CAP_TOLERANCE;
+    let [guideline, simulation] = [outcome.demand.guideline, outcome.demand.simulation]
+        .map(|demand| demand.is_some_and(|demand| demand >= plateau));
+    match (guideline, simulation) {
+        (false, false) => "stays elastic",
+        (true, true) => "yields, as intended",
+        (true, false) if outcome.demand.simulation.is_some() => "yields by the guideline, elastic in the simulation",
+        (true, false) => "yields by the guideline",
+        (false, true) => "yields in the simulation, elastic by the guideline",
     }
 }
 

@@ -19,7 +19,7 @@ pub struct Assumption {
 
 const SAFE: &str = "yes";
 const UNSAFE: &str = "no";
-const EITHER: &str = "either way";
+const EITHER: &str = "may err either way";
 
 /// What is assumed, as far as it bears on this design.
 pub fn assumptions(run: &Run) -> Vec<Assumption> {
@@ -68,7 +68,7 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
         ),
         (
             extended && simulated,
-            "Side extensions lie flat on the side walls downstream of the barrier; wall and deposit hold each of their knots by the holding force, which is given, not computed.",
+            "Side extensions of the net lie flat on the side walls downstream of the barrier; wall and deposit hold each of their knots by the holding force, which is given, not computed.",
             EITHER,
         ),
         (
@@ -170,7 +170,7 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
         (wall, "sliding, overturning and bearing of the wall (rigid_wall.stability would have them checked)"),
         (!net, "bending and shear of the wall itself; the segments' pressures are told for that"),
         (true, "corrosion, abrasion and maintenance"),
-        (net, "the rings; punching of the mesh by a single stone"),
+        (net, "the rings that join the net to its main ropes; punching of the mesh by a single stone"),
         (
             bolts,
             "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_bolt_spacing and anchors.bed_bolt_resistance would have them checked)",

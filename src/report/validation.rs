@@ -158,6 +158,7 @@ pub fn render(rows: &[Row], asked: usize) -> Result<Vec<ReportFile>, tera::Error
     context.insert("cases", rows);
     context.insert("verdict_line", &verdict_line(rows, asked));
     context.insert("version", env!("CARGO_PKG_VERSION"));
+    context.insert("commit", COMMIT);
     let file = |name| tera.render(name, &context).map(|text| ReportFile::new(name, text));
     let kept = serde_json::to_string_pretty(&Kept::of(rows)).unwrap_or_default() + "\n";
     Ok(vec![file("validation.html")?, file("validation.md")?, ReportFile::new("outcome.json", kept)])

@@ -33,6 +33,8 @@ pub struct View {
     pub warnings: Vec<String>,
     pub utilisation: Option<Chart>,
     pub checks: Vec<CheckRow>,
+    /// Whether any tells the demand of the flow without partial factors.
+    pub has_characteristic: bool,
     /// Why checks are open.
     pub open: Vec<OpenRow>,
     /// Where each partial factor stands.
@@ -42,6 +44,8 @@ pub struct View {
     pub cases: Vec<CaseRow>,
     /// How the demand of the total force follows from them; empty where it is the largest of them.
     pub face_remark: String,
+    /// How the demand of a lowest rope between its bolts follows; empty where there is none.
+    pub bolted_rope: String,
     pub ropes: Vec<RopeRow>,
     pub ladder: Vec<LadderRow>,
     pub wall: Vec<Row>,
@@ -132,6 +136,7 @@ impl View {
             doubts: run.doubts.clone(),
             warnings: warnings(run),
             utilisation: pictures::utilisation_chart(run),
+            has_characteristic: outcomes.iter().any(|outcome| outcome.demand.characteristic.is_some()),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),
             open: open_rows(&outcomes),
             combinations: combination_rows(run),
@@ -139,6 +144,7 @@ impl View {
             simulated: run.simulated.is_some(),
             cases: loads::cases(run),
             face_remark: loads::face_remark(run),
+            bolted_rope: loads::bolted_rope(run),
             ropes: loads::ropes(run),
             ladder: loads::ladder(run),
             wall: loads::wall(run),
@@ -188,7 +194,8 @@ fn title_block(run: &Run) -> Vec<Row> {
     let row = |name: &str, value: &str| Row { name: name.into(), value: value.into(), remark: String::new() };
     let seen = run.simulated.as_ref();
     let seeds = seen.map_or(String::new(), |seen| {
-        seen.starts.iter().map(|start| start.seed.to_string()).collect::<Vec<_>>().join(", ")
+        let seeds: Vec<String> = seen.starts.iter().map(|start| start.seed.to_string()).collect();
+        format!("{} (seed {} of the random packing)", seeds.len(), seeds.join(", "))
     });
     let simulated = seen.and_then(|seen| moment(seen.facts.began)).unwrap_or_default();
     // A report made again tells of both programs.
@@ -205,7 +212,7 @@ fn title_block(run: &Run) -> Vec<Row> {
         row("Design file", &run.file.name),
         row("SHA-256 of the design file", &run.file.sha256),
         row("Simulated", &simulated),
-        row("Seeds", &seeds),
+        row("Runs", &seeds),
         row(if other.is_empty() { "Program" } else { "Program of this report" }, PROGRAM),
         row("Program that simulated", other),
     ];
@@ -273,7 +280,7 @@ pub fn summary(run: &Run) -> String {
         Verdict::Pass => {
             let one = match &run.simulated {
                 Some(simulated) if simulated.starts.len() == 1 && run.climb.is_empty() => {
-                    "; based on a single run, with margins for the scatter between runs"
+                    "; based on a single run, with an assumed allowance for the scatter between runs"
                 }
                 _ => "",
             };
@@ -382,12 +389,21 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
         (set, typed) => format!("of the set {set}, but for what is typed in the design: {typed}"),
     };
     vec![
-        row("K", figures(input.earth_pressure), &format!("static pressure K ρ g H cos α; {VOLKWEIN_2014}")),
-        row("λ", figures(input.dynamic_pressure), &format!("dynamic pressure λ ρ v²; {VOLKWEIN_2014}")),
+        row(
+            "K",
+            figures(input.earth_pressure),
+            &format!("static pressure K ρ g H cos α, after {VOLKWEIN_2014} (K = 1); the value is that of the design"),
+        ),
+        row(
+            "λ",
+            figures(input.dynamic_pressure),
+            &format!("dynamic pressure λ ρ v², after {VOLKWEIN_2014} (λ = 0.7 to 2); the value is that of the design"),
+        ),
         row("Density ρ", with_unit(input.density, "kg/m³"), "bulk density of the flow"),
         row("Depth h", with_unit(input.depth, "m"), "of the moving flow"),
         row("Velocity v", with_unit(input.velocity, "m/s"), "of the moving flow"),
         row("Froude number", figures(input.froude()), "v/√(g h cos α)"),
+        row("g'", with_unit(input.gravity_normal, "m/s²"), "g cos α, α being the slope of the bed"),
         row("Height of filling", with_unit(input.fill_height, "m"), filling),
         row("Partial factors", factors, &factor_remark),
     ]

@@ -189,7 +189,8 @@ fn discharge_and_volume(run: &Run) -> Option<String> {
     let rule = rules(&run.file.design, &run.guideline)
         .into_iter()
         .find(|rule| rule.bearing == Bearing::Flow && !rule.holds())?;
-    Some(format!("{} is {}: {}", rule.title, figures(rule.found), rule.advice))
+    let [least, most] = [rule.least, rule.most].map(|limit| limit.map_or(String::new(), figures));
+    Some(format!("{} is {} (usually {least} to {most}): {}", rule.title, figures(rule.found), rule.advice))
 }
 
 /// Grains larger than the mesh cannot show what finer ones would do.
@@ -278,12 +279,25 @@ fn faster_flow_than_the_guideline_was_given(run: &Run) -> Option<String> {
     (given > 0.0 && seen.incoming.depth > 0.0 && velocity > 1.05 * given).then(|| {
         let front = seen.known(&incoming::FRONT).map_or(String::new(), |front| format!(" (its front with {})", with_unit(front, "m/s")));
         format!(
-            "The simulated flow arrives just upstream of the barrier with {}{front} while the guideline calculation uses {}: with that the guideline pressure λρv² would be {:.0} % higher. Give the velocity of the front at the barrier, not the mean velocity of the flow.",
+            "The simulated flow speeds up on its way: just upstream of the barrier it has {}{front} and a depth of {}, while the guideline calculation uses {} and {}. With the simulated values the pressure λρv² would be {:.0} % higher and the thrust λρv²h {}.",
             with_unit(velocity, "m/s"),
+            with_unit(seen.incoming.depth, "m"),
             with_unit(given, "m/s"),
-            100.0 * ((velocity / given).powi(2) - 1.0)
+            with_unit(run.guideline.input.depth, "m"),
+            100.0 * ((velocity / given).powi(2) - 1.0),
+            compared(seen.incoming.depth * velocity * velocity, run.guideline.input.depth * given * given)
         )
     })
+}
+
+/// A value against another in words: "12 % lower".
+fn compared(value: f64, other: f64) -> String {
+    let ratio = value / other;
+    if ratio >= 1.0 {
+        format!("{:.0} % higher", 100.0 * (ratio - 1.0))
+    } else {
+        format!("{:.0} % lower", 100.0 * (1.0 - ratio))
+    }
 }
 
 /// When the dissipators of a rope were used up in the first start, and when the force was largest.
@@ -326,7 +340,7 @@ fn ropes_broken(run: &Run) -> Option<String> {
 
 fn loads_without_factor(run: &Run) -> Option<String> {
     (run.file.design.factors.load == 1.0).then(|| {
-        "Loads carry no partial factor (factors.load: 1): choose the set of your code (factors.set) unless the design flow is itself a design value.".to_string()
+        "Loads carry no partial factor (factors.load: 1): choose the set of factors of your design standard (factors.set), unless the design flow already includes the safety margin.".to_string()
     })
 }
 
@@ -372,7 +386,7 @@ pub fn left_by_simulation(run: &Run) -> Option<String> {
     let (most, share) = used.into_iter().filter(|(_, used)| *used > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
     let grow = match most.unit {
         Unit::Newton | Unit::NewtonPerMetre | Unit::NewtonMetrePerMetre => format!(
-            ": this demand could increase by {:.0} % before failure (a velocity {:.0} % higher, if it grows with its square)",
+            ": its demand could increase by {:.0} % before it fails (the velocity by {:.0} %, if the demand grows with its square)",
             100.0 * (1.0 / share - 1.0),
             100.0 * ((1.0 / share).sqrt() - 1.0)
         ),
@@ -409,13 +423,13 @@ pub fn pinned_fidelity(run: &Run) -> Option<String> {
     let open = rung.open(&run.outcomes);
     let band = &rung.band;
     let known = format!(
-        "error allowance for a run at this level: forces ±{:.0} %, strokes ±{:.0} %, retained mass and height ±{:.0} percentage points",
+        "for the verdict the simulated demands are also taken with an allowance for the scatter between runs and for the error of this level of model: forces up to {:.0} % and strokes up to {:.0} % more, retained mass and height {:.0} percentage points less",
         100.0 * band.force,
         100.0 * band.stroke,
         100.0 * band.share
     );
     let verdict = if open.is_empty() {
-        "all checks pass with these added".to_string()
+        "no check changes its result with that; the tables show the values without it".to_string()
     } else {
         format!("with that {} could go either way", listed(&open))
     };

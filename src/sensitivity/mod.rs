@@ -32,19 +32,19 @@ pub struct Swing {
 }
 
 /// How far one input may go until the first check by equations fails.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Limit {
     /// No check is judged.
     Unjudged,
     /// Some check fails even at the smallest value tried.
     AlwaysFails,
-    /// All hold even at the largest value tried.
-    NeverFails,
-    /// The factor on the input; above 1 there is something to spare.
-    At(f64),
+    /// All hold even at the largest factor tried, which this is.
+    NeverFails(f64),
+    /// The factor on the input, above 1 where there is something to spare, and the check that fails beyond it.
+    At(f64, String),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     pub velocity: Limit,
     pub depth: Limit,
@@ -137,14 +137,14 @@ pub fn swings(design: &Design) -> Vec<Swing> {
 /// By how much the flow may grow, or must shrink, until the first check by equations just holds.
 pub fn margin(design: &Design) -> Margin {
     let holds = |change: Change, factor: f64| changed(design, change, factor).utilisation.map(|used| used <= 1.0);
-    let limit = |change: Change| {
-        match (holds(change, SMALLEST), holds(change, LARGEST)) {
+    let limit = |change: Change, largest: f64| {
+        match (holds(change, SMALLEST), holds(change, largest)) {
             (None, _) | (_, None) => return Limit::Unjudged,
             (Some(false), _) => return Limit::AlwaysFails,
-            (_, Some(true)) => return Limit::NeverFails,
+            (_, Some(true)) => return Limit::NeverFails(largest),
             _ => {}
         }
-        let (mut low, mut high) = (SMALLEST, LARGEST);
+        let (mut low, mut high) = (SMALLEST, largest);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
             if holds(change, middle) == Some(true) {
@@ -153,9 +153,12 @@ pub fn margin(design: &Design) -> Margin {
                 high = middle;
             }
         }
-        Limit::At(low)
+        Limit::At(low, changed(design, change, high).governing)
     };
-    Margin { velocity: limit(VELOCITY), depth: limit(DEPTH) }
+    // A flow deeper than the barrier goes over it: no case is of that.
+    let flow = input(design);
+    let deepest = (flow.barrier_height / flow.depth).clamp(1.0, LARGEST);
+    Margin { velocity: limit(VELOCITY, LARGEST), depth: limit(DEPTH, deepest) }
 }
 
 /// What the equations say with the smallest velocity a margin is sought for; nothing where no check is judged.
@@ -180,9 +183,10 @@ mod tests {
     #[test]
     fn at_the_margin_the_first_check_just_holds() {
         let design = design();
-        let Limit::At(factor) = margin(&design).velocity else { panic!("no margin") };
+        let Limit::At(factor, first) = margin(&design).velocity else { panic!("no margin") };
         let at = |factor: f64| changed(&design, VELOCITY, factor).utilisation.unwrap();
         assert!(at(factor) <= 1.0 && at(factor * 1.001) > 1.0, "{factor}");
+        assert_eq!(first, changed(&design, VELOCITY, factor * 1.001).governing);
     }
 
     #[test]
@@ -244,7 +248,10 @@ mod tests {
         };
         let mut strong = design.clone();
         everything(&mut strong, 1e9);
-        assert_eq!(margin(&strong).velocity, Limit::NeverFails);
+        assert_eq!(margin(&strong).velocity, Limit::NeverFails(LARGEST));
+        // No deeper than the barrier is high.
+        let deepest = input(&strong).barrier_height / input(&strong).depth;
+        assert_eq!(margin(&strong).depth, Limit::NeverFails(deepest));
         everything(&mut design, 1e-9);
         assert_eq!(margin(&design).velocity, Limit::AlwaysFails);
         // With no resistance nothing is judged.

@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn what_a_thinner_flow_loses_grows_by_the_square_of_what_it_lacks() {
         let mut design = small_net();
-        design.flow.known_from = 0.0;
+        (design.limits.retained_mass, design.flow.known_from) = (0.9, 0.0);
         let guideline = guideline(&design);
         let held = Demand { simulation: Some(0.92), ..Demand::default() };
         let demands = Demands::default().with(&mass::RETAINED, &[held]);

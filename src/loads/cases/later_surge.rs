@@ -31,7 +31,7 @@ pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
         shear_certainty: Certainty::Derived,
         point: None,
         formula: "R = ½ K ρ g' (H_d + h)² + λ ρ v² h",
-        certainty: Certainty::Read,
+        certainty: Certainty::Cited,
         source: VOLKWEIN_2014,
     }
 }

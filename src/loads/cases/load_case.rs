@@ -6,8 +6,10 @@ use crate::loads::pressure::Diagram;
 /// How sure we are of a formula or a value; only what is certain may decide a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Certainty {
-    /// Read in the source itself or in a thesis that cites it.
+    /// Read in the source itself, or in an excerpt of it.
     Read,
+    /// As Albaba 2015 cites it.
+    Cited,
     /// Given by the designer.
     Given,
     /// Derived from first principles here.
@@ -19,7 +21,8 @@ pub enum Certainty {
 impl Certainty {
     pub fn word(self) -> &'static str {
         match self {
-            Self::Read => "after the source named, or as a thesis cites it",
+            Self::Read => "read in the source",
+            Self::Cited => "as cited by Albaba 2015",
             Self::Given => "given in the design",
             Self::Derived => "derived",
             Self::Memory => "not checked against the original; for information only",

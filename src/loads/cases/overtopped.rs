@@ -31,6 +31,7 @@ pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
         shear,
         shear_certainty: if extras.overflow_drag.is_some() { Certainty::Given } else { Certainty::Memory },
         formula: "R = ½ K ρ g' (H² + 2 H h_o)",
+        certainty: Certainty::Read,
         source: "Volkwein, Wendeler, Guasti 2011, Design of flexible debris flow barriers",
         ..full::case(input)
     })

@@ -15,7 +15,7 @@ use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 pub const BRAKED: Case = Case {
     id: "FS1",
     suite: Suite::FullScale,
-    title: "The full-scale barrier with dissipators (fbEd), pinned ropes, sliding ropes and cylinders, strokes without end",
+    title: "The full-scale barrier with dissipators (fbEd), pinned ropes, sliding ropes and cylinders, dissipators of unlimited stroke",
     source: "Albaba 2015, sections 4.4 and 4.5",
     tier: Tier::SecondHand,
     weakness: "the release of the flow is not printed and was chosen by its velocity; peaks are means over 50 ms; the force stays within 2 % of its largest for a second, so that the time of it is ill-conditioned; the extension is read at the furthest point of a rope, the thesis does not say at which; grains that lie against a dissipator push on its anchor besides, so the anchors' load is told",
