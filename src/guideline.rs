@@ -1,7 +1,7 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
 use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo};
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
 use crate::loads::fill::{Deposit, Retention, deposit_height};
@@ -110,12 +110,12 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
             (force - 2.0 * point) / spaces + point
         }),
         cases: all(&input, &extras),
-        largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger),
+        largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger_or_nan),
         lean: lean(design),
-        face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger),
-        face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger),
-        metre_force: stages.iter().map(|case| case.metre_force(width, input.barrier_height)).fold(0.0, larger),
-        foot_moment: stages.iter().map(|case| case.foot_moment(width, lean(design))).fold(0.0, larger),
+        face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger_or_nan),
+        face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger_or_nan),
+        metre_force: stages.iter().map(|case| case.metre_force(width, input.barrier_height)).fold(0.0, larger_or_nan),
+        foot_moment: stages.iter().map(|case| case.foot_moment(width, lean(design))).fold(0.0, larger_or_nan),
         ropes,
         dissipator: match &design.barrier {
             BarrierDesign::FlexibleNet(net) => {

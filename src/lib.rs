@@ -18,7 +18,7 @@
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] (film and snapshots list what pulls as well); raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
 //! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its working with [`loads::cases::working`] |
-//! | another impact model | an entry of [`loads::ladder::MODELS`] |
+//! | another impact model | an entry of [`loads::other_models::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
 //! | a shape of surface | [`dem::tables::surfaces`] (`Surface::nearest` tells what it does to a grain), where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
@@ -31,7 +31,7 @@
 //! | a warning to the reviewer | a function and a line in [`report::warnings`]; a usual range of an input in [`checks::implausible`] |
 //! | a field of `result.json` | [`report::json`]; raise its `schema_version` where one changes or goes |
 //! | where a rule is from | [`sources`] |
-//! | a part of the program | a module here, and in `WALLS` of `tests/walls.rs` whom it may name |
+//! | a part of the program | a module here, and in `LAYERS` of `tests/layers.rs` whom it may name |
 //! | a unit | a line in [`units`] |
 //! | a set of factors that a code gives | [`design::factor_sets`] |
 //! | a kind of report | [`report::kind`] |
@@ -49,15 +49,17 @@
 //! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
 //!
 //! # Invariants
-//! * The engine is a crate of its own, `crates/dem`, so that the compiler keeps it from the rest. `design` imports nothing above it; `loads`
-//!   and `checks` never see `dem`; no two files need each other. `tests/walls.rs` keeps these walls: it reads every path of the code.
+//! * The engine is a crate of its own, `crates/dem`, so that the compiler keeps it from the rest. `design` knows no later link of the chain;
+//!   `loads` and `checks` never see `dem`; files do not import each other in a circle. `tests/layers.rs` holds the list of who may import
+//!   whom against every path in the code.
 //! * Everything inside is SI; units live at the borders, in [`units`].
 //! * The same file and seed give the same result bit for bit, on any number of threads: work is cut into blocks by the
 //!   number of grains alone, blocks never write each other's rows, and sums run in a fixed order. Vector instructions
 //!   are chosen at run time ([`dem::simd::widest`]), but always eight numbers stand side by side, every lane does the same
 //!   operations in the same order, and nothing is fused. What is not rounded exactly (sines, powers) goes through the crate `libm`, not
 //!   through the system's library; `clippy.toml` keeps it so.
-//! * A block is moved as soon as it and all before it are loaded ([`dem::sweep`]); until then its rows stand still.
+//! * A block of grains is moved as soon as the forces on it and on all blocks before it are summed ([`dem::sweep`]); until then the rows of
+//!   its grains do not change.
 //! * A pair of bodies that could touch in the step at hand is evaluated in it: lists expire and sleeping pairs wake by bounds
 //!   on motion, never by guesses ([`dem::neighbours::clocks`]).
 //! * The channel frame: x down the slope with the barrier's foot at 0, y across, z normal to the bed.
@@ -74,6 +76,7 @@
 mod checkpoint;
 pub mod checks;
 pub mod commands;
+pub mod container;
 pub mod demand;
 pub mod design;
 pub mod fidelity;
@@ -88,7 +91,6 @@ mod program;
 pub mod quantities;
 pub mod report;
 pub mod scene;
-pub mod sealed;
 mod sensitivity;
 pub mod simulated;
 mod sources;

@@ -66,7 +66,7 @@ struct HowArguments {
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Number of starts, each with a packing of its own: their scatter enters the verdict
+    /// Number of runs, each with another random packing of the grains: their scatter enters the verdict
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_STARTS)))]
     seeds: u32,
     /// Also simulates the design with each of its main inputs changed alone, down and up

@@ -13,7 +13,7 @@ use crate::design::{Arrival, BarrierDesign, Design};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::load_cases::{LoadCase, cases};
 use crate::quantities::observed::Observed;
 use crate::quantities::{earth_pressure, incoming, total_force, wall};
@@ -248,7 +248,7 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
     let short_peaks = |of: fn(&Observed) -> [f64; 2]| {
         let ratios =
             simulated.starts.iter().map(|start| of(&start.observed)).map(|[sampled, smoothed]| sampled / smoothed);
-        ratios.fold(1.0, larger)
+        ratios.fold(1.0, larger_or_nan)
     };
     let at_rest: Vec<f64> =
         simulated.starts.iter().filter_map(|start| start.observed.known(&earth_pressure::OF_ANY_DEPTH)).collect();
@@ -256,7 +256,7 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
     let push = simulated.spread(|seen| seen.one(&total_force::PUSH));
     let on_a_wall = matches!(design.barrier, BarrierDesign::RigidWall(_));
     let one_run = ONE_RUN[usize::from(on_a_wall)];
-    let arrives = |seen: &Observed| larger(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
+    let arrives = |seen: &Observed| larger_or_nan(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
     FirstSurge {
         push: push.mean,
         hardest_push: if push.starts > 1 { push.upper() } else { one_run * push.mean },
@@ -267,7 +267,7 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
         velocity: simulated.spread(arrives).mean,
         flux_share: given_flux(&design.flow.arrival)
             .map_or(1.0, |given| simulated.spread(|seen| seen.incoming.flux).mean / given),
-        earth_pressure: seen.into_iter().chain(by_weight).reduce(larger),
+        earth_pressure: seen.into_iter().chain(by_weight).reduce(larger_or_nan),
         force_band: if on_a_wall { rung.on_a_wall } else { band.force },
         stroke_band: band.stroke,
         share_band: band.share,
@@ -280,7 +280,7 @@ const LEAST_FLUX: f64 = 0.55;
 
 /// A simulated flow that arrives more slowly, or thinner, than the design says tells nothing of the design flow.
 fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
-    let arrives = |seen: &Observed| larger(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
+    let arrives = |seen: &Observed| larger_or_nan(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
     let velocity = simulated.spread(arrives).mean;
     let flux = simulated.spread(|seen| seen.incoming.flux).mean;
     if velocity.is_nan() || flux.is_nan() {

@@ -238,10 +238,10 @@ fn frames_of_a_long_event_are_thinned_evenly() {
 /// Recordings that somebody has changed and sealed anew: refused or shown, never a panic.
 #[test]
 fn a_forged_recording_is_refused_or_shown() {
+    use barrier_check::container::{seal, unseal};
     use barrier_check::report::recording::{FORMAT, NAME, decode};
     use barrier_check::report::render::render;
     use barrier_check::report::view::View;
-    use barrier_check::sealed::{seal, unseal};
     let cases = std::env::var("HOSTILE_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(400_usize);
     let whole = std::fs::read("tests/fixtures/recorded.bin").expect("the fixture");
     let body = unseal(NAME, FORMAT, &whole).expect("sealed");

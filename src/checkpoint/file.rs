@@ -1,6 +1,6 @@
 //! The files of a store: written whole or not at all, checked when read.
 //!
-//! Sealed ([`crate::sealed`]), in the wire format of postcard: what kind of file it is, the program that wrote it, the SHA-256 of the
+//! Sealed ([`crate::container`]), in the wire format of postcard: what kind of file it is, the program that wrote it, the SHA-256 of the
 //! design it belongs to, and the content. A file is written beside its place, synced and renamed; the one it replaces stays as the one before.
 
 use std::collections::BTreeSet;
@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use crate::container::{Broken, seal, unseal};
 use crate::program::PROGRAM;
-use crate::sealed::{Broken, seal, unseal};
 
 pub const NAME: &[u8; 8] = b"BARRKPT\n";
 /// Changes whenever anything that is kept changes.

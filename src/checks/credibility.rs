@@ -47,17 +47,17 @@ pub struct Numerics {
 impl Numerics {
     /// The worse of two runs in every respect.
     pub fn worst(&self, other: &Self) -> Self {
-        let larger = |a: f64, b: f64| if b.is_nan() || b.abs() > a.abs() { b } else { a };
+        let worse = |a: f64, b: f64| if b.is_nan() || b.abs() > a.abs() { b } else { a };
         Self {
-            energy_error: larger(self.energy_error, other.energy_error),
-            overlap: larger(self.overlap, other.overlap),
-            step_ratio: larger(self.step_ratio, other.step_ratio),
+            energy_error: worse(self.energy_error, other.energy_error),
+            overlap: worse(self.overlap, other.overlap),
+            step_ratio: worse(self.step_ratio, other.step_ratio),
             crossings: self.crossings + other.crossings,
             escaped: self.escaped + other.escaped,
-            escaped_share: larger(self.escaped_share, other.escaped_share),
-            packing_shortfall: larger(self.packing_shortfall, other.packing_shortfall),
-            stored_at_release: larger(self.stored_at_release, other.stored_at_release),
-            stopped_upstream: larger(self.stopped_upstream, other.stopped_upstream),
+            escaped_share: worse(self.escaped_share, other.escaped_share),
+            packing_shortfall: worse(self.packing_shortfall, other.packing_shortfall),
+            stored_at_release: worse(self.stored_at_release, other.stored_at_release),
+            stopped_upstream: worse(self.stopped_upstream, other.stopped_upstream),
             broke_down: self.broke_down.clone().or_else(|| other.broke_down.clone()),
             missed: self.missed || other.missed,
             unfinished: self.unfinished || other.unfinished,

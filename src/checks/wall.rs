@@ -5,7 +5,7 @@ use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistan
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Stability};
 use crate::guideline::{input, wall_of};
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::loads::wall::WallInput;
 use crate::quantities::quantity::Unit;
 use crate::quantities::wall as quantity;
@@ -79,7 +79,7 @@ impl Base {
         let at_rest = self.wall.eccentricity_at_rest() * self.wall.base_width / self.wall.thickness;
         let [_, tilt] = self.wall.overturning();
         let tipped = with_own(self.tips, tilt);
-        let off = |tips: f64| larger(self.eccentricity_under(tips), at_rest);
+        let off = |tips: f64| larger_or_nan(self.eccentricity_under(tips), at_rest);
         Demand { guideline: tipped.guideline.map(off), simulation: tipped.simulation.map(off), ..Demand::default() }
     }
 

@@ -1,6 +1,6 @@
 //! Results that a study keeps, one file each, so that only what has changed runs again and one that is cut short loses little.
 //!
-//! Sealed ([`crate::sealed`]), in the wire format of postcard. The name of a file is the SHA-256 of what its result hangs on: the program
+//! Sealed ([`crate::container`]), in the wire format of postcard. The name of a file is the SHA-256 of what its result hangs on: the program
 //! and what it was computed from.
 
 use std::io;
@@ -11,9 +11,9 @@ use serde::de::DeserializeOwned;
 use sha2::Digest;
 
 use crate::commands::input;
+use crate::container::{seal, unseal};
 use crate::report::folder::{KEPT_BY_STUDIES, create, inner};
 use crate::report::manifest::hexadecimal;
-use crate::sealed::{seal, unseal};
 
 const NAME: &[u8; 8] = b"bc-study";
 const FORMAT: u32 = 1;

@@ -3,7 +3,7 @@
 use crate::demand::value::{Demand, Seen};
 use crate::design::Factors;
 use crate::guideline::{Guideline, RopeLoad};
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::quantities::dissipator;
 use crate::quantities::observed::Observed;
 use crate::quantities::quantity::{Demanded, Quantity};
@@ -20,7 +20,7 @@ fn spread(observed: &[&Observed], read: Read) -> Option<Spread> {
 
 /// NaN if any is; 0 for none.
 fn largest(observed: &[&Observed], read: Read) -> f64 {
-    observed.iter().map(|seen| read(seen)).fold(0.0, larger)
+    observed.iter().map(|seen| read(seen)).fold(0.0, larger_or_nan)
 }
 
 /// What the next packing exceeds with a probability of 5 %; no more than the cap as long as no packing has gone beyond it.
@@ -51,9 +51,10 @@ impl Meeting<'_> {
             Some(Demanded::RopeLoad { capped }) => self.by_rope(quantity, capped),
             Some(Demanded::Stroke) => self.strokes(quantity),
             Some(Demanded::Plateau) => vec![Demand {
-                guideline: self.guideline.ropes.iter().map(|rope| rope.state.tension).reduce(larger),
+                guideline: self.guideline.ropes.iter().map(|rope| rope.state.tension).reduce(larger_or_nan),
                 // Capped at the plateau, and so judged by the largest of the packings.
-                simulation: self.worst(&|seen| seen.each(quantity).iter().copied().reduce(larger).unwrap_or(f64::NAN)),
+                simulation: self
+                    .worst(&|seen| seen.each(quantity).iter().copied().reduce(larger_or_nan).unwrap_or(f64::NAN)),
                 ..Demand::default()
             }],
             Some(Demanded::Worst) => {
@@ -64,7 +65,7 @@ impl Meeting<'_> {
     }
 
     fn worst(&self, read: Read) -> Option<f64> {
-        self.governing.iter().map(|seen| read(seen)).reduce(larger)
+        self.governing.iter().map(|seen| read(seen)).reduce(larger_or_nan)
     }
 
     /// Whether the characteristic values differ from those that are judged.

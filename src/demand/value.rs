@@ -1,6 +1,6 @@
 //! A demand by both routes, and the packings that the simulation's is made of.
 
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::quantities::observed::Observed;
 
 /// One quantity by both routes; a route that says nothing about it is absent.
@@ -18,7 +18,7 @@ pub struct Demand {
 impl Demand {
     /// The larger of the two; NaN if either is.
     pub fn largest(&self) -> Option<f64> {
-        self.guideline.into_iter().chain(self.simulation).reduce(larger)
+        self.guideline.into_iter().chain(self.simulation).reduce(larger_or_nan)
     }
 }
 

@@ -4,7 +4,7 @@ pub(crate) mod cases;
 pub(crate) mod estimates;
 pub(crate) mod fill;
 pub(crate) mod input;
-pub(crate) mod ladder;
+pub(crate) mod other_models;
 pub(crate) mod pressure;
 pub(crate) mod rope;
 pub(crate) mod run_up;

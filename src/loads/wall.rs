@@ -12,7 +12,7 @@
 //! U = ρ_w g h b/2 at 2 b/3 from the downstream edge: U tan φ and 2 U b/3 come beside the load, and N − U bears. The weight of the flow and
 //! its friction on the wall are left out, which is on the safe side.
 
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 
 /// A gravity wall of even thickness, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +110,7 @@ impl WallInput {
             let [holds, tilt] = wall.overturning();
             wall.pressure(0.5 * wall.base_width - (holds - tilt - moment) / wall.bears(), press)
         };
-        larger(with(1.0), with(weight_factor))
+        larger_or_nan(with(1.0), with(weight_factor))
     }
 
     /// Demand on sliding of a force on the wall (N/m), along the bed and normal to it, likewise.

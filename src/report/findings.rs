@@ -13,8 +13,14 @@ use crate::units::GRAVITY;
 /// What the first start showed.
 pub fn rows(run: &Run, simulated: &Simulated) -> Vec<Row> {
     let (design, seen) = (&run.file.design, simulated.first());
-    [flow_rows(design, seen), force_rows(design, simulated), coefficient_rows(run, seen), loss_rows(seen), wall_rows(seen)]
-        .concat()
+    [
+        flow_rows(design, seen),
+        force_rows(design, simulated),
+        coefficient_rows(run, seen),
+        loss_rows(seen),
+        wall_rows(seen),
+    ]
+    .concat()
 }
 
 fn per_width(force: f64, design: &Design) -> String {

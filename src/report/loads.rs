@@ -9,7 +9,7 @@ use crate::guideline::{RopeLoad, event_fill, wall_of};
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
-use crate::loads::ladder::MODELS;
+use crate::loads::other_models::MODELS;
 use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::report::numbers::{figures, percent, with_unit};
@@ -51,7 +51,7 @@ pub struct RopeRow {
 }
 
 #[derive(Debug, Serialize)]
-pub struct LadderRow {
+pub struct ModelRow {
     pub name: &'static str,
     pub formula: &'static str,
     pub force: String,
@@ -287,16 +287,16 @@ pub fn wall(run: &Run) -> Vec<Row> {
     ]
 }
 
-pub fn ladder(run: &Run) -> Vec<LadderRow> {
+pub fn other_models(run: &Run) -> Vec<ModelRow> {
     let input = &run.guideline.input;
     let own = run.guideline.cases.first().map_or(1.0, LoadCase::force_per_width);
     let show = |[low, high]: [f64; 2], text: &dyn Fn(f64) -> String| {
         if low == high { text(low) } else { format!("{} to {}", text(low), text(high)) }
     };
-    let row = |model: &crate::loads::ladder::Model| {
+    let row = |model: &crate::loads::other_models::Model| {
         let force = model.force(input);
         let outside = if model.in_range(input) { "" } else { "; this flow is outside" };
-        LadderRow {
+        ModelRow {
             name: model.name,
             formula: model.formula,
             force: show(force, &|force| with_unit(force, "N/m")),

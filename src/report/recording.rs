@@ -1,16 +1,16 @@
 //! `recording.bin`: what a simulation said, in full, so that its report can be made again without it.
 //!
-//! Sealed ([`crate::sealed`]), in the wire format of postcard.
+//! Sealed ([`crate::container`]), in the wire format of postcard.
 
 use serde::{Deserialize, Serialize};
 
+use crate::container::{Broken, seal, unseal};
 use crate::design::entries::Purpose;
 use crate::design::read::read_design_for;
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Step};
 use crate::pipeline::{Run, restore};
 use crate::problem::Problems;
-use crate::sealed::{Broken, seal, unseal};
 use crate::sensitivity::Swing;
 use crate::simulated::Simulated;
 

@@ -11,7 +11,7 @@ use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
 use crate::quantities::quantity::Unit;
-use crate::report::loads::{self, CaseRow, LadderRow, RopeRow, RuleRow, SwingRow};
+use crate::report::loads::{self, CaseRow, ModelRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, with_scatter, with_unit};
 use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
@@ -47,7 +47,7 @@ pub struct View {
     /// How the demand of a lowest rope between its bolts follows; empty where there is none.
     pub bolted_rope: String,
     pub ropes: Vec<RopeRow>,
-    pub ladder: Vec<LadderRow>,
+    pub other_models: Vec<ModelRow>,
     pub wall: Vec<Row>,
     pub holding: Vec<Row>,
     /// Which start the findings and charts are of.
@@ -146,7 +146,7 @@ impl View {
             face_remark: loads::face_remark(run),
             bolted_rope: loads::bolted_rope(run),
             ropes: loads::ropes(run),
-            ladder: loads::ladder(run),
+            other_models: loads::other_models(run),
             wall: loads::wall(run),
             holding: loads::holding(run),
             start: run.simulated.as_ref().map_or(String::new(), start_named),

@@ -5,14 +5,14 @@
 use super::harder_flow::largest_force;
 use super::known::{FirstSurge, Known};
 use crate::checks::outcome::{Kind, Opening, Outcome, Route};
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
     let more = largest_force(known.design, known.guideline, &seen) / seen.push;
     // What stands higher has a longer lever as well.
-    let more_moment = larger(more, known.guideline.face_moment / seen.moment);
+    let more_moment = larger_or_nan(more, known.guideline.face_moment / seen.moment);
     let (when, instead) = match known.design.loads.to_the_top {
         true => ("the full barrier", "simulate a larger flow, or say loads.filling: one_event"),
         false => ("the barrier", "give it more resistance"),

@@ -9,7 +9,7 @@ use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::Design;
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline_for, velocity_on_its_way};
-use crate::larger::larger;
+use crate::larger::larger_or_nan;
 use crate::loads::input::GuidelineInput;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
@@ -27,7 +27,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 fn without_a_simulation(design: &Design, guideline: &Guideline) -> Vec<GuidelineInput> {
     let given = guideline.input;
     let by_weight = design.loads.to_the_top.then(|| earth_pressure_by_weight(design, guideline)).flatten();
-    let earth_pressure = larger(by_weight.unwrap_or(0.0), given.earth_pressure);
+    let earth_pressure = larger_or_nan(by_weight.unwrap_or(0.0), given.earth_pressure);
     let way = velocity_on_its_way(design);
     let velocity = if way > MUCH_FASTER * given.velocity { way } else { given.velocity };
     let harder = GuidelineInput { earth_pressure, velocity, ..given };
@@ -40,14 +40,15 @@ const MUCH_FASTER: f64 = 2.5;
 /// What the equations are asked with: as fast and as deep as the flow is seen, and with the λ that pushes as hard; each with the K seen.
 fn inputs(design: &Design, guideline: &Guideline, seen: &FirstSurge) -> Vec<GuidelineInput> {
     let given = guideline.input;
-    let earth_pressure = larger(seen.earth_pressure.unwrap_or(0.0), given.earth_pressure);
+    let earth_pressure = larger_or_nan(seen.earth_pressure.unwrap_or(0.0), given.earth_pressure);
     let as_seen = GuidelineInput {
-        velocity: larger(seen.velocity, given.velocity),
-        depth: larger(seen.depth, given.depth),
+        velocity: larger_or_nan(seen.velocity, given.velocity),
+        depth: larger_or_nan(seen.depth, given.depth),
         earth_pressure,
         ..given
     };
-    let dynamic_pressure = larger(lambda_that_pushes(design, guideline, seen.hardest_push), given.dynamic_pressure);
+    let dynamic_pressure =
+        larger_or_nan(lambda_that_pushes(design, guideline, seen.hardest_push), given.dynamic_pressure);
     let as_hard = GuidelineInput { earth_pressure, dynamic_pressure, ..given };
     [as_seen, as_hard].into_iter().filter(|harder| *harder != given).collect()
 }

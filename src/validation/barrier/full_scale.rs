@@ -149,7 +149,7 @@ fn compare(text: &str, published: &[Published], change: fn(&mut Design)) -> Resu
         let [from, to] = near_the_peak(&run);
         findings.push(Finding::told(format!("{name}: force within 2 % of its largest from (s), first start"), from));
         findings.push(Finding::told("until (s)", to));
-        findings.push(Finding::told(format!("{name}: wall clock of {starts} starts (s)"), run.facts.wall_clock));
+        findings.push(Finding::told(format!("{name}: wall clock of {starts} runs (s)"), run.facts.wall_clock));
     }
     Ok(findings)
 }
@@ -173,8 +173,7 @@ fn held_against<'a>(
     published.iter().map(move |published| {
         let spread = Spread::of(&run.iter().map(|start| (published.read)(&start.observed)).collect::<Vec<_>>());
         let Spread { mean, deviation, starts } = spread;
-        let what =
-            format!("{name}: {}, {starts} starts ± {deviation:.2}; published {}", published.what, published.value);
+        let what = format!("{name}: {}, {starts} runs ± {deviation:.2}; published {}", published.what, published.value);
         match published.share.filter(|_| judged) {
             Some(share) => Finding::near(what, mean, published.value, share),
             None => Finding::told(what, mean),

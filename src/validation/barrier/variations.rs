@@ -119,7 +119,7 @@ fn slope() -> Result<Vec<Finding>, Broken> {
             0.05,
         ),
         Finding::near(
-            format!("onset of the force (s), {STARTS} starts ± {:.2}", onsets.deviation),
+            format!("onset of the force (s), {STARTS} runs ± {:.2}", onsets.deviation),
             onsets.mean,
             3.05,
             0.05,
@@ -207,7 +207,7 @@ fn orientation() -> Result<Vec<Finding>, Broken> {
         Finding::told("rigW: share of the mass at rest when the force is largest", wall_at_rest.mean),
         Finding::close(
             format!(
-                "fbNo: share of the mass at rest when the force is largest, {MANY} starts ± {:.3}",
+                "fbNo: share of the mass at rest when the force is largest, {MANY} runs ± {:.3}",
                 free_at_rest.deviation
             ),
             free_at_rest.mean,

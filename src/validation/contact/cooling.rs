@@ -32,7 +32,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
         mean += 0.25 * time;
         expected = theory;
     }
-    Ok(vec![Finding::near("τ0 (s), mean of four starts", mean, expected, 0.05)])
+    Ok(vec![Finding::near("τ0 (s), mean of four runs", mean, expected, 0.05)])
 }
 
 /// Measured and expected cooling time (s).

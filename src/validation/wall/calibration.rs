@@ -1,4 +1,4 @@
-//! C5: the calibration test L44-H15-α40 over five starts, with the flow on its way (B10) and the split of the force.
+//! C5: the calibration test L44-H15-α40 over five runs, with the flow on its way (B10) and the split of the force.
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use crate::validation::wall::laboratory::{Run, Variant, run_variant, spread};
 pub const CASE: Case = Case {
     id: "C5",
     suite: Suite::Wall,
-    title: "Laboratory wall L44-H15-α40, mean of five starts",
+    title: "Laboratory wall L44-H15-α40, mean of five runs",
     source: "Jiang & Towhata 2013, Albaba 2015 section 3.5; grain friction 53° (measured angle of repose) settled here: 30° to \
              53° give residuals of 518 to 570 N/m against 576",
     tier: Tier::SecondHand,
@@ -63,9 +63,9 @@ fn run() -> Result<Vec<Finding>, Broken> {
     let (velocity, _) = spread(runs, |run| run.observed.one(&incoming::VELOCITY_AT_PEAK));
     let mut findings = vec![
         Finding::near("largest force (N/m)", peak, 735.0, 0.15),
-        Finding::told("largest force: standard deviation over the starts (N/m)", peak_spread),
+        Finding::told("largest force: standard deviation over the runs (N/m)", peak_spread),
         Finding::near("force at rest (N/m)", residual, 576.0, 0.10),
-        Finding::told("force at rest: standard deviation over the starts (N/m)", residual_spread),
+        Finding::told("force at rest: standard deviation over the runs (N/m)", residual_spread),
         Finding::close("largest over rest", peak / residual, 1.28, 0.15),
         Finding::near("largest moment at the toe (N m/m)", moment, 80.0, 0.20),
         Finding::close("flow thickness 40 to 50 cm upstream (cm)", 100.0 * thickness, 3.9, 0.6),

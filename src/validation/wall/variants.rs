@@ -67,7 +67,7 @@ fn prediction() -> Result<Vec<Finding>, Broken> {
         Finding::near("largest force on segment 2 (N/m)", segment(1), 256.0, 0.35),
         Finding::near("force on segment 1 at rest (N/m)", rest, 145.0, 0.35),
         Finding::told("largest total force (N/m)", peak),
-        Finding::told("largest force: standard deviation over the starts (N/m)", peak_spread),
+        Finding::told("largest force: standard deviation over the runs (N/m)", peak_spread),
         Finding::told("total force at rest (N/m)", spread(&runs, Run::residual).0),
     ])
 }

@@ -1,4 +1,4 @@
-//! The walls between the parts of the program: which part may name which, and that no two files need each other.
+//! The layers of the program: which part may name which, and that no two files need each other.
 //!
 //! The engine is a crate of its own, so that the compiler keeps it from the rest. Within the main crate this test reads the sources as the
 //! compiler does: every path of the code, in `use` trees, expressions, types and macros, absolute or relative, is followed to the file of
@@ -12,12 +12,12 @@ use std::path::Path;
 use uses::{Crate, Name};
 
 /// Every module at the top of `src`, and what it may name besides itself.
-const WALLS: &[(&str, &[&str])] = &[
+const LAYERS: &[(&str, &[&str])] = &[
     ("larger", &[]),
     ("lock", &[]),
     ("problem", &[]),
     ("program", &[]),
-    ("sealed", &[]),
+    ("container", &[]),
     ("sources", &[]),
     ("starts", &[]),
     ("terminal", &["problem"]),
@@ -25,7 +25,7 @@ const WALLS: &[(&str, &[&str])] = &[
     ("design", &["problem", "units"]),
     ("load_cases", &["design"]),
     ("loads", &["larger", "sources", "units"]),
-    ("checkpoint", &["dem", "lock", "program", "sealed", "terminal"]),
+    ("checkpoint", &["dem", "lock", "program", "container", "terminal"]),
     ("guideline", &["design", "larger", "loads", "units"]),
     ("quantities", &["dem", "design", "guideline", "loads"]),
     ("demand", &["design", "guideline", "larger", "quantities", "starts"]),
@@ -118,7 +118,7 @@ const WALLS: &[(&str, &[&str])] = &[
             "program",
             "quantities",
             "scene",
-            "sealed",
+            "container",
             "sensitivity",
             "simulated",
             "sources",
@@ -140,7 +140,7 @@ const WALLS: &[(&str, &[&str])] = &[
             "problem",
             "report",
             "scene",
-            "sealed",
+            "container",
             "sensitivity",
             "simulated",
             "starts",
@@ -168,8 +168,8 @@ fn breaches(of: &Crate) -> Vec<String> {
         if own == "lib" || own == "main" {
             continue;
         }
-        let Some((_, allowed)) = WALLS.iter().find(|(known, _)| *known == own) else {
-            list.push(format!("{own} has no line in WALLS"));
+        let Some((_, allowed)) = LAYERS.iter().find(|(known, _)| *known == own) else {
+            list.push(format!("{own} has no line in LAYERS"));
             continue;
         };
         let other = match &name {
@@ -177,7 +177,7 @@ fn breaches(of: &Crate) -> Vec<String> {
             Name::Other(krate) if krate == "dem" => krate.clone(),
             Name::Other(_) => continue,
         };
-        let known = other == "dem" || WALLS.iter().any(|(known, _)| *known == other);
+        let known = other == "dem" || LAYERS.iter().any(|(known, _)| *known == other);
         if known && other != own && !allowed.contains(&other.as_str()) {
             list.push(format!("{file} names {other}"));
         }
@@ -188,7 +188,7 @@ fn breaches(of: &Crate) -> Vec<String> {
 }
 
 #[test]
-fn each_part_knows_only_what_the_walls_allow() {
+fn each_part_knows_only_what_its_layer_allows() {
     assert_eq!(breaches(&main_crate()), Vec::<String>::new());
 }
 
