@@ -175,8 +175,8 @@ fn rules_of_the_net() {
     for (title, found, least, most, bearing) in [
         ("Depth of the flow", 0.6, None, Some(2.0), Bearing::Pressures),
         ("Velocity of the flow", 3.0, None, Some(10.0), Bearing::Pressures),
-        ("Density of the flow", 1800.0, Some(1600.0), Some(2200.0), Bearing::Advice),
-        ("Density of a debris flow", 1800.0, Some(1000.0), None, Bearing::Pressures),
+        ("Density of the flow against the guideline", 1800.0, Some(1600.0), Some(2200.0), Bearing::Advice),
+        ("Density of the flow against water", 1800.0, Some(1000.0), None, Bearing::Pressures),
         ("Froude number", 1.27561, Some(2.31983), None, Bearing::Pressures),
         ("Height of filling", 2.7189, None, Some(4.0), Bearing::Pressures),
         ("Inclination of the barrier", 5.0, None, Some(20.0), Bearing::Pressures),

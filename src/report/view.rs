@@ -195,7 +195,8 @@ fn title_block(run: &Run) -> Vec<Row> {
     let seen = run.simulated.as_ref();
     let seeds = seen.map_or(String::new(), |seen| {
         let seeds: Vec<String> = seen.starts.iter().map(|start| start.seed.to_string()).collect();
-        format!("{} (seed {} of the random packing)", seeds.len(), seeds.join(", "))
+        let of = if seeds.len() == 1 { "seed" } else { "seeds" };
+        format!("{} ({of} of the random packing: {})", seeds.len(), seeds.join(", "))
     });
     let simulated = seen.and_then(|seen| moment(seen.facts.began)).unwrap_or_default();
     // A report made again tells of both programs.
