@@ -151,6 +151,7 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
         shape: shape(flow),
         grains,
         surfaces: surfaces(design, block),
+        terrain: None,
         barrier: None,
         material: Material {
             modulus: flow.modulus,

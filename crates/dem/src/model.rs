@@ -4,8 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
 use crate::tables::barrier::Barrier;
+use crate::tables::fixed::Fixed;
 use crate::tables::grains::{Grain, GrainShape};
 use crate::tables::surfaces::Surface;
+use crate::tables::terrain::Terrain;
 
 /// What the grains are made of, as contacts feel it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,6 +31,8 @@ pub struct Model {
     /// The grains as they start; a running simulation keeps them in its own table.
     pub grains: Vec<Grain>,
     pub surfaces: Vec<Surface>,
+    /// The ground, where it is not of surfaces.
+    pub terrain: Option<Terrain>,
     pub barrier: Option<Barrier>,
     pub material: Material,
     /// m/s², in the channel frame.
@@ -40,12 +44,18 @@ pub struct Model {
 }
 
 impl Model {
+    /// All that does not move.
+    pub fn fixed(&self) -> Fixed<'_> {
+        Fixed { surfaces: &self.surfaces, terrain: self.terrain.as_ref() }
+    }
+
     /// Empty space without gravity, whose grains will be of this shape, of a soft stone.
     pub fn empty(shape: GrainShape) -> Self {
         Self {
             shape,
             grains: Vec::new(),
             surfaces: Vec::new(),
+            terrain: None,
             barrier: None,
             material: Material { modulus: 1e8, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 },
             gravity: Vec3::zeros(),

@@ -11,6 +11,7 @@ use crate::neighbours::renew::{Bodies, Neighbours};
 use crate::net::{NetForces, slide_all};
 use crate::sweep::sweep;
 use crate::tables::barrier::Barrier;
+use crate::tables::fixed::FixedTouch;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::grains::Grain;
 use crate::tables::load_sheets::LoadSheets;
@@ -203,15 +204,14 @@ impl Simulation {
     pub fn surface_contacts(&self) -> impl Iterator<Item = SurfaceContact> {
         let lists = self.neighbours.blocks.iter().map(|block| &block.surfaces);
         lists.flat_map(|list| list.touching.iter().zip(&list.memory)).map(|(pair, memory)| {
-            let surface = &self.model.surfaces[pair[1] as usize];
             let memory = Memory::from_quad(*memory);
             let row = pair[0] as usize / self.grains.shape.members();
             let (centre, radius) = self.grains.rows().sphere(pair[0] as usize);
-            let towards = surface.nearest(&centre) - centre;
+            let FixedTouch { towards, share, role, .. } = self.model.fixed().touch(pair[1], &centre, radius);
             let overlap = (radius - towards.norm()).max(0.0);
-            let normal_force = (self.model.material.modulus * radius * overlap + memory.dashpot).max(0.0);
+            let normal_force = (self.model.material.modulus * radius * share * overlap + memory.dashpot).max(0.0);
             let force = Vec3::from(memory.tangential) - towards.normalize() * normal_force;
-            SurfaceContact { row, role: surface.role, force, place: centre + towards }
+            SurfaceContact { row, role, force, place: centre + towards }
         })
     }
 
@@ -275,7 +275,7 @@ impl Simulation {
     fn renew(&mut self) {
         self.remove_departed();
         let mut bodies =
-            Bodies { grains: &mut self.grains, surfaces: &self.model.surfaces, barrier: self.model.barrier.as_ref() };
+            Bodies { grains: &mut self.grains, fixed: self.model.fixed(), barrier: self.model.barrier.as_ref() };
         self.neighbours.renew(&mut bodies);
     }
 
@@ -366,7 +366,7 @@ impl Simulation {
     fn linked(&self, law: LawConstants) -> Linked<'_> {
         Linked {
             grains: self.grains.rows(),
-            surfaces: &self.model.surfaces,
+            fixed: self.model.fixed(),
             barrier: self.model.barrier.as_ref(),
             blocks: &self.neighbours.blocks,
             law,

@@ -136,7 +136,7 @@ impl<'a> BlockForces<'a> {
         sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
         let surfaces = SurfaceContext {
             grains,
-            surfaces: &model.surfaces,
+            fixed: model.fixed(),
             law,
             modulus: material.modulus,
             grain_friction: material.friction,

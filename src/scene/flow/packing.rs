@@ -129,6 +129,7 @@ fn pack_once(
         shape,
         grains: scatter(bodies, room, seed),
         surfaces: walls(room),
+        terrain: None,
         barrier: None,
         material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
         gravity: Vec3::zeros(),

@@ -7,6 +7,7 @@ pub(crate) mod coarse_steps;
 pub(crate) mod cooling;
 pub(crate) mod energy;
 pub(crate) mod gears;
+pub(crate) mod ground;
 pub(crate) mod oblique;
 pub(crate) mod restitution;
 pub(crate) mod rolling;

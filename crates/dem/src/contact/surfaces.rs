@@ -1,4 +1,4 @@
-//! Contacts of grains with fixed surfaces.
+//! Contacts of grains with what does not move: surfaces and the ground.
 
 use std::ops::Range;
 
@@ -8,18 +8,20 @@ use crate::contact::law::{ContactPoint, LawConstants, Response, Spring, respond}
 use crate::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::Clock;
+use crate::neighbours::memory_rows::MemoryRows;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::simd::quad::Quad;
 use crate::simd::real::{Triple, cross, dot, negative, plus, scaled};
 use crate::simd::widest::{Work, with_widest};
+use crate::tables::fixed::Fixed;
 use crate::tables::grain_rows::GrainRows;
 use crate::tables::grain_table::GrainLoad;
-use crate::tables::surfaces::{Surface, SurfaceRole};
+use crate::tables::surfaces::SurfaceRole;
 
 /// What surface contacts read.
 pub struct SurfaceContext<'a> {
     pub grains: GrainRows<'a>,
-    pub surfaces: &'a [Surface],
+    pub fixed: Fixed<'a>,
     pub law: LawConstants,
     pub modulus: f64,
     pub grain_friction: f64,
@@ -106,7 +108,10 @@ impl Work for LoadSurfaces<'_, '_> {
     #[inline(always)]
     fn run<E: Eight>(mut self) -> ContactSums {
         let context = self.context;
-        self.list.sort_near(&context.clock, &OnSurfaces { grains: context.grains, surfaces: context.surfaces });
+        let begun = self.list.touching.len();
+        let on_fixed = OnFixed { grains: context.grains, fixed: context.fixed };
+        self.list.sort_near(&context.clock, &on_fixed);
+        on_fixed.hand_over(self.list, begun);
         let mut sums = LaneSums::<E>::default();
         let mut last = None;
         while let Some(eight) = self.list.eight_after(last) {
@@ -130,16 +135,14 @@ impl LoadSurfaces<'_, '_> {
         let forces = E::rows(joined(response.force, zero));
         let torques = E::rows(joined(cross(touch.lever, response.force), zero));
         let normal_forces = response.normal_force.lanes();
-        for (lane, [member, surface]) in eight.pairs[..eight.count].iter().enumerate() {
+        for (lane, [member, _]) in eight.pairs[..eight.count].iter().enumerate() {
             let mut load = GrainLoad::default();
             forces[lane].store(&mut load.force);
             torques[lane].store(&mut load.torque);
             self.loads[*member as usize / members - self.start].join(&load);
-            let surface = &self.context.surfaces[*surface as usize];
-            // On an edge the push leans away from the surface's own normal.
-            let square = normal_forces[lane] * touch.facing[lane].dot(&surface.normal).abs();
+            let square = normal_forces[lane] * touch.square[lane];
             let levels = self.context.wall_levels;
-            self.forces.record(surface.role, -load.force.vector(), square, touch.height[lane], levels);
+            self.forces.record(touch.role[lane], -load.force.vector(), square, touch.height[lane], levels);
         }
     }
 }
@@ -152,9 +155,9 @@ struct SurfaceTouch<E> {
     radius: E,
     /// From the grain's centre of mass to the nearest point (m).
     lever: Triple<E>,
-    /// Direction from the centre to the nearest point.
-    facing: [Vec3; LANES],
-    /// Height of the nearest point over the surface's origin, along its first direction (m).
+    role: [SurfaceRole; LANES],
+    /// As [`FixedTouch`](crate::tables::fixed::FixedTouch) has them.
+    square: [f64; LANES],
     height: [f64; LANES],
 }
 
@@ -165,16 +168,15 @@ impl<E: Eight> SurfaceTouch<E> {
         let grains = context.grains;
         let members = grains.shape.members();
         let (mut towards, mut lever, mut height) = ([Quad::default(); LANES], [Quad::default(); LANES], [0.0; LANES]);
-        let mut facing = [Vec3::zeros(); LANES];
-        for (lane, [member, surface]) in eight.pairs.iter().enumerate() {
-            let surface = &context.surfaces[*surface as usize];
+        let (mut role, mut square, mut share) = ([SurfaceRole::Base; LANES], [0.0; LANES], [1.0; LANES]);
+        for (lane, [member, number]) in eight.pairs.iter().enumerate() {
             let (centre, radius) = grains.sphere(*member as usize);
-            let foot = surface.nearest(&centre);
-            towards[lane] = Quad::new(&(foot - centre), radius);
-            let from_grain = foot - grains.place(*member as usize / members).vector();
-            lever[lane] = Quad::new(&from_grain, surface.friction.min(context.grain_friction));
-            facing[lane] = (foot - centre).try_normalize(0.0).unwrap_or(surface.normal);
-            height[lane] = surface.spans[0].direction.dot(&(foot - surface.origin));
+            let touch = context.fixed.touch(*number, &centre, radius);
+            towards[lane] = Quad::new(&touch.towards, radius);
+            let from_grain = touch.towards + centre - grains.place(*member as usize / members).vector();
+            lever[lane] = Quad::new(&from_grain, touch.friction.min(context.grain_friction));
+            (role[lane], square[lane]) = (touch.role, touch.square);
+            (share[lane], height[lane]) = (touch.share, touch.height);
         }
         let row = |lane: usize| eight.pairs[lane][0] as usize / members;
         let (towards, radius) = parted(E::columns(each_lane!(|lane| E::Row::load(&towards[lane]))));
@@ -191,23 +193,75 @@ impl<E: Eight> SurfaceTouch<E> {
             overlap: E::all(eight.count as f64).if_above(numbers, radius - distance, -radius),
             velocity: negative(plus(motion, cross(spin, lever))),
             twist: dot(spin, normal) * 0.5,
-            spring: Spring::new(radius * context.modulus, inverse_mass),
+            spring: match context.fixed.terrain {
+                Some(_) => Spring::new(radius * context.modulus, inverse_mass).part(E::from_lanes(share)),
+                None => Spring::new(radius * context.modulus, inverse_mass),
+            },
             friction,
         };
-        Self { point, radius, lever, facing, height }
+        Self { point, radius, lever, role, square, height }
     }
 }
 
-/// Member spheres and surfaces.
-pub struct OnSurfaces<'a> {
+/// Member spheres and what does not move.
+pub struct OnFixed<'a> {
     pub grains: GrainRows<'a>,
-    pub surfaces: &'a [Surface],
+    pub fixed: Fixed<'a>,
 }
 
-impl Separation for OnSurfaces<'_> {
+impl Separation for OnFixed<'_> {
     #[inline(always)]
-    fn of(&self, [member, surface]: [u32; 2]) -> (f64, f64) {
+    fn of(&self, [member, number]: [u32; 2]) -> (f64, f64) {
         let (centre, radius) = self.grains.sphere(member as usize);
-        (self.surfaces[surface as usize].distance_squared(&centre), radius)
+        self.fixed.separation(number, &centre, radius)
+    }
+}
+
+impl OnFixed<'_> {
+    /// Hands the memory of contacts with facets that end in this step on to those that begin beside them, from the place `begun` of the
+    /// list on: a sphere that rolls over a seam touches one ground all the time.
+    fn hand_over(&self, list: &mut PairList, begun: usize) {
+        if self.fixed.terrain.is_none() {
+            return;
+        }
+        for new in begun..list.touching.len() {
+            let [member, number] = list.touching[new];
+            let before = list.touching[..begun].iter().zip(&list.memory);
+            let ended =
+                before.map(|(pair, memory)| (*pair, *memory)).enumerate().find(|(_, ([other, beside], memory))| {
+                    *other == member && *memory != Quad::default() && self.follows(member, number, *beside)
+                });
+            if let Some((old, (_, memory))) = ended {
+                list.memory[new] = memory;
+                list.memory[old] = Quad::default();
+            }
+        }
+    }
+
+    /// Whether a contact of a member with a facet goes on from one with another facet, that it no longer touches.
+    fn follows(&self, member: u32, number: u32, before: u32) -> bool {
+        let Some(((terrain, facet), (_, other))) = self.fixed.facet(number).zip(self.fixed.facet(before)) else {
+            return false;
+        };
+        let (centre, radius) = self.grains.sphere(member as usize);
+        terrain.meet(facet, other) && terrain.touch(other, &centre, radius).is_none()
+    }
+
+    /// The same for lists that were just made anew: `memories` holds all contacts of before.
+    pub fn hand_over_renewed(&self, list: &mut PairList, memories: &MemoryRows) {
+        if self.fixed.terrain.is_none() {
+            return;
+        }
+        for place in 0..list.touching.len() {
+            let [member, number] = list.touching[place];
+            if list.memory[place] == Quad::default()
+                && let Some(memory) = memories.of_member(member).find_map(|(before, memory)| {
+                    let ended = list.touching.binary_search(&[member, before]).is_err();
+                    (ended && self.follows(member, number, before)).then_some(memory)
+                })
+            {
+                list.memory[place] = memory.quad();
+            }
+        }
     }
 }

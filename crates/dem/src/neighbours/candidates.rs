@@ -3,12 +3,12 @@
 use crate::contact::grain_pairs::Members;
 use crate::contact::pair_list::{PairList, Separation};
 use crate::contact::ropes::OnRopes;
-use crate::contact::surfaces::OnSurfaces;
+use crate::contact::surfaces::OnFixed;
 use crate::neighbours::blocks::Block;
 use crate::neighbours::broad_phase::{Box3, BoxTree};
 use crate::tables::barrier::Barrier;
+use crate::tables::fixed::Fixed;
 use crate::tables::grain_rows::GrainRows;
-use crate::tables::surfaces::Surface;
 
 /// Box around all members of the grain in `row`, grown by `margin` (m).
 pub fn grain_box(grains: GrainRows, row: usize, margin: f64) -> Box3 {
@@ -80,16 +80,17 @@ pub fn find_rope_pairs(
     });
 }
 
-/// Files every pair of the block's members and a surface nearer than `skin`.
-pub fn find_surface_pairs(block: &mut Block, grains: GrainRows, surfaces: &[Surface], skin: f64) {
+/// Files every pair of the block's members and what does not move nearer than `skin`.
+pub fn find_fixed_pairs(block: &mut Block, grains: GrainRows, fixed: Fixed, skin: f64) {
     let per_grain = grains.shape.members();
     for index in block.grains.start * per_grain..block.grains.end * per_grain {
-        for number in 0..surfaces.len() {
-            let pair = [index as u32, number as u32];
-            let gap = OnSurfaces { grains, surfaces }.gap(pair);
+        let (centre, radius) = grains.sphere(index);
+        fixed.near(&centre, radius + skin, |number| {
+            let pair = [index as u32, number];
+            let gap = OnFixed { grains, fixed }.gap(pair);
             if gap < skin {
                 block.surfaces.add(pair, gap);
             }
-        }
+        });
     }
 }

@@ -38,10 +38,15 @@ impl MemoryRows {
         Self { starts, rows }
     }
 
+    /// All contacts of a member: the other party and the memory.
+    pub fn of_member(&self, member: u32) -> impl Iterator<Item = (u32, Memory)> {
+        let range = self.starts[member as usize] as usize..self.starts[member as usize + 1] as usize;
+        self.rows[range].iter().copied()
+    }
+
     /// Memory of the contact between `member` and `other`; empty where they did not touch.
     pub fn recall(&self, [member, other]: [u32; 2]) -> Memory {
-        let range = self.starts[member as usize] as usize..self.starts[member as usize + 1] as usize;
-        self.rows[range].iter().find(|(party, _)| *party == other).map_or_else(Memory::default, |(_, memory)| *memory)
+        self.of_member(member).find(|(party, _)| *party == other).map_or_else(Memory::default, |(_, memory)| memory)
     }
 }
 

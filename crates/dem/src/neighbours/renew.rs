@@ -4,10 +4,11 @@ use std::sync::RwLock;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::contact::surfaces::OnFixed;
 use crate::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
 use crate::neighbours::broad_phase::{Box3, BoxTree};
 use crate::neighbours::candidates::{
-    find_border_pairs, find_inner_pairs, find_rope_pairs, find_surface_pairs, grain_box, line_boxes,
+    find_border_pairs, find_fixed_pairs, find_inner_pairs, find_rope_pairs, grain_box, line_boxes,
 };
 use crate::neighbours::clocks::Clocks;
 use crate::neighbours::drift::{Drift, strayed};
@@ -15,9 +16,9 @@ use crate::neighbours::kept::Kept;
 use crate::neighbours::memory_rows::MemoryRows;
 use crate::neighbours::order::morton_code;
 use crate::tables::barrier::Barrier;
+use crate::tables::fixed::Fixed;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::moving_rows::Drifting;
-use crate::tables::surfaces::Surface;
 use crate::time::integrate::Pace;
 use crate::workers;
 use crate::{Vec3, larger_or_nan};
@@ -67,7 +68,7 @@ pub struct Neighbours {
 /// What a renewal reads; the grains may be reordered.
 pub struct Bodies<'a> {
     pub grains: &'a mut GrainTable,
-    pub surfaces: &'a [Surface],
+    pub fixed: Fixed<'a>,
     pub barrier: Option<&'a Barrier>,
 }
 
@@ -277,7 +278,7 @@ impl Neighbours {
             let boxes: Vec<Box3> = block.grains.clone().map(|row| grain_box(grains, row, 0.5 * skin)).collect();
             tree.fit(&boxes);
             find_inner_pairs(tree, grains, skin, block);
-            find_surface_pairs(block, grains, bodies.surfaces, fixed_skin);
+            find_fixed_pairs(block, grains, bodies.fixed, fixed_skin);
         });
         let barrier = bodies.barrier.filter(|barrier| !barrier.lines.is_empty());
         // The boxes of the grains do not reach as far as these lists, so those of the lines do.
@@ -294,6 +295,7 @@ impl Neighbours {
             block.inner.settle(&memories.grains);
             block.border.settle(&memories.grains);
             block.surfaces.settle(&memories.surfaces);
+            OnFixed { grains, fixed: bodies.fixed }.hand_over_renewed(&mut block.surfaces, &memories.surfaces);
             block.ropes.list.settle(&memories.ropes);
         });
     }

@@ -1,6 +1,7 @@
 //! The tables of bodies that a model consists of.
 
 pub mod barrier;
+pub mod fixed;
 pub mod grain_rows;
 pub(crate) mod grain_table;
 pub mod grains;
@@ -9,3 +10,4 @@ pub(crate) mod moving_rows;
 pub mod nodes;
 pub mod prefetch;
 pub mod surfaces;
+pub mod terrain;

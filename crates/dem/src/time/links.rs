@@ -10,8 +10,8 @@ use crate::elements::ring::{RingContext, RingSide};
 use crate::neighbours::blocks::Block;
 use crate::neighbours::clocks::Clock;
 use crate::tables::barrier::Barrier;
+use crate::tables::fixed::Fixed;
 use crate::tables::grain_rows::GrainRows;
-use crate::tables::surfaces::Surface;
 use crate::workers;
 
 /// Velocity and spin of a body, or force and torque on it.
@@ -108,7 +108,7 @@ impl Link {
 /// What there is to be linked.
 pub struct Linked<'a> {
     pub grains: GrainRows<'a>,
-    pub surfaces: &'a [Surface],
+    pub fixed: Fixed<'a>,
     pub barrier: Option<&'a Barrier>,
     pub blocks: &'a [Block],
     pub law: LawConstants,
@@ -189,12 +189,12 @@ impl Linked<'_> {
     fn add_surfaces(&self, block: &Block, links: &mut Vec<Link>) {
         for &[index, surface] in &block.surfaces.touching {
             let member = self.grains.member(index as usize);
-            let foot = self.surfaces[surface as usize].nearest(&member.centre);
-            let towards = foot - member.centre;
+            let touch = self.fixed.touch(surface, &member.centre, member.radius);
+            let (towards, foot) = (touch.towards, member.centre + touch.towards);
             let distance = towards.norm();
             if distance < member.radius && distance > 0.0 {
                 let link = Link::between([self.grain_end(index, &foot, 1.0)]);
-                let spring = Spring::new(self.modulus * member.radius, member.inverse_mass);
+                let spring = Spring::new(self.modulus * member.radius, member.inverse_mass).part(touch.share);
                 links.push(self.contact(link, towards / distance, &spring));
             }
         }
