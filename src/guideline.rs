@@ -142,11 +142,17 @@ pub fn input(design: &Design) -> GuidelineInput {
         fill_height: barrier_height,
         barrier_height,
     };
+    filled(design, empty)
+}
+
+/// The same flow with the height to which it fills the barrier: that of one event follows from its velocity and depth, because it heaps up no
+/// higher than it runs up.
+pub fn filled(design: &Design, flow: GuidelineInput) -> GuidelineInput {
     if design.loads.to_the_top || design.loads.overflow_depth.is_some() {
-        return empty;
+        return flow;
     }
-    let event = event_fill(design, &empty);
-    GuidelineInput { fill_height: barrier_height.min(event.height().max(depth)), ..empty }
+    let event = event_fill(design, &flow);
+    GuidelineInput { fill_height: flow.barrier_height.min(event.height().max(flow.depth)), ..flow }
 }
 
 /// How high one event may fill behind the barrier, normal to the bed (m).
@@ -224,7 +230,7 @@ pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Optio
     let held = guideline.retention?;
     let (slope, friction) = (design.channel.slope, design.channel.base_friction);
     let pulls = held.volume / guideline.width * (libm::tan(slope) - friction).max(0.0);
-    Some(2.0 * pulls / guideline.input.barrier_height.powi(2))
+    Some(2.0 * pulls / held.deposit.height.powi(2))
 }
 
 /// The wall of the design, if it stands by its weight.

@@ -259,6 +259,7 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
     let arrives = |seen: &Observed| larger_or_nan(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
     FirstSurge {
         push: push.mean,
+        one_run: if push.starts > 1 { 0.0 } else { one_run - 1.0 },
         hardest_push: if push.starts > 1 { push.upper() } else { one_run * push.mean },
         moment: simulated.spread(|seen| seen.one(&wall::MOMENT)).mean,
         sampled_over_smoothed: short_peaks(|seen| [seen.one(&total_force::PEAK_SAMPLED), seen.one(&total_force::PEAK)]),

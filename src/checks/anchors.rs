@@ -15,15 +15,30 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let loads = demands.each(&anchor_load::PEAK).iter().enumerate().skip(net.ropes_held_by_bed());
     let by_load = loads.map(|(index, demand)| {
         let name = CheckName::of(&anchor_load::PEAK, index, format!("anchor_{}_load", index + 1), ANCHOR_FACTOR);
-        let outcome = Outcome::at_most(name, *demand, capacity, design.limits.anchor_utilisation).of_rope(index);
+        let demand = match net.dissipators {
+            Some(_) => *demand,
+            None => with_lateral(*demand, demands),
+        };
+        let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation).of_rope(index);
         match net.lateral_to {
-            LateralTo::RopeEnds => outcome,
+            LateralTo::RopeEnds if net.dissipators.is_some() => outcome,
+            LateralTo::RopeEnds => outcome.only_by_simulation(
+                "without dissipators the lateral ropes pull at the anchors, and the equations do not know their load",
+            ),
             LateralTo::Anchors => outcome.only_by_simulation(
                 "the lateral ropes are tied to the anchors, and the equations do not know their load",
             ),
         }
     });
     by_load.chain(against_plateau(net, design, demands, capacity)).collect()
+}
+
+/// Without dissipators a lateral rope pulls at the anchor wherever it is tied: what the equations have for the main rope and what the simulation
+/// has for the lateral one, in the worst case in the same direction.
+fn with_lateral(demand: Demand, demands: &Demands) -> Demand {
+    let lateral = demands.one(&other_ropes::LATERAL).simulation;
+    let both = demand.guideline.zip(lateral).map(|(main, lateral)| main + lateral);
+    Demand { guideline: both.or(demand.guideline), ..demand }
 }
 
 /// Factor on its plateau with which a dissipator may pull, assumed; a load factor that is as large covers it.

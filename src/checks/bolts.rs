@@ -2,16 +2,17 @@
 //!
 //! The load is not even along the rope: of the simulated examples the worst bolt takes two to three times the mean, and part of it
 //! lifts. So the equations, which spread the load evenly, can fail the bolts but never pass them. Between its bolts the rope sags: with the
-//! load P of the worst bolt on each space, a rope that lay straight is pulled along its span with H = (P² EA/24)^⅓; at its bolts its tension
-//! is T = √(H² + (P/2)²), which the bolts at its ends hold. The bolts are taken as unyielding, the load between them as even.
+//! load P of the worst bolt on each space, a rope that lay straight is pulled along its span with H = (c P² EA/24)^⅓, where c tells how the
+//! load is concentrated at the rings in a space ([`concentration`]); at its bolts its tension is T = √(H² + (P/2)²), which the bolts at its ends
+//! hold, and the pull of the lateral ropes that end there as well. The bolts are taken as unyielding.
 
-use crate::checks::between_bolts::{end_bolt, tension_between};
+use crate::checks::between_bolts::{concentration, end_bolt, tension_between};
 use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance};
 use crate::checks::ropes::{leave_open_what_is_not_known, resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Bottom, Design};
-use crate::quantities::bed;
 use crate::quantities::quantity::Unit;
+use crate::quantities::{bed, other_ropes};
 use crate::sources::{ANCHOR_FACTOR, NO_LIMIT, ROPE_FACTOR};
 
 /// Ring spacings between two bolts up to which the lowest rope counts as held along its length.
@@ -31,8 +32,16 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     };
     let width = design.channel.width;
     let spacing = width / bolts.spaces(width) as f64;
-    let axial = net.main_ropes.rope.axial_stiffness();
+    let axial = net.main_ropes.rope.axial_stiffness() * concentration(spacing / net.main_ropes.ring_spacing);
+    let lateral = demands.one(&other_ropes::LATERAL).simulation.unwrap_or(0.0);
     let at_an_end = each(demands.one(&bed::BOLT), |load| end_bolt(load, axial));
+    // The lateral ropes end at the ends of the lowest rope: in the worst case their pull has its direction.
+    let with_lateral = |load: Option<f64>| load.map(|load| load + lateral);
+    let at_an_end = Demand {
+        simulation: with_lateral(at_an_end.simulation),
+        characteristic: with_lateral(at_an_end.characteristic),
+        ..at_an_end
+    };
     let between = each(demands.one(&bed::BOLT), |load| tension_between(load, axial));
     let bolt = Resistance { characteristic, factor: design.factors.anchor };
     let rope = resistance(design, &net.main_ropes.rope);
@@ -48,7 +57,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let mut outcome =
                 outcome.only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
             outcome.kind = kind;
-            outcome.growth = Growth::EndBolt { axial };
+            outcome.growth = Growth::EndBolt { axial, lateral };
             if kind == Kind::BetweenBolts {
                 leave_open_what_is_not_known(design, &net.main_ropes.rope, &mut outcome);
                 outcome.growth = Growth::BetweenBolts { axial };
@@ -80,7 +89,7 @@ mod tests {
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
-    use crate::quantities::bed;
+    use crate::quantities::{bed, other_ropes};
     use approx::assert_relative_eq;
 
     /// By hand: 40 kN on a space, EA of 12.57 MN: H³ = 1.6e9 · 12.57e6/24 = 8.38e14, H = 94.3 kN, sag over span 40/(8 · 94.3) = 5.3 %,

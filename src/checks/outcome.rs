@@ -65,8 +65,8 @@ pub enum Growth {
     InProportion { fixed: f64 },
     /// As the tension of a rope of this axial stiffness (N) between bolts that the load pulls on.
     BetweenBolts { axial: f64 },
-    /// As the load of the bolt at the end of such a rope.
-    EndBolt { axial: f64 },
+    /// As the load of the bolt at the end of such a rope; in the simulation a lateral rope that grows in proportion pulls there too (N).
+    EndBolt { axial: f64, lateral: f64 },
     /// As the pressure under a wall that stands by its weight.
     UnderAWall(UnderAWall),
 }
@@ -289,7 +289,10 @@ impl Outcome {
         match self.growth {
             Growth::InProportion { fixed } => Some(fixed + (demand - fixed) * more),
             Growth::BetweenBolts { axial } => Some(tension_under_more(demand, more, axial)),
-            Growth::EndBolt { axial } => Some(end_bolt_under_more(demand, more, axial)),
+            Growth::EndBolt { axial, lateral } => {
+                let lateral = if route == Route::Simulation { lateral } else { 0.0 };
+                Some(end_bolt_under_more(demand - lateral, more, axial) + lateral * more)
+            }
             Growth::UnderAWall(wall) => wall.pressure(route, more),
         }
     }

@@ -56,12 +56,15 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
             "nine tenths of the simulated grains are larger than the mesh and cannot pass it, and whether the real flow has finer ones is not said (give the whole curve, with simulation.coarsen: auto where it has too many grains)".into(),
         ));
     }
-    // On a bed that holds the flow by friction it stops where it likes: what is wetter than the simulated one goes on to the barrier.
-    let bed_holds = design.channel.base_friction > libm::tan(design.channel.slope);
+    // In a channel that holds the flow by friction it stops where it likes: what is wetter than the simulated one goes on to the barrier. On
+    // side walls a deposit as high as the barrier presses with no more than its own weight.
+    let channel = &design.channel;
+    let sides = channel.side_friction * height_over_bed(design) / channel.width;
+    let bed_holds = channel.base_friction + sides > libm::tan(channel.slope);
     let behind = held_below(design, design.loads.deposit_slope * design.channel.slope).map_or(0.0, |held| held.volume);
     if bed_holds && behind < design.limits.retained_mass * flow.volume() {
         return Some(Opening::NotGiven(format!(
-            "the bed is flatter than its friction angle and holds the simulated flow itself, spread out upstream, while the barrier stores {behind:.0} m³ of its {:.0} m³: a wetter flow of that volume would go over it (give the friction of the wettest flow, or a higher barrier)",
+            "friction on bed and side walls may hold the simulated flow by itself, spread out upstream, while the barrier stores {behind:.0} m³ of its {:.0} m³: a wetter flow of that volume would go over it (give the friction of the wettest flow, or a higher barrier)",
             flow.volume()
         )));
     }
@@ -184,6 +187,7 @@ mod tests {
                     let crate::design::Arrival::Surge(surge) = &mut design.flow.arrival else { panic!("a surge") };
                     // A net that sinks in far holds little to a level surface.
                     (surge.velocity, design.loads.filled_height) = (velocity, if velocity < 1.0 { 0.4 } else { 1.0 });
+                    design.channel.side_friction = 0.0;
                     design.flow.mass *= 0.1;
                     design.flow.event_volume = volume(design);
                 },
@@ -211,6 +215,7 @@ mod tests {
             verdict(
                 |design| {
                     (design.channel.slope, design.channel.base_friction) = (0.0, 0.0);
+                    design.channel.side_friction = 0.0;
                     design.flow.event_volume = more * design.flow.volume();
                 },
                 1.0,
@@ -222,8 +227,9 @@ mod tests {
     /// On a bed of 20° with a friction of 22° the grains stop where they like: the barrier must store what it retains, 90 % of the flow.
     #[test]
     fn what_the_bed_holds_itself_is_no_test_of_what_the_barrier_stores() {
-        let on = |friction: f64, share: f64| {
+        let on = |friction: f64, sides: f64, share: f64| {
             let change = |design: &mut Design| {
+                design.channel.side_friction = sides;
                 (design.channel.slope, design.channel.base_friction) =
                     (20_f64.to_radians(), libm::tan(friction.to_radians()));
                 let surface = design.loads.deposit_slope * design.channel.slope;
@@ -234,8 +240,10 @@ mod tests {
             verdict(change, 1.0)
         };
         assert_eq!(
-            (on(22.0, 0.99), on(22.0, 1.01), on(18.0, 1.01)),
+            (on(22.0, 0.0, 0.99), on(22.0, 0.0, 1.01), on(18.0, 0.0, 1.01)),
             (CheckVerdict::Pass, CheckVerdict::Open, CheckVerdict::Pass)
         );
+        // tan 20° less tan 18°, 0.0391, is what the side walls hold with tan φ = 0.0695 on 1.69 m of 3 m.
+        assert_eq!((on(18.0, 0.06, 1.01), on(18.0, 0.08, 1.01)), (CheckVerdict::Pass, CheckVerdict::Open));
     }
 }

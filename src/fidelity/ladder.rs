@@ -147,6 +147,8 @@ fn coarsen(design: &mut Design) {
 const LEAST_STARTS: usize = 3;
 
 /// The rung that a run of this many packings is like, whose fineness the design pins.
+const SMALL_CUT: f64 = 0.25;
+
 pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     let fine = design.simulation.fidelity == FidelityWish::Fine
         && match &design.barrier {
@@ -159,7 +161,9 @@ pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     // Pinned rings load ropes unevenly, long steps are coarse too: neither is better known than coarse grains.
     let pinned = design.simulation.barrier_model == BarrierModel::PinnedRopes
         && matches!(design.barrier, BarrierDesign::FlexibleNet(_));
-    if pinned || design.simulation.fidelity == FidelityWish::Fast {
+    // So are grains that were made coarser than given, for more than a small part of the flow.
+    let coarsened = design.flow.cut.as_ref().is_some_and(|cut| cut.share > SMALL_CUT);
+    if pinned || coarsened || design.simulation.fidelity == FidelityWish::Fast {
         return RUNGS.iter().find(|rung| rung.kind == RungKind::CoarseGrains).unwrap_or(&RUNGS[0]);
     }
     let like = |rung: &&Rung| rung.starts > 1 && starts >= LEAST_STARTS && (fine || rung.kind != RungKind::Fine);

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::checks::between_bolts::tension_between;
+use crate::checks::between_bolts::{concentration, tension_between};
 use crate::checks::detailing;
 use crate::design::BarrierDesign;
 use crate::guideline::{RopeLoad, event_fill, wall_of};
@@ -190,13 +190,16 @@ pub fn bolted_rope(run: &Run) -> String {
     let (BarrierDesign::FlexibleNet(net), Some(load)) = (&run.file.design.barrier, run.guideline.bolt_force) else {
         return String::new();
     };
-    let axial = net.main_ropes.rope.axial_stiffness();
+    let spaces = net.bed_bolts.map_or(1, |bolts| bolts.spaces(run.guideline.width));
+    let spacing = run.guideline.width / spaces as f64;
+    let more = concentration(spacing / net.main_ropes.ring_spacing);
+    let axial = net.main_ropes.rope.axial_stiffness() * more;
     let along = libm::cbrt(load * load * axial / 24.0);
     format!(
-        "Rope 1, bolted to the bed: P = {:.2} kN on the space between two bolts, its strip spread evenly; along the rope H = (P² EA/24)^⅓ = ({:.2}² · {:.0}/24)^⅓ = {:.1} kN; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst bolt, and H and T follow likewise.",
+        "Rope 1, bolted to the bed: P = {:.2} kN on the space between two bolts, its strip spread evenly; along the rope H = (c P² EA/24)^⅓ = ({more:.2} · {:.2}² · {:.0}/24)^⅓ = {:.1} kN, c = 1 + 2/m² for a load that comes in at the m rings of a space; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst bolt, H and T follow likewise, and the pull of the lateral rope is added to the bolt at the end.",
         load / 1e3,
         load / 1e3,
-        axial / 1e3,
+        axial / more / 1e3,
         along / 1e3,
         tension_between(load, axial) / 1e3
     )

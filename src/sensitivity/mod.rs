@@ -8,7 +8,7 @@ use crate::checks::check_all;
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{guideline_for, input};
+use crate::guideline::{filled, guideline_for, input};
 use crate::loads::input::GuidelineInput;
 
 /// What one set of inputs comes to, by the equations or by a simulation.
@@ -80,7 +80,11 @@ fn scale_plateau(design: &mut Design, factor: f64) {
 /// What the equations say with one input changed.
 fn changed(design: &Design, (_, _, change): Change, factor: f64) -> Point {
     let (mut design, mut flow) = (design.clone(), input(design));
+    let before = flow.fill_height;
     change(&mut design, &mut flow, factor);
+    if flow.fill_height == before {
+        flow = filled(&design, flow);
+    }
     flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
     let guideline = guideline_for(&design, flow);
     let outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));

@@ -4,6 +4,7 @@ use super::known::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Opening, Outcome};
 use crate::demand::Demands;
+use crate::design::BarrierDesign;
 use crate::guideline::guideline_for;
 use crate::loads::cases::overtopped::DEFAULT_FRICTION;
 
@@ -31,7 +32,12 @@ fn leave_open_what_a_usual_drag_fails(Known { design, guideline, .. }: Known, ou
         return;
     }
     let mut dragged = design.clone();
-    dragged.loads.overflow_drag = Some((DEFAULT_FRICTION, guideline.input.depth));
+    // It rides on the whole thickness of a wall.
+    let thickness = match &design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.stability.map_or(0.0, |stability| stability.thickness),
+        BarrierDesign::FlexibleNet(_) => 0.0,
+    };
+    dragged.loads.overflow_drag = Some((DEFAULT_FRICTION, guideline.input.depth.max(thickness)));
     let with_drag = guideline_for(&dragged, guideline.input);
     let then = check_all(design, &Demands::by_equations(&with_drag, &design.factors));
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {

@@ -74,9 +74,9 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         // Asked so that what is not a number stays so.
         (if full > cap { cap } else { full }) / capacity
     };
-    // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them.
+    // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them, whichever run it is.
     let band = match outcome.unit {
-        _ if known => 0.0,
+        _ if known => seen.one_run,
         Unit::Metre => seen.stroke_band,
         _ => seen.force_band,
     };

@@ -8,7 +8,7 @@ use crate::checks::outcome::{Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::Design;
-use crate::guideline::{Guideline, earth_pressure_by_weight, guideline_for, velocity_on_its_way};
+use crate::guideline::{Guideline, earth_pressure_by_weight, filled, guideline_for, velocity_on_its_way};
 use crate::larger::larger_or_nan;
 use crate::loads::input::GuidelineInput;
 
@@ -30,7 +30,7 @@ fn without_a_simulation(design: &Design, guideline: &Guideline) -> Vec<Guideline
     let earth_pressure = larger_or_nan(by_weight.unwrap_or(0.0), given.earth_pressure);
     let way = velocity_on_its_way(design);
     let velocity = if way > MUCH_FASTER * given.velocity { way } else { given.velocity };
-    let harder = GuidelineInput { earth_pressure, velocity, ..given };
+    let harder = filled(design, GuidelineInput { earth_pressure, velocity, ..given });
     if harder == given { Vec::new() } else { vec![harder] }
 }
 
@@ -41,16 +41,20 @@ const MUCH_FASTER: f64 = 2.5;
 fn inputs(design: &Design, guideline: &Guideline, seen: &FirstSurge) -> Vec<GuidelineInput> {
     let given = guideline.input;
     let earth_pressure = larger_or_nan(seen.earth_pressure.unwrap_or(0.0), given.earth_pressure);
-    let as_seen = GuidelineInput {
-        velocity: larger_or_nan(seen.velocity, given.velocity),
-        depth: larger_or_nan(seen.depth, given.depth),
-        earth_pressure,
-        ..given
-    };
+    let as_seen = filled(design, GuidelineInput { earth_pressure, ..arriving(given, seen) });
     let dynamic_pressure =
         larger_or_nan(lambda_that_pushes(design, guideline, seen.hardest_push), given.dynamic_pressure);
     let as_hard = GuidelineInput { earth_pressure, dynamic_pressure, ..given };
     [as_seen, as_hard].into_iter().filter(|harder| *harder != given).collect()
+}
+
+/// The flow as fast and as deep as it is seen, where that is more than given.
+pub fn arriving(given: GuidelineInput, seen: &FirstSurge) -> GuidelineInput {
+    GuidelineInput {
+        velocity: larger_or_nan(seen.velocity, given.velocity),
+        depth: larger_or_nan(seen.depth, given.depth),
+        ..given
+    }
 }
 
 /// The λ with which the equations' first surge pushes with a force (N): that force is linear in λ.

@@ -23,6 +23,8 @@ pub struct FirstSurge {
     pub flux_share: f64,
     /// K that the deposit shows at rest, where there is one.
     pub earth_pressure: Option<f64>,
+    /// By how much the next run may push harder than a single one (over it, less one); 0 of several, whose scatter is in the demands.
+    pub one_run: f64,
     /// By how much a finer model, or other packings, may show larger forces and strokes (over these, less one) and smaller shares.
     pub force_band: f64,
     pub stroke_band: f64,

@@ -4,6 +4,7 @@
 pub(crate) mod drag;
 pub(crate) mod full_barrier;
 pub(crate) mod harder_flow;
+pub(crate) mod heaped;
 pub(crate) mod known;
 pub(crate) mod load_factor;
 pub(crate) mod not_simulated;
@@ -20,6 +21,7 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
     full_barrier::leave_open,
     harder_flow::leave_open,
     thinner_flow::leave_open,
+    heaped::leave_open,
     short_peaks::leave_open,
     rigid_wall::leave_open,
     load_factor::leave_open,
