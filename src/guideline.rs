@@ -239,7 +239,8 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
     let stability = wall.stability?;
     let (base_slope, bed_slope) = (stability.base_slope.unwrap_or(0.0), design.channel.slope);
     Some(WallInput {
-        height: wall.height * libm::cos(wall.lean - bed_slope + base_slope),
+        height: wall.height * libm::cos(wall.lean - bed_slope + base_slope)
+            + stability.founding_depth * libm::cos(base_slope),
         thickness: stability.thickness,
         base_width: stability.base_width,
         density: stability.density,
@@ -434,7 +435,8 @@ mod tests {
         design.channel.base_friction = libm::tan(20_f64.to_radians());
         let guideline = guideline(&design);
         let held = guideline.retention.expect("a deposit").volume / guideline.width;
-        let by_hand = 2.0 * held * (1.0 - 0.363_970) / guideline.input.barrier_height.powi(2);
+        // Of the height that the filled net keeps.
+        let by_hand = 2.0 * held * (1.0 - 0.363_970) / (0.75 * guideline.input.barrier_height).powi(2);
         let found = earth_pressure_by_weight(&design, &guideline).expect("K");
         assert!((found / by_hand - 1.0).abs() < 1e-5, "{found} {by_hand}");
         design.channel.base_friction = 2.0;

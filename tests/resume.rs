@@ -171,6 +171,41 @@ fn a_run_that_is_asked_to_end_can_be_resumed() {
     assert_eq!(whole, numbers(&out));
 }
 
+/// A run that is begun anew over one that was kept, and is stopped at once, leaves that one.
+#[test]
+fn a_short_run_does_not_take_the_place_of_the_one_that_was_kept() {
+    let out = folder("before");
+    let path = out.display().to_string();
+    let mut child = start(&out, &[]);
+    assert!(wait_until_kept(&mut child, &out));
+    let _ = child.kill();
+    let _ = child.wait();
+    let kept = || {
+        let entries = std::fs::read_dir(out.join("checkpoint")).expect("a folder").flatten();
+        let mut files: Vec<(String, Vec<u8>)> = entries
+            .map(|entry| {
+                (entry.file_name().to_string_lossy().into_owned(), std::fs::read(entry.path()).expect("a file"))
+            })
+            .collect();
+        files.sort();
+        files
+    };
+    let before = kept();
+    let child = program()
+        .args([DESIGN, "--out", &path, "--keep-every", "60"])
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    signal(&child, "-TERM");
+    let output = child.wait_with_output().expect("an end");
+    // A machine that finishes the run within that time has nothing to keep.
+    if output.status.code() == Some(2) && error(&output).contains("too short") {
+        assert_eq!(kept(), before);
+    }
+}
+
 /// A folder with the report of one design, in which a run of another is interrupted and resumed, holds the report of the other.
 #[test]
 fn what_is_resumed_takes_its_place_under_its_own_name() {

@@ -57,6 +57,10 @@ pub struct CheckpointStore {
     keep_done: bool,
     /// Whether what is there is of an earlier run, which goes when first something of this one is kept.
     fresh: bool,
+    /// Whether such a run was kept there when this one began, and when that was: until this one has gone on for the time between two times
+    /// that it is kept, the other is worth more.
+    of_before: bool,
+    began: Instant,
     /// Tells whether another run has taken the folder of the report.
     watch: Option<Watch>,
     /// Whether the request is there; starts that run side by side write it once.
@@ -76,7 +80,10 @@ impl CheckpointStore {
     pub fn new(folder: PathBuf, request: Request, every: Duration, keep_done: bool, fresh: bool) -> Self {
         let no = || AtomicBool::new(false);
         let (ordered, asked) = (Mutex::new(false), Mutex::default());
+        let of_before = fresh && Self::request_in(&folder).is_ok();
         Self {
+            of_before,
+            began: Instant::now(),
             folder,
             request,
             every,
@@ -114,6 +121,15 @@ impl CheckpointStore {
     pub fn can_be_resumed(&self) -> bool {
         let kept = self.kept.load(Ordering::Relaxed) || !self.fresh;
         kept && !self.another_has_come() && Self::request_in(&self.folder).is_ok()
+    }
+
+    /// Whether a run that was kept before is still there, because this one ended before it was worth more.
+    pub fn still_holds_the_one_before(&self) -> bool {
+        self.of_before && !self.kept.load(Ordering::Relaxed) && Self::request_in(&self.folder).is_ok()
+    }
+
+    fn is_too_young(&self) -> bool {
+        self.of_before && !self.kept.load(Ordering::Relaxed) && self.began.elapsed() < self.every
     }
 
     pub fn folder(&self) -> &Path {
@@ -221,7 +237,7 @@ impl Slot<'_> {
     /// Keeps what goes on, if it is time to or if it is the `last` time.
     pub fn keep<T: Serialize>(&self, content: &T, last: bool) {
         let due = self.last.lock().is_ok_and(|mut kept| {
-            let due = last || kept.elapsed() >= self.store.every;
+            let due = last && !self.store.is_too_young() || kept.elapsed() >= self.store.every;
             if due {
                 *kept = Instant::now();
             }
@@ -234,7 +250,7 @@ impl Slot<'_> {
 
     /// Keeps what is done, where that is worth it.
     pub fn finish<T: Serialize>(&self, content: &T) {
-        if self.store.keep_done {
+        if self.store.keep_done && !self.store.is_too_young() {
             self.store.put(&self.name, self.print, content);
         }
     }

@@ -89,7 +89,7 @@ mod tests {
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
-    use crate::quantities::{bed, other_ropes};
+    use crate::quantities::bed;
     use approx::assert_relative_eq;
 
     /// By hand: 40 kN on a space, EA of 12.57 MN: H³ = 1.6e9 · 12.57e6/24 = 8.38e14, H = 94.3 kN, sag over span 40/(8 · 94.3) = 5.3 %,

@@ -55,6 +55,7 @@ mod tests {
             density: 2400.0,
             base_width,
             base_slope: Some(0.0),
+            founding_depth: 0.0,
             base_friction: 0.7,
             sliding_factor: 1.1,
             overturning_factor: 1.5,

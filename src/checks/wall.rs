@@ -14,6 +14,16 @@ use crate::sources::WALL_BALANCE;
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let (Some(wall), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
     let (force, moment) = (demands.one(&quantity::SLIDING), demands.one(&quantity::OVERTURNING));
+    // Moments are told about the foot of the face; the base lies deeper.
+    let deeper = stability.founding_depth * libm::cos(wall.base_slope);
+    let lowered =
+        |moment: Option<f64>, force: Option<f64>| moment.zip(force).map(|(moment, force)| moment + force * deeper);
+    let moment = Demand {
+        guideline: lowered(moment.guideline, force.guideline.map(|load| load * wall.along_share())),
+        simulation: lowered(moment.simulation, force.simulation),
+        characteristic: lowered(moment.characteristic, force.characteristic),
+        ..moment
+    };
     let base = Base {
         wall,
         stability,
@@ -237,6 +247,7 @@ mod tests {
             density: 2400.0,
             base_width: 2.0,
             base_slope: Some(0.0),
+            founding_depth: 0.0,
             base_friction: 0.7,
             sliding_factor: 1.1,
             overturning_factor: 1.5,

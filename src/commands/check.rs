@@ -66,7 +66,7 @@ pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Dura
             return ExitCode::Undecided;
         }
         terminal::warn(format_args!(
-            "note: an interrupted run is kept in {}; this one begins anew and takes its place (`barrier-check resume {}` would have gone on with it)",
+            "note: an interrupted run is kept in {}; this one begins anew and takes its place once it has been kept itself (`barrier-check resume {}` would go on with the one kept)",
             store.folder().display(),
             as_typed(&place)
         ));
@@ -153,7 +153,12 @@ fn run_kept(file: DesignFile, mut folder: Folder, options: Options, store: &Chec
         }
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
-            if store.can_be_resumed() {
+            if store.still_holds_the_one_before() {
+                terminal::warn(format_args!(
+                    "note: this run was too short to take the place of the one that was kept before: `barrier-check resume {}` goes on with that one",
+                    as_typed(folder.path())
+                ));
+            } else if store.can_be_resumed() {
                 terminal::warn(format_args!(
                     "note: `barrier-check resume {}` goes on where the run was kept last",
                     as_typed(folder.path())

@@ -173,6 +173,8 @@ pub struct Stability {
     pub base_width: f64,
     /// Of the base against the horizontal (rad), where it is told.
     pub base_slope: Option<f64>,
+    /// Of the base below the bed at the face (m).
+    pub founding_depth: f64,
     /// tan φ between base and ground.
     pub base_friction: f64,
     /// Partial factors on the resistance to sliding and on the moment that holds the wall.

@@ -133,6 +133,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             density: value("density")?,
             base_width: value("base_width").unwrap_or(thickness),
             base_slope: value("base_slope"),
+            founding_depth: value("founding_depth")?,
             base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
             sliding_factor: value("sliding_factor")?,
             overturning_factor: value("overturning_factor")?,

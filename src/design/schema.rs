@@ -236,6 +236,12 @@ const STABILITY: &[Key] = &[
         FRICTION,
         "slope of the base against the horizontal, 0 deg for a level one; where it is not given the base is taken as level and its checks stay open",
     ),
+    Key::default(
+        "founding_depth",
+        quantity(D::Length, 0.0, 20.0),
+        "0 m",
+        "depth of the base below the bed at the face of the wall, down to which the wall goes on; a base that would stand above the ground downstream stays open",
+    ),
     Key::required("base_friction", FRICTION, "friction angle between base and ground"),
     Key::required(
         "sliding_factor",

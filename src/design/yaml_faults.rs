@@ -25,9 +25,15 @@ pub fn explain(message: &str, gave_up: Option<Position>, text: &str) -> Problem 
     .at(position)
 }
 
+/// Longest line that a hint repeats (characters).
+const LONGEST_SHOWN: usize = 200;
+
 /// The usual cause of what a parser said of a line.
 fn cause(said: &str, line: &str, position: Option<Position>) -> Option<String> {
     let content = without_comment(line).trim();
+    if content.chars().count() > LONGEST_SHOWN {
+        return None;
+    }
     let (key, value) = content.split_once(':').unwrap_or((content, ""));
     let value = value.trim();
     Some(match said {

@@ -56,10 +56,15 @@ impl WallInput {
         self.bed_slope - self.base_slope
     }
 
+    /// Part along the base of what presses on the face, over the load R along the bed.
+    pub fn along_share(&self) -> f64 {
+        let (sine, cosine) = libm::sincos(self.difference());
+        cosine + libm::tan(self.face_lean) * sine
+    }
+
     /// Demand on sliding over the load R along the bed: its part along the base, and what its lift takes of the friction.
     pub fn sliding_share(&self) -> f64 {
-        let (sine, cosine) = libm::sincos(self.difference());
-        cosine + libm::tan(self.face_lean) * sine + self.base_friction * self.lift_share()
+        self.along_share() + self.base_friction * self.lift_share()
     }
 
     /// Lift off the base over the load R along the bed.

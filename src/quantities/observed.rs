@@ -144,6 +144,7 @@ mod tests {
             density: 2400.0,
             base_width: 2.0,
             base_slope: Some(0.0),
+            founding_depth: 0.0,
             base_friction: 0.5,
             sliding_factor: 1.1,
             overturning_factor: 1.5,

@@ -3,6 +3,7 @@
 //! Nothing of the user's is lost: a folder that holds files and is not that of an earlier run is refused, and so is one in which files of
 //! an earlier run were changed; what turns up during a run is moved aside. `manifest.json` tells which files are the program's.
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -50,24 +51,22 @@ pub enum Refusal {
     #[error("{0} is a file; a folder is wanted")]
     File(String),
     #[error(
-        "{0} holds files that barrier-check has not written ({1}), and they might be lost: name a new or empty folder with --out"
+        "{0} holds files that barrier-check has not written ({1}), and they might be lost: use a new or empty folder"
     )]
     Foreign(String, String),
     #[error(
-        "in {0}, files of an earlier run have been changed since ({1}), and the changes would be lost: move them elsewhere, or let the report go to another folder"
+        "in {0}, files of an earlier run have been changed since ({1}), and the changes would be lost: move them elsewhere, or use another folder"
     )]
     Changed(String, String),
     #[error(
-        "{0} holds a report of something else, as of another design file of the same name: name another folder with --out, or this one if a report of another design there may be replaced"
+        "{0} holds a report of something else, as of another design file of the same name: use another folder, or remove that report"
     )]
     OtherDesign(String),
-    #[error("{0} holds {1}, whose place {2} would take: name another folder with --out")]
+    #[error("{0} holds {1}, whose place {2} would take: use another folder")]
     OtherKind(String, &'static str, &'static str),
-    #[error(
-        "in {0} an interrupted run is kept, of a design or a study: finish it first, or let the report go to another folder"
-    )]
+    #[error("in {0} an interrupted run is kept, of a design or a study: finish it first, or use another folder")]
     Interrupted(String),
-    #[error("another run is writing into {0}: wait until it has ended, or name another folder with --out")]
+    #[error("another run is writing into {0}: wait until it has ended, or use another folder")]
     Taken(String),
     #[error("the report could not be written to {0}: {1}")]
     Unwritable(String, io::Error),
@@ -88,6 +87,8 @@ pub struct Folder {
     path: PathBuf,
     there_before: bool,
     manifest: Manifest,
+    /// Its text as it was put into the folder last.
+    laid: RefCell<String>,
     /// The design file whose report is to be written.
     source: Option<String>,
     /// What is to be written.
@@ -111,6 +112,7 @@ impl Folder {
             path: path.to_path_buf(),
             there_before,
             manifest: Manifest::default(),
+            laid: RefCell::default(),
             source: None,
             kind: None,
             brought: false,
@@ -164,7 +166,9 @@ impl Folder {
         if self.brought {
             return Err(Refusal::Foreign(place(), recording::FILE.to_string()));
         }
-        let of_a_study = kind != Kind::Study && self.path.join(KEPT_BY_STUDIES).is_dir();
+        // That of a finished study is told by its report.
+        let of_a_study =
+            kind != Kind::Study && self.manifest.files.is_empty() && self.path.join(KEPT_BY_STUDIES).is_dir();
         if (kind != Kind::Simulation && self.keeps_a_run()) || of_a_study {
             return Err(Refusal::Interrupted(place()));
         }
@@ -263,6 +267,9 @@ impl Folder {
     pub fn write(&mut self, files: &[ReportFile]) -> io::Result<Vec<[String; 2]>> {
         self.hold_again()?;
         let mut moved = self.clear_the_way(files)?;
+        if self.manifest_is_another() {
+            moved.extend(self.move_aside(manifest::FILE)?);
+        }
         if let Err(error) = self.lay_out(files) {
             files.iter().for_each(|file| drop(fs::remove_file(self.temporary(&file.name))));
             return Err(error);
@@ -367,7 +374,18 @@ impl Folder {
         let text = serde_json::to_string_pretty(&self.manifest).map_err(io::Error::other)? + "\n";
         let temporary = self.temporary(manifest::FILE);
         create(&temporary, text.as_bytes())?;
-        fs::rename(temporary, self.path.join(manifest::FILE))
+        fs::rename(temporary, self.path.join(manifest::FILE))?;
+        self.laid.replace(text);
+        Ok(())
+    }
+
+    /// Whether something else stands in the place of the manifest that was put there last.
+    fn manifest_is_another(&self) -> bool {
+        let place = self.path.join(manifest::FILE);
+        let Ok(found) = fs::symlink_metadata(&place) else { return false };
+        let laid = self.laid.borrow();
+        let same = || fs::read(&place).is_ok_and(|bytes| bytes == laid.as_bytes());
+        !(found.is_file() && found.len() == laid.len() as u64 && same())
     }
 
     /// Where a file is written before it takes its place.

@@ -54,6 +54,20 @@ fn a_folder_of_the_user_and_a_changed_report_are_refused_and_left_alone() {
 }
 
 #[test]
+fn a_manifest_of_the_user_that_turns_up_during_a_run_is_moved_aside() {
+    let path = place("manifest");
+    let mut folder = claim(&path).unwrap();
+    fs::write(path.join("manifest.json"), r#"{"name": "mine"}"#).unwrap();
+    let moved = folder.write(&files(&["report.md", "result.json"])).unwrap();
+    assert_eq!(moved, [["manifest.json".to_string(), "manifest.json.1.kept".to_string()]]);
+    assert_eq!(fs::read_to_string(path.join("manifest.json.1.kept")).unwrap(), r#"{"name": "mine"}"#);
+    // The next run finds its own.
+    drop(folder);
+    assert!(claim(&path).is_ok());
+    fs::remove_dir_all(path).unwrap();
+}
+
+#[test]
 fn a_result_of_the_user_beside_a_page_that_has_none_stays() {
     let path = place("result");
     claim(&path).unwrap().write(&files(&["compare.md"])).unwrap();

@@ -3,6 +3,7 @@
 pub fn percent(share: Option<f64>) -> String {
     match share {
         None => "–".to_string(),
+        Some(share) if share.is_nan() => "not known".to_string(),
         Some(share) if share > 10.0 => "> 1000 %".to_string(),
         // Near the limit a digit more, so that nothing at 100 % fails.
         Some(share) if (share - 1.0).abs() < 0.05 => format!("{:.1} %", 100.0 * share),
@@ -18,6 +19,7 @@ pub fn quoted(text: &str) -> String {
 /// A value with the unit a person would use.
 pub fn with_unit(value: f64, unit: &str) -> String {
     match unit {
+        _ if value.is_nan() => "not known".to_string(),
         "-" | "count" if value.is_infinite() => figures(value),
         "N" if value.abs() < 2000.0 => format!("{value:.0} N"),
         "N" => format!("{} kN", figures(value / 1e3)),

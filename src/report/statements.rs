@@ -108,6 +108,11 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
             SAFE,
         ),
         (
+            matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.founding_depth > 0.0)),
+            "The earth pressure on the part of the wall below the bed, and the resistance of the ground in front of it, are left out.",
+            EITHER,
+        ),
+        (
             true,
             "In the guideline calculation pressures act normal to the barrier's face, and the forces of the load cases are their part along the bed: a face that leans by θ from the bed's normal takes R/cos θ.",
             EITHER,

@@ -5,14 +5,22 @@
 use super::harder_flow::largest_force;
 use super::known::{FirstSurge, Known};
 use crate::checks::outcome::{Kind, Opening, Outcome, Route};
+use crate::design::BarrierDesign;
 use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
     let more = largest_force(known.design, known.guideline, &seen) / seen.push;
-    // What stands higher has a longer lever as well.
-    let more_moment = larger_or_nan(more, known.guideline.face_moment / seen.moment);
+    // What stands higher has a longer lever as well, about a base that may lie deeper than the foot of the face.
+    let deeper = match &known.design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.stability.map_or(0.0, |stability| stability.founding_depth),
+        BarrierDesign::FlexibleNet(_) => 0.0,
+    };
+    let about_the_base = |moment: f64, force: f64| moment + deeper * force / known.guideline.width;
+    let lever = about_the_base(known.guideline.face_moment, known.guideline.largest_force)
+        / about_the_base(seen.moment, seen.push);
+    let more_moment = larger_or_nan(more, lever);
     let (when, instead) = match known.design.loads.to_the_top {
         true => ("the full barrier", "simulate a larger flow, or say loads.filling: one_event"),
         false => ("the barrier", "give it more resistance"),
@@ -86,6 +94,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::checks::between_bolts::concentration;
     use crate::checks::check_all;
     use crate::checks::not_covered::tests::{net_holds, net_verdict, pushing, simulated_verdict, small_net};
     use crate::checks::outcome::CheckVerdict;
@@ -131,8 +140,10 @@ mod tests {
         let holds = rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |used: f64| {
-            // The load on a space whose rope is pulled along its span with that share of what it holds: H³ = P² EA/24.
-            let load = ((used * holds).powi(3) * 24.0 / rope.axial_stiffness()).sqrt();
+            // The load on a space whose rope is pulled along its span with that share of what it holds: H³ = c P² EA/24.
+            // Of a space with one ring in it.
+            let axial = rope.axial_stiffness() * concentration(1.0);
+            let load = ((used * holds).powi(3) * 24.0 / axial).sqrt();
             let observed = Observed::of_nothing(3, 0).with(&bed::BOLT, &[load]);
             simulated_verdict(&design, "rope_1_tension", &observed, pushing(first))
         };

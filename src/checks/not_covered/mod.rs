@@ -3,6 +3,7 @@
 
 pub(crate) mod drag;
 pub(crate) mod full_barrier;
+pub(crate) mod hanging_base;
 pub(crate) mod harder_flow;
 pub(crate) mod heaped;
 pub(crate) mod known;
@@ -22,6 +23,7 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
     harder_flow::leave_open,
     thinner_flow::leave_open,
     heaped::leave_open,
+    hanging_base::leave_open,
     short_peaks::leave_open,
     rigid_wall::leave_open,
     load_factor::leave_open,
