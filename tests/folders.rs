@@ -237,7 +237,7 @@ fn what_was_simulated_is_replaced_by_nothing_else() {
         ] {
             let refused_by = run(&place, &refused);
             assert_eq!(refused_by.status.code(), Some(2), "{refused:?}");
-            assert!(error(&refused_by).contains("name"), "{}", error(&refused_by));
+            assert!(error(&refused_by).contains("use "), "{}", error(&refused_by));
             assert_eq!(std::fs::read(place.join(folder).join("recording.bin")).expect("it stays"), before);
         }
     }

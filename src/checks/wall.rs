@@ -16,8 +16,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let (force, moment) = (demands.one(&quantity::SLIDING), demands.one(&quantity::OVERTURNING));
     // Moments are told about the foot of the face; the base lies deeper.
     let deeper = stability.founding_depth * libm::cos(wall.base_slope);
-    let lowered =
-        |moment: Option<f64>, force: Option<f64>| moment.zip(force).map(|(moment, force)| moment + force * deeper);
+    let lowered = |moment: Option<f64>, force: Option<f64>| {
+        if deeper > 0.0 { moment.zip(force).map(|(moment, force)| moment + force * deeper) } else { moment }
+    };
     let moment = Demand {
         guideline: lowered(moment.guideline, force.guideline.map(|load| load * wall.along_share())),
         simulation: lowered(moment.simulation, force.simulation),
