@@ -69,12 +69,12 @@ fn main_ropes() {
     at(NET, "neither count nor heights", count, "# ", count);
     let without_bolts = said(NET, &[("bed_bolt_spacing: 0.28 m ", "# ")]);
     assert!(without_bolts.contains("a resistance of one bolt without their distance"), "{without_bolts}");
-    assert_eq!(said(NET, &[("bed_bolt_resistance: 300 kN ", "# ")]), "");
-    let twice = "bed_resistance: 1 MN\n      bed_bolt_resistance: 300 kN ";
+    assert_eq!(said(NET, &[("bed_bolt_resistance: 550 kN ", "# ")]), "");
+    let twice = "bed_resistance: 1 MN\n      bed_bolt_resistance: 550 kN ";
     at(
         NET,
         "the resistance of all bolts and that of one",
-        "bed_bolt_resistance: 300 kN ",
+        "bed_bolt_resistance: 550 kN ",
         twice,
         "bed_resistance: 1 MN ",
     );

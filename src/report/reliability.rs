@@ -209,7 +209,7 @@ fn validation_row() -> Row {
         format!("at this commit, {this}")
     } else {
         format!(
-            "the full validation was last run on an earlier version (commit {}); this version ({this}) has passed the tests only",
+            "the full validation was last run on an earlier version (commit {}); this version (commit {this}) has passed the tests only",
             kept.commit
         )
     };

@@ -182,6 +182,11 @@ impl NetForces {
         }
     }
 
+    /// Tensions of all that pulls (N), in the order of [`Barrier::strands`].
+    pub fn strand_tensions(&self) -> impl Iterator<Item = f64> {
+        self.tensions.iter().chain(&self.axial).chain(&self.dissipators).copied()
+    }
+
     /// Adds the force of a grain on a line, `times` over.
     pub fn push(&mut self, push: &Push, times: f64) {
         self.put(&push.nodes, push.share, &(push.force * times), &Vec3::zeros());

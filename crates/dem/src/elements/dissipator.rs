@@ -8,6 +8,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::elements::segment::SegmentKind;
+use crate::elements::segment::{Strand, Taut};
 use crate::tables::nodes::Node;
 
 /// A dissipator between an anchor (first node) and a rope end (second node).
@@ -44,6 +46,14 @@ pub struct Pull {
 }
 
 impl Dissipator {
+    pub fn strand(&self) -> Strand {
+        Strand { nodes: self.nodes, kind: SegmentKind::Main(self.rope), rest_length: None }
+    }
+
+    pub fn taut(&self) -> Taut {
+        Taut { nodes: self.nodes, stiffness: self.stiffness, damping: 0.0, slack: self.rest_length + self.used }
+    }
+
     /// Stretches the dissipator to the present place of its nodes.
     pub fn stretch(&mut self, anchor: &Node, end: &Node) -> Pull {
         let line = end.position - anchor.position;

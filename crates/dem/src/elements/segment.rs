@@ -28,6 +28,14 @@ impl Segment {
         self.rest_length = rest_length;
     }
 
+    pub fn strand(&self) -> Strand {
+        Strand { nodes: self.nodes, kind: self.kind, rest_length: Some(self.rest_length) }
+    }
+
+    pub fn taut(&self) -> Taut {
+        Taut { nodes: self.nodes, stiffness: self.stiffness, damping: self.damping, slack: self.rest_length }
+    }
+
     /// Lets the segment break: it pulls no more.
     pub fn part(&mut self) {
         self.strength.broken = true;
@@ -43,4 +51,25 @@ pub enum SegmentKind {
     Lateral,
     /// A ring, or what ties it to the net. Grains pass it by: it lies behind the net.
     Ring,
+}
+
+/// What pulls on two nodes, as it is recorded and shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strand {
+    pub nodes: [u32; 2],
+    pub kind: SegmentKind,
+    /// Unloaded length of a piece of rope (m); nothing for a dissipator, which is no part of its rope.
+    pub rest_length: Option<f64>,
+}
+
+/// A spring between two nodes, and the length up to which it is slack, as the stable step depends on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taut {
+    pub nodes: [u32; 2],
+    /// N/m
+    pub stiffness: f64,
+    /// N s/m
+    pub damping: f64,
+    /// m
+    pub slack: f64,
 }

@@ -113,7 +113,8 @@ impl Film {
         for grain in grains {
             self.looks[grain.id as usize] = [grain.body.radius as f32, grain.body.offset as f32];
         }
-        self.ropes = simulation.model.barrier.as_ref().map_or_else(Vec::new, ropes);
+        let strands = simulation.model.barrier.iter().flat_map(Barrier::strands);
+        self.ropes = strands.map(|strand| (strand.nodes, strand.kind)).collect();
     }
 
     fn frame(&self, simulation: &Simulation, grains: &[Grain]) -> Frame {
@@ -137,13 +138,7 @@ impl Film {
             time: simulation.time,
             grains: poses,
             nodes: nodes.map(|node| single(&node.position)).collect(),
-            tensions: net
-                .tensions
-                .iter()
-                .chain(&net.axial)
-                .chain(&net.dissipators)
-                .map(|tension| *tension as f32)
-                .collect(),
+            tensions: net.strand_tensions().map(|tension| tension as f32).collect(),
         }
     }
 }
@@ -154,15 +149,6 @@ fn pushes(simulation: &Simulation) -> Vec<(usize, Vec3)> {
     let on_wall = walls.map(|contact| (contact.row, contact.force));
     let pushes = simulation.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
     on_wall.chain(pushes.map(|push| (push.row as usize, push.force))).collect()
-}
-
-/// All that pulls, in the order of the tensions: segments, cylinders, dissipators.
-fn ropes(barrier: &Barrier) -> Vec<([u32; 2], SegmentKind)> {
-    let segments = barrier.segments.iter().map(|segment| (segment.nodes, segment.kind));
-    let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.nodes, cylinder.kind));
-    let dissipators =
-        barrier.dissipators.iter().map(|dissipator| (dissipator.nodes, SegmentKind::Main(dissipator.rope)));
-    segments.chain(cylinders).chain(dissipators).collect()
 }
 
 fn single(vector: &Vec3) -> [f32; 3] {

@@ -40,24 +40,20 @@ impl BodyRecorder for OfRopes {
         let (Some(barrier), net) = (&simulation.model.barrier, &simulation.sums.net) else { return };
         let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
         let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
-        let segments = barrier.segments.iter().map(|segment| (segment.kind, segment.rest_length)).zip(&net.tensions);
-        let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.rest_length)).zip(&net.axial);
-        for ((kind, rest_length), &tension) in segments.chain(cylinders) {
-            match kind {
+        for (strand, tension) in barrier.strands().zip(net.strand_tensions()) {
+            match strand.kind {
                 SegmentKind::Main(rope) => {
-                    let [weighted, length] = &mut mean[rope as usize];
-                    *weighted += tension * rest_length;
-                    *length += rest_length;
+                    if let Some(rest_length) = strand.rest_length {
+                        let [weighted, length] = &mut mean[rope as usize];
+                        *weighted += tension * rest_length;
+                        *length += rest_length;
+                    }
                     largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
                 }
                 SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
                 SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
                 SegmentKind::Ring => {}
             }
-        }
-        for (dissipator, &tension) in barrier.dissipators.iter().zip(&net.dissipators) {
-            let rope = dissipator.rope as usize;
-            largest[rope] = larger_or_nan(largest[rope], tension);
         }
         let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
         add_rows(&mut self.mean, &mean);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::elements::segment;
 use crate::elements::segment::SegmentKind;
 use crate::net::NetForces;
 use crate::simulation::Simulation;
@@ -85,17 +86,10 @@ fn touches(simulation: &Simulation) -> Vec<[f64; 2]> {
 }
 
 fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {
-    let segments = barrier.segments.iter().map(|segment| (segment.nodes, segment.kind)).zip(&net.tensions);
-    let cylinders = barrier.cylinders.iter().map(|cylinder| (cylinder.nodes, cylinder.kind)).zip(&net.axial);
-    let strand = |((nodes, kind), &tension): (([u32; 2], SegmentKind), &f64)| Strand {
-        ends: nodes.map(|node| barrier.nodes[node as usize].position),
-        kind,
+    let strand = |(strand, tension): (segment::Strand, f64)| Strand {
+        ends: strand.nodes.map(|node| barrier.nodes[node as usize].position),
+        kind: strand.kind,
         tension,
     };
-    let dissipators = barrier
-        .dissipators
-        .iter()
-        .map(|dissipator| (dissipator.nodes, SegmentKind::Main(dissipator.rope)))
-        .zip(&net.dissipators);
-    segments.chain(cylinders).chain(dissipators).map(strand).collect()
+    barrier.strands().zip(net.strand_tensions()).map(strand).collect()
 }

@@ -7,6 +7,7 @@ use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::{Footing, Ground};
 use crate::elements::ring::RingSide;
 use crate::elements::segment::{Segment, SegmentKind};
+use crate::elements::segment::{Strand, Taut};
 use crate::elements::sliding::Chain;
 use crate::elements::strength::Strength;
 use crate::tables::nodes::{Frame, Node};
@@ -57,6 +58,20 @@ pub struct Barrier {
 }
 
 impl Barrier {
+    /// All that pulls, in the order of [`NetForces::strand_tensions`](crate::net::NetForces::strand_tensions). A new element is listed here.
+    pub fn strands(&self) -> impl Iterator<Item = Strand> {
+        let segments = self.segments.iter().map(Segment::strand);
+        segments
+            .chain(self.cylinders.iter().map(Cylinder::strand))
+            .chain(self.dissipators.iter().map(Dissipator::strand))
+    }
+
+    /// All springs between two nodes that go slack, in a fixed order.
+    pub fn springs(&self) -> impl Iterator<Item = Taut> {
+        let segments = self.segments.iter().map(Segment::taut);
+        segments.chain(self.dissipators.iter().chain(&self.holds).map(Dissipator::taut))
+    }
+
     /// Radius with which grains may touch a line or either of its nodes (m).
     pub fn thickness(&self, line: u32) -> f64 {
         let line = &self.lines[line as usize];

@@ -7,6 +7,7 @@ use crate::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::elements::cylinder::Cylinder;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingSide};
+use crate::elements::segment::Taut;
 use crate::neighbours::blocks::Block;
 use crate::neighbours::clocks::Clock;
 use crate::tables::barrier::Barrier;
@@ -228,10 +229,7 @@ impl Linked<'_> {
     }
 
     fn elements(&self, barrier: &Barrier) -> Vec<Link> {
-        let ropes = barrier.segments.iter().map(|s| (s.nodes, s.stiffness, s.damping, s.rest_length));
-        let dissipators = barrier.dissipators.iter().chain(&barrier.holds);
-        let dissipators = dissipators.map(|d| (d.nodes, d.stiffness, 0.0, d.rest_length + d.used));
-        let taut = ropes.chain(dissipators).filter_map(|(nodes, stiffness, damping, slack)| {
+        let taut = barrier.springs().filter_map(|Taut { nodes, stiffness, damping, slack }| {
             let [a, b] = nodes.map(|node| &barrier.nodes[node as usize]);
             let line = b.position - a.position;
             let length = line.norm();
