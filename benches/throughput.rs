@@ -56,12 +56,12 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-const STATES: [State; 9] = {
+const STATES: [State; 11] = {
     const fn spheres(phase: Phase, count: usize) -> State {
-        State { shape: GrainShape::Sphere, phase, count }
+        State { shape: GrainShape::Sphere, phase, count, field: false }
     }
     const fn clumps(phase: Phase) -> State {
-        State { shape: GrainShape::Clump, phase, count: 5406 }
+        State { shape: GrainShape::Clump, phase, count: 5406, field: false }
     }
     [
         spheres(Phase::Dense, 5406),
@@ -73,6 +73,8 @@ const STATES: [State; 9] = {
         clumps(Phase::Dense),
         clumps(Phase::Flow),
         clumps(Phase::Impact),
+        State { field: true, ..spheres(Phase::Dense, 20_000) },
+        State { field: true, ..spheres(Phase::Flow, 20_000) },
     ]
 };
 
@@ -124,7 +126,7 @@ fn main() {
     println!(
         "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
     );
-    STATES.iter().filter(|state| state.shape == GrainShape::Sphere).for_each(tell_broad_phase);
+    STATES.iter().filter(|state| state.shape == GrainShape::Sphere && !state.field).for_each(tell_broad_phase);
 }
 
 /// What the elements of a barrier cost, and how that grows with their number.

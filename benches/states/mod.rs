@@ -14,6 +14,7 @@ use dem::model::{Material, Model};
 use dem::simulation::Simulation;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use dem::tables::terrain::{Patch, Terrain};
 
 /// Radius of the spheres (m).
 pub const RADIUS: f64 = 0.007635;
@@ -37,6 +38,8 @@ pub struct State {
     pub phase: Phase,
     /// Number of grains.
     pub count: usize,
+    /// Whether the bed is a height field, of the same plane, instead of a surface.
+    pub field: bool,
 }
 
 /// Which part of the event a state is taken from.
@@ -52,6 +55,10 @@ pub enum Phase {
 
 impl State {
     pub fn name(&self) -> String {
+        if self.field { format!("{}_on_a_height_field", self.file_name()) } else { self.file_name() }
+    }
+
+    fn file_name(&self) -> String {
         let phase = match self.phase {
             Phase::Dense => "dense",
             Phase::Flow => "flow",
@@ -65,7 +72,7 @@ impl State {
 
     /// The state from its file, or made now.
     pub fn model(&self) -> Model {
-        let path = folder().join(format!("{}.dump", self.name()));
+        let path = folder().join(format!("{}.dump", self.file_name()));
         let grains = self.read(&path).unwrap_or_else(|| {
             let grains = self.make();
             self.write(&path, &grains);
@@ -101,7 +108,7 @@ impl State {
         eprintln!("making the state {}, once", self.name());
         let before = match self.phase {
             Phase::Dense => self.around(self.packed()),
-            Phase::Flow | Phase::Impact => Self { phase: Phase::Dense, ..*self }.model(),
+            Phase::Flow | Phase::Impact => Self { phase: Phase::Dense, field: false, ..*self }.model(),
         };
         let mut simulation = Simulation::new(before, STEP, self.skin(), 1e3);
         let (time, drag) = match self.phase {
@@ -123,7 +130,7 @@ impl State {
 
     /// Copies of the largest state that is made, next to each other across the flume.
     fn side_by_side(&self) -> Vec<Grain> {
-        let one = Self { count: LARGEST_MADE, ..*self }.model().grains;
+        let one = Self { count: LARGEST_MADE, field: false, ..*self }.model().grains;
         let width = 0.30 * self.scale();
         let copies = (0..self.count / LARGEST_MADE).flat_map(|copy| {
             one.iter().map(move |grain| Grain {
@@ -168,6 +175,10 @@ impl State {
             plane(SurfaceRole::Side, Vec3::zeros(), x, 0.2679),
             plane(SurfaceRole::Wall, x * (2.19 * size), -x, 0.3839),
         ];
+        let terrain = self.field.then(|| height_field([2.19 * size, width], 0.4663));
+        if terrain.is_some() {
+            surfaces.remove(0);
+        }
         if self.phase == Phase::Dense {
             surfaces.push(plane(SurfaceRole::Gate, x * (0.44 * size), -x, 0.2679));
         }
@@ -176,6 +187,7 @@ impl State {
             shape: self.shape,
             grains,
             surfaces,
+            terrain,
             barrier: None,
             material: Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 1.327 },
             gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * 9.81,
@@ -225,6 +237,25 @@ impl State {
         std::fs::create_dir_all(folder()).expect("folder of states");
         std::fs::write(path, text).expect("state is written");
     }
+}
+
+/// Side of a cell of the height field, over the radius of a sphere: as a raster of 1 m has it under grains of 0.5 m.
+const CELL: f64 = 4.0;
+
+/// A bed of triangles from the origin to `size` (m), some cells wider on all sides.
+fn height_field(size: [f64; 2], friction: f64) -> Terrain {
+    let cell = CELL * RADIUS;
+    let counts = size.map(|length| (length / cell).ceil() as usize + 4);
+    let row = counts[0] + 1;
+    let corner = |index: usize| Vec3::new((index % row) as f64 - 2.0, (index / row) as f64 - 2.0, 0.0) * cell;
+    let corners = (0..row * (counts[1] + 1)).map(corner).collect();
+    let cells = (0..counts[1]).flat_map(|y| (0..counts[0]).map(move |x| (y * row + x) as u32));
+    let halves = cells.flat_map(|low| {
+        let high = low + row as u32;
+        [vec![low, low + 1, high + 1], vec![low, high + 1, high]]
+    });
+    let patches: Vec<Patch> = halves.map(|corners| Patch { corners, role: SurfaceRole::Base, friction }).collect();
+    Terrain::new(corners, &patches)
 }
 
 /// Reach of the pair lists over the radius.

@@ -179,8 +179,6 @@ fn side_row(told: &Coefficients) -> Row {
         let ratio = guideline / simulated;
         if !ratio.is_finite() {
             "cannot be told".to_string()
-        } else if ratio < 1.0 {
-            format!("{:.0} % of the simulated value", 100.0 * ratio)
         } else {
             format!("{:.0} % of the simulated value", 100.0 * ratio)
         }

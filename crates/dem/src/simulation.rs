@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::contact::law::{LawConstants, Memory};
+use crate::contact::law::{LawConstants, Memory, Spring};
 use crate::contact::surfaces::SurfaceForces;
 use crate::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::model::Model;
@@ -209,7 +209,9 @@ impl Simulation {
             let (centre, radius) = self.grains.rows().sphere(pair[0] as usize);
             let FixedTouch { towards, share, role, .. } = self.model.fixed().touch(pair[1], &centre, radius);
             let overlap = (radius - towards.norm()).max(0.0);
-            let normal_force = (self.model.material.modulus * radius * share * overlap + memory.dashpot).max(0.0);
+            let inverse_mass = self.grains.rows().member(pair[0] as usize).inverse_mass;
+            let spring = Spring::on_fixed(self.model.material.modulus * radius, inverse_mass).part(share);
+            let normal_force = spring.pushes(overlap, memory.dashpot);
             let force = Vec3::from(memory.tangential) - towards.normalize() * normal_force;
             SurfaceContact { row, role, force, place: centre + towards }
         })

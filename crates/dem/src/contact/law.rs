@@ -57,6 +57,12 @@ impl<R: Real> Spring<R> {
         Self { stiffness, compliance: R::all(1.0) / stiffness, frequency, impedance: frequency / inverse_mass }
     }
 
+    /// The spring of a body with E r (N/m) on what does not move, which takes part as an equal body of infinite mass: k = E r.
+    #[inline(always)]
+    pub fn on_fixed(side: R, inverse_mass: R) -> Self {
+        Self::new(side, inverse_mass)
+    }
+
     /// The given part of a contact that others share: spring and dashpot alike.
     pub fn part(self, share: R) -> Self {
         Self {
@@ -65,6 +71,19 @@ impl<R: Real> Spring<R> {
             frequency: self.frequency,
             impedance: self.impedance * share,
         }
+    }
+}
+
+impl Spring {
+    /// The spring of two bodies with E₁ r₁ and E₂ r₂ (N/m).
+    #[inline(always)]
+    pub fn between(sides: [f64; 2], inverse_mass: f64) -> Self {
+        Self::new(contact_stiffness(sides[0], sides[1]), inverse_mass)
+    }
+
+    /// Normal force (N) with an overlap (m) and what the dashpot adds to the spring's (N): as [`respond`] has it, for what is shown.
+    pub fn pushes(&self, overlap: f64, dashpot: f64) -> f64 {
+        (self.stiffness * overlap + dashpot).max(0.0)
     }
 }
 

@@ -15,7 +15,7 @@
 use std::ops::Range;
 
 use crate::Vec3;
-use crate::contact::law::{ContactPoint, LawConstants, Memory, Spring, contact_stiffness, respond};
+use crate::contact::law::{ContactPoint, LawConstants, Memory, Spring, respond};
 use crate::contact::pair_list::{PairList, Separation};
 use crate::geometry::point_segment::nearest_on_segment;
 use crate::ledger::ContactSums;
@@ -150,7 +150,7 @@ fn stored(memory: &Memory, [member, line]: [u32; 2], context: &RopeContext) -> f
     let share = nearest_on_segment(&member.centre, &a.position, &b.position).share;
     let grain = context.grain_modulus * member.radius;
     let rope = context.barrier.contact_modulus * line.radius;
-    let spring = Spring::new(contact_stiffness(grain, rope), member.inverse_mass + inverse_mass_at(a, b, share));
+    let spring = Spring::between([grain, rope], member.inverse_mass + inverse_mass_at(a, b, share));
     0.5 * Vec3::from(memory.tangential).norm_squared() * spring.compliance
         / context.law.friction_spring(&spring).stiffness_ratio()
 }
@@ -211,7 +211,7 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
         overlap,
         velocity: velocity.into(),
         twist: 0.5 * member.spin.dot(&normal),
-        spring: Spring::new(contact_stiffness(grain, rope), inverse_mass).part(kept),
+        spring: Spring::between([grain, rope], inverse_mass).part(kept),
         friction: barrier.friction.min(context.grain_friction),
     };
     let before = towards - (rope_velocity - member.velocity) * context.law.time_step;

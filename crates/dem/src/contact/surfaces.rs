@@ -194,8 +194,8 @@ impl<E: Eight> SurfaceTouch<E> {
             velocity: negative(plus(motion, cross(spin, lever))),
             twist: dot(spin, normal) * 0.5,
             spring: match context.fixed.terrain {
-                Some(_) => Spring::new(radius * context.modulus, inverse_mass).part(E::from_lanes(share)),
-                None => Spring::new(radius * context.modulus, inverse_mass),
+                Some(_) => Spring::on_fixed(radius * context.modulus, inverse_mass).part(E::from_lanes(share)),
+                None => Spring::on_fixed(radius * context.modulus, inverse_mass),
             },
             friction,
         };

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, contact_stiffness, respond};
+use crate::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, respond};
 use crate::tables::nodes::Node;
 
 /// A plane that nodes lie on.
@@ -92,8 +92,7 @@ impl Ground {
 
     /// Spring of a node on any plane.
     pub fn spring(&self, node: &Node) -> Spring {
-        let [ground, rope] = self.moduli.map(|modulus| modulus * node.radius);
-        Spring::new(contact_stiffness(ground, rope), 1.0 / node.mass)
+        Spring::between(self.moduli.map(|modulus| modulus * node.radius), 1.0 / node.mass)
     }
 
     fn contact(&self, node: &Node, plane: &Plane, overlap: f64) -> ContactPoint {

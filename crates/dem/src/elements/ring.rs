@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 use crate::Vec3;
-use crate::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, contact_stiffness, respond};
+use crate::contact::law::{ContactPoint, LawConstants, Memory, Response, Spring, respond};
 use crate::elements::cylinder::Cylinder;
 use crate::geometry::segment_segment::{BetweenSegments, nearest_of_segments};
 use crate::tables::nodes::{Frame, Node};
@@ -84,13 +84,13 @@ impl RingSide {
             (velocity, spin, (1.0 - share).powi(2) * inverse(a) + share.powi(2) * inverse(b))
         });
         let inverse_mass = mine.2 + theirs.2;
-        let stiffness = contact_stiffness(context.moduli[0] * radii[0], context.moduli[1] * radii[1]);
+        let sides = [context.moduli[0] * radii[0], context.moduli[1] * radii[1]];
         let point = ContactPoint {
             normal: normal.into(),
             overlap,
             velocity: (theirs.0 - mine.0).into(),
             twist: 0.5 * (mine.1 + theirs.1).dot(&normal),
-            spring: Spring::new(stiffness, inverse_mass),
+            spring: Spring::between(sides, inverse_mass),
             friction: self.friction,
         };
         RingTouch { point, near: number, shares: nearest.shares, arms }

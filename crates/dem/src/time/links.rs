@@ -1,7 +1,7 @@
 //! Everything that connects bodies now, as springs and dashpots: what the stable step depends on.
 
 use crate::Vec3;
-use crate::contact::law::{LawConstants, Spring, contact_stiffness};
+use crate::contact::law::{LawConstants, Spring};
 use crate::contact::pair_list::Separation;
 use crate::contact::ropes::{OnRopes, RopeContext, touch as touch_rope};
 use crate::elements::cylinder::Cylinder;
@@ -179,10 +179,10 @@ impl Linked<'_> {
                 continue;
             }
             let normal = line / distance;
-            let stiffness = contact_stiffness(self.modulus * a.radius, self.modulus * b.radius);
             let foot = a.centre + normal * (0.5 * (distance + a.radius - b.radius));
             let link = Link::between([self.grain_end(first, &foot, -1.0), self.grain_end(second, &foot, 1.0)]);
-            let spring = Spring::new(stiffness, a.inverse_mass + b.inverse_mass);
+            let sides = [self.modulus * a.radius, self.modulus * b.radius];
+            let spring = Spring::between(sides, a.inverse_mass + b.inverse_mass);
             links.push(self.contact(link, normal, &spring));
         }
     }
@@ -195,7 +195,7 @@ impl Linked<'_> {
             let distance = towards.norm();
             if distance < member.radius && distance > 0.0 {
                 let link = Link::between([self.grain_end(index, &foot, 1.0)]);
-                let spring = Spring::new(self.modulus * member.radius, member.inverse_mass).part(touch.share);
+                let spring = Spring::on_fixed(self.modulus * member.radius, member.inverse_mass).part(touch.share);
                 links.push(self.contact(link, towards / distance, &spring));
             }
         }
