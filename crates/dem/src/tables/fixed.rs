@@ -50,11 +50,7 @@ impl<'a> Fixed<'a> {
     pub fn separation(&self, number: u32, centre: &Vec3, radius: f64) -> (f64, f64) {
         match self.facet(number) {
             None => (self.surfaces[number as usize].distance_squared(centre), radius),
-            Some((terrain, facet)) => {
-                let square = terrain.distance_squared(facet, centre);
-                let untouched = square < radius * radius && terrain.place(facet, centre).is_none();
-                (if untouched { radius * radius } else { square }, radius)
-            }
+            Some((terrain, facet)) => (terrain.separation(facet, centre, radius), radius),
         }
     }
 

@@ -25,6 +25,8 @@ const MOST_PLACES: usize = 6;
 /// Distance of the foot from all seams, over the radius, beyond which no other facet has a part in the push: at an angle of the normals of
 /// less than 90°, the centre of a sphere that touches both is less than √2 radii from the seam.
 const APART: f64 = 1.5;
+/// Rounding in the height of a corner over a plane, over its distance.
+const LEVEL: f64 = 1e-9;
 /// Rounding in the parts of a push, over the largest overlap.
 const ROUNDING: f64 = 1e-12;
 
@@ -40,8 +42,33 @@ pub struct Facet {
     count: usize,
     /// Unit vectors in its plane out of it, across each edge, from its lower corner on.
     outwards: [Vec3; CORNERS],
+    /// Where plane and edges lie along their normals (m).
+    level: f64,
+    edges: [f64; CORNERS],
     /// The facet beyond each edge.
     beyond: [u32; CORNERS],
+}
+
+impl Facet {
+    /// Height of a point over the plane (m).
+    #[inline(always)]
+    fn height(&self, point: &Vec3) -> f64 {
+        self.normal.dot(point) - self.level
+    }
+
+    /// How far a point is beyond an edge, in the plane (m).
+    #[inline(always)]
+    fn beyond_edge(&self, index: usize, point: &Vec3) -> f64 {
+        self.outwards[index].dot(point) - self.edges[index]
+    }
+
+    /// How far a point is beyond the edge that it is furthest beyond; negative inside (m).
+    #[inline(always)]
+    fn beyond(&self, point: &Vec3) -> f64 {
+        let [a, b, c] = [0, 1, 2].map(|index| self.beyond_edge(index, point));
+        let most = a.max(b).max(c);
+        if self.count > 3 { most.max(self.beyond_edge(3, point)) } else { most }
+    }
 }
 
 /// A facet before it is joined to others: its corners counterclockwise from above.
@@ -60,6 +87,8 @@ pub struct Terrain {
     facets: Vec<Facet>,
     /// Facets that share a corner with each facet.
     around: Rows,
+    /// Of them those that rise above its plane, or whose plane it rises above: only in a hollow a sphere touches two at once.
+    rising: Rows,
     /// Corners at the other ends of the edges of each corner, and the lowest facet at it.
     edges: Rows,
     first_facet: Vec<u32>,
@@ -125,6 +154,8 @@ impl Terrain {
                 corners: [0; CORNERS],
                 count,
                 outwards: [Vec3::zeros(); CORNERS],
+                level: normal.dot(&corner(0)),
+                edges: [0.0; CORNERS],
                 beyond: [NONE; CORNERS],
             };
             for index in 0..count {
@@ -132,7 +163,9 @@ impl Terrain {
                 facet.corners[index] = patch.corners[index];
                 let along = corners[ends[1] as usize] - corners[ends[0] as usize];
                 let out = along.cross(&normal).normalize();
-                facet.outwards[index] = if turned { -out } else { out };
+                // From its lower corner, so that a point is beyond the one or the other of two facets.
+                let across = out.dot(&corners[ends[0] as usize]);
+                (facet.outwards[index], facet.edges[index]) = if turned { (-out, -across) } else { (out, across) };
                 facet.beyond[index] = sides[&ends].into_iter().find(|side| *side != number as u32).unwrap_or(NONE);
             }
             facet
@@ -155,8 +188,23 @@ impl Terrain {
             all.retain(|other| *other != number as u32);
             all
         };
+        let around = Rows::of(patches.iter().enumerate().map(neighbours));
+        let above = |one: u32, other: u32| {
+            let (facet, patch) = (&facets[one as usize], &patches[other as usize]);
+            let base = corners[facet.corners[0] as usize];
+            let rise = |corner: &u32| facet.normal.dot(&(corners[*corner as usize] - base));
+            let size = patch.corners.iter().map(|corner| (corners[*corner as usize] - base).norm()).fold(0.0, f64::max);
+            patch.corners.iter().any(|corner| rise(corner) > LEVEL * size)
+        };
+        let rising = |number: usize| {
+            let one = number as u32;
+            let list = around.row(number).iter().copied();
+            list.filter(|other| above(one, *other) || above(*other, one)).collect::<Vec<u32>>()
+        };
+        let rising = Rows::of((0..facets.len()).map(rising));
         Self {
-            around: Rows::of(patches.iter().enumerate().map(neighbours)),
+            around,
+            rising,
             edges: Rows::of(ends.into_iter()),
             first_facet: at_corner.iter().map(|facets| facets.first().copied().unwrap_or(NONE)).collect(),
             places: Places::of(&corners, patches),
@@ -190,28 +238,12 @@ impl Terrain {
     #[inline]
     fn place_and_margin(&self, number: u32, centre: &Vec3) -> (Option<Place>, f64) {
         let facet = self.facet(number);
-        let mut beyond = f64::NEG_INFINITY;
-        for index in 0..facet.count {
-            beyond = beyond.max(self.beyond_edge(facet, index, centre));
-        }
+        let beyond = facet.beyond(centre);
         if beyond <= 0.0 {
-            let height = facet.normal.dot(&(centre - self.base(facet, 0)));
+            let height = facet.height(centre);
             return (Some(Place { foot: centre - facet.normal * height, normal: facet.normal, height }), -beyond);
         }
         (self.place_on_edge(number, centre), 0.0)
-    }
-
-    /// How far a point is beyond an edge of a facet, in its plane (m).
-    #[inline(always)]
-    fn beyond_edge(&self, facet: &Facet, index: usize, point: &Vec3) -> f64 {
-        facet.outwards[index].dot(&(point - self.base(facet, index)))
-    }
-
-    /// The lower of the corners of an edge: the same for both of its facets, so that a point is beyond the one or the other.
-    #[inline(always)]
-    fn base(&self, facet: &Facet, index: usize) -> Vec3 {
-        let next = if index + 1 == facet.count { 0 } else { index + 1 };
-        self.corners[facet.corners[index].min(facet.corners[next]) as usize]
     }
 
     fn place_on_edge(&self, number: u32, centre: &Vec3) -> Option<Place> {
@@ -234,11 +266,11 @@ impl Terrain {
             let way = along.dot(&(centre - from));
             let within = way > 0.0 && along.dot(&(centre - to)) < 0.0;
             let other = facet.beyond[index];
-            if within && (other == NONE || number < other) && self.beyond_edge(facet, index, centre) > 0.0 {
+            if within && (other == NONE || number < other) && facet.beyond_edge(index, centre) > 0.0 {
                 let outside_other = other == NONE || {
                     let other_facet = self.facet(other);
                     let same = (0..other_facet.count).find(|side| other_facet.beyond[*side] == number);
-                    same.is_some_and(|side| self.beyond_edge(other_facet, side, centre) > 0.0)
+                    same.is_some_and(|side| other_facet.beyond_edge(side, centre) > 0.0)
                 };
                 if outside_other {
                     take(from + along * (way / along.norm_squared()), &facet.normal);
@@ -268,21 +300,28 @@ impl Terrain {
         if margin > APART * radius {
             return Some((place, 1.0));
         }
-        let share = self.share(number, centre, radius, &place);
+        let share = self.share(number, centre, radius, &place, margin);
         (share > 0.0).then_some((place, share))
     }
 
     /// Part of its own overlap with which a place pushes.
-    #[cold]
-    fn share(&self, number: u32, centre: &Vec3, radius: f64, own: &Place) -> f64 {
+    fn share(&self, number: u32, centre: &Vec3, radius: f64, own: &Place, margin: f64) -> f64 {
         let mut places = [(*own, radius - own.height, number); MOST_PLACES];
         let mut count = 1;
-        for &other in self.around.row(number as usize) {
+        // On a seam rounding may have the foot inside of two facets that are level.
+        let others = if margin < LEVEL * radius { &self.around } else { &self.rising };
+        for &other in others.row(number as usize) {
+            if self.facet(other).height(centre) >= radius {
+                continue;
+            }
             let Some(place) = self.place(other, centre).filter(|place| place.height < radius) else { continue };
             if count < MOST_PLACES {
                 places[count] = (place, radius - place.height, other);
                 count += 1;
             }
+        }
+        if count == 1 {
+            return 1.0;
         }
         let places = &mut places[..count];
         // In one order for all of them.
@@ -296,20 +335,16 @@ impl Terrain {
         parts(&normals[..count], &overlaps[..count])[mine] / overlaps[mine]
     }
 
-    /// Square of the distance of a point from a facet (m²), wherever it is nearest.
-    pub fn distance_squared(&self, number: u32, point: &Vec3) -> f64 {
+    /// How near a sphere comes to touching a facet: the square of a distance that its centre has from the facet at least (m²). Just out of touch
+    /// where the facet is near and not touched, because another one is.
+    #[inline]
+    pub fn separation(&self, number: u32, centre: &Vec3, radius: f64) -> f64 {
         let facet = self.facet(number);
-        if (0..facet.count).all(|index| self.beyond_edge(facet, index, point) <= 0.0) {
-            return facet.normal.dot(&(point - self.base(facet, 0))).powi(2);
-        }
-        let edge = |index: usize| {
-            let [from, to] =
-                [index, (index + 1) % facet.count].map(|corner| self.corners[facet.corners[corner] as usize]);
-            let along = to - from;
-            let share = (along.dot(&(point - from)) / along.norm_squared()).clamp(0.0, 1.0);
-            (from + along * share - point).norm_squared()
-        };
-        (0..facet.count).map(edge).fold(f64::INFINITY, f64::min)
+        let (beyond, height) = (facet.beyond(centre).max(0.0), facet.height(centre));
+        let square = height * height + beyond * beyond;
+        let reach = radius * radius;
+        let untouched = square < reach && beyond > 0.0 && self.place_on_edge(number, centre).is_none();
+        if untouched { reach } else { square }
     }
 
     /// Whether two facets share a corner.
