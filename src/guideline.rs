@@ -78,9 +78,9 @@ const RITTER_FRONT: f64 = 2.0;
 /// let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/designs/small_net.yaml"));
 /// let file = read_design("small_net.yaml", text).unwrap();
 /// let loads = guideline(&file.design);
-/// // The first surge pushes with R = (½ K ρ g' h² + λ ρ v² h) b: K = 1, λ = 2.5, 0.6 m deep with 4.6 m/s, 3 m wide.
+/// // The first surge pushes with R = (½ K ρ g' h² + λ ρ v² h) b: K = 1, λ = 2.2, 0.6 m deep with 4.6 m/s, 3 m wide.
 /// let unit = 1400.0 * 9.81 * 25_f64.to_radians().cos();
-/// let by_hand = (0.5 * unit * 0.36 + 2.5 * 1400.0 * 4.6_f64.powi(2) * 0.6) * 3.0;
+/// let by_hand = (0.5 * unit * 0.36 + 2.2 * 1400.0 * 4.6_f64.powi(2) * 0.6) * 3.0;
 /// assert!((loads.first_surge() / by_hand - 1.0).abs() < 1e-9);
 /// ```
 pub fn guideline(design: &Design) -> Guideline {
@@ -166,9 +166,16 @@ pub struct EventFill {
     pub run_up: f64,
     /// Whether the event is more than the one flow.
     pub several: bool,
+    /// With a level surface, of all but the last surge.
+    pub before_last: f64,
 }
 
 impl EventFill {
+    /// To where the last of several surges may go up from what lies there, which says whether it goes over.
+    pub fn reach(&self) -> f64 {
+        larger_or_nan(self.level, self.before_last + self.run_up)
+    }
+
     /// What the loads are worked out with: a heap, no higher than the flow runs up, and no lower than a level deposit. Where the event
     /// comes in several surges, the later ones run up from what lies there.
     pub fn height(&self) -> f64 {
@@ -181,11 +188,13 @@ pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
     let volume_per_width = design.flow.event_volume / design.channel.width;
     let repose = libm::atan(design.flow.grain_friction);
     let height = |falls: f64| deposit_height(volume_per_width, design.channel.slope, falls, lean(design));
+    let before = (volume_per_width - design.flow.volume() / design.channel.width).max(0.0);
     EventFill {
         level: height(0.0),
         heap: height(repose),
         run_up: run_up::bound(input),
         several: design.flow.is_one_of_several(),
+        before_last: deposit_height(before, design.channel.slope, 0.0, lean(design)),
     }
 }
 
@@ -249,6 +258,7 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
         bed_slope,
         face_lean: wall.lean,
         water_head: stability.water_head.unwrap_or(0.0),
+        buried: stability.founding_depth * libm::cos(base_slope),
     })
 }
 

@@ -7,6 +7,7 @@ use crate::checks::not_covered::known::{FirstSurge, Known};
 use crate::checks::not_covered::leave_open_not_covered;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::checks::range::leave_open_outside_range;
+use crate::checks::ropes::leave_open_what_sockets_alone_hold;
 use crate::demand::Demands;
 use crate::design::read::DesignFile;
 use crate::design::{Arrival, BarrierDesign, Design};
@@ -224,13 +225,18 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     let rung = rung.unwrap_or_else(|| rung_of(design, packings));
     let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
-    let mut outcomes = check_all(design, &demands);
     let seen = simulated.as_ref().map(|simulated| first_surge(rung, design, &guideline, simulated));
-    leave_open_not_covered(Known { design, guideline: &guideline, seen }, &mut outcomes);
-    leave_open_outside_range(design, &guideline, &mut outcomes);
-    if simulated.is_some() {
-        rung.leave_open_what_is_too_close(packings, &mut outcomes);
-    }
+    let judge = |design: &Design| {
+        let mut outcomes = check_all(design, &demands);
+        leave_open_not_covered(Known { design, guideline: &guideline, seen }, &mut outcomes);
+        leave_open_outside_range(design, &guideline, &mut outcomes);
+        if simulated.is_some() {
+            rung.leave_open_what_is_too_close(packings, &mut outcomes);
+        }
+        outcomes
+    };
+    let mut outcomes = judge(design);
+    leave_open_what_sockets_alone_hold(design, &mut outcomes, judge);
     let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
     doubts.extend(simulated.as_ref().and_then(|simulated| slower_than_designed(design, simulated)));
     let verdict = verdict(&outcomes, &doubts);

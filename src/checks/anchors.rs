@@ -15,11 +15,12 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let loads = demands.each(&anchor_load::PEAK).iter().enumerate().skip(net.ropes_held_by_bed());
     let by_load = loads.map(|(index, demand)| {
         let name = CheckName::of(&anchor_load::PEAK, index, format!("anchor_{}_load", index + 1), ANCHOR_FACTOR);
-        let demand = match net.dissipators {
-            Some(_) => *demand,
+        let (demand, beside) = match net.dissipators {
+            Some(_) => (*demand, 0.0),
             None => with_lateral(*demand, demands),
         };
         let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation).of_rope(index);
+        let outcome = Outcome { beside, ..outcome };
         match net.lateral_to {
             LateralTo::RopeEnds if net.dissipators.is_some() => outcome,
             LateralTo::RopeEnds => outcome.only_by_simulation(
@@ -35,10 +36,10 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
 
 /// Without dissipators a lateral rope pulls at the anchor wherever it is tied: what the equations have for the main rope and what the simulation
 /// has for the lateral one, in the worst case in the same direction.
-fn with_lateral(demand: Demand, demands: &Demands) -> Demand {
+fn with_lateral(demand: Demand, demands: &Demands) -> (Demand, f64) {
     let lateral = demands.one(&other_ropes::LATERAL).simulation;
     let both = demand.guideline.zip(lateral).map(|(main, lateral)| main + lateral);
-    Demand { guideline: both.or(demand.guideline), ..demand }
+    (Demand { guideline: both.or(demand.guideline), ..demand }, both.and(lateral).unwrap_or(0.0))
 }
 
 /// Factor on its plateau with which a dissipator may pull, assumed; a load factor that is as large covers it.

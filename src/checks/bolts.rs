@@ -129,7 +129,7 @@ mod tests {
             check(design, &demands).iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
         };
         assert_eq!(verdicts(&design, 40e3), [CheckVerdict::Pass; 2]);
-        // 100 kN in a rope that holds 337/1.5 = 225 kN with 40 kN on a space; 251 kN with 158 kN.
+        // 144 kN in a rope that holds 372/1.5 = 248 kN with 40 kN on a space; 362 kN with 158 kN.
         assert_eq!(verdicts(&design, 158e3)[1], CheckVerdict::Fail);
         if let BarrierDesign::FlexibleNet(net) = &mut design.barrier {
             net.bed_bolts.as_mut().expect("bolts").resistance = Some(100e3);

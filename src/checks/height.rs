@@ -3,7 +3,7 @@
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::guideline;
+use crate::guideline::{Guideline, guideline};
 use crate::quantities::height;
 use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
@@ -15,7 +15,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     }
     let name = CheckName::new("residual_height", "Residual height / initial height", Unit::Share, DESIGN_LIMIT);
     let mut outcome = Outcome::at_least(name, demands.one(&height::RESIDUAL), design.limits.residual_height);
-    if let Some(left) = left_by_sag(design)
+    if let Some(left) = left_by_sag(design, &guideline(design))
         && outcome.holds()
     {
         // Asked as "enough", so that what is not a number is not.
@@ -32,9 +32,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
 
 /// Height that a net of the height H keeps whose foot is held and whose top rope sags by f, over H: √(1 − (f/H)²); nothing where the
 /// guideline puts no load on that rope.
-fn left_by_sag(design: &Design) -> Option<f64> {
+pub fn left_by_sag(design: &Design, guideline: &Guideline) -> Option<f64> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    let top = guideline(design).ropes.pop().filter(|rope| rope.load > 0.0)?;
+    let top = guideline.ropes.last().filter(|rope| rope.load > 0.0)?;
     let over = top.state.sag / net.height;
     // Asked so that what is not a number stays so.
     Some(if over >= 1.0 { 0.0 } else { (1.0 - over * over).sqrt() })
@@ -54,10 +54,10 @@ mod tests {
         let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
         let seen = Demand { simulation: Some(0.9), ..Demand::default() };
         let verdict = |design: &Design| check(design, &Demands::default().with(&height::RESIDUAL, &[seen]))[0].verdict;
-        assert!(left_by_sag(&design).is_some_and(|left| left > 0.95));
+        assert!(left_by_sag(&design, &guideline(&design)).is_some_and(|left| left > 0.95));
         assert_eq!(verdict(&design), CheckVerdict::Pass);
         design.channel.width *= 3.5;
-        assert_eq!(left_by_sag(&design), Some(0.0));
+        assert_eq!(left_by_sag(&design, &guideline(&design)), Some(0.0));
         assert_eq!(verdict(&design), CheckVerdict::Open);
     }
 }

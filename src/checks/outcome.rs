@@ -159,6 +159,8 @@ pub struct Outcome {
     pub kind: Kind,
     /// How the demand grows with the load of the flow.
     pub growth: Growth,
+    /// What of the guideline's demand is from the simulation: the pull of a lateral rope (N).
+    pub beside: f64,
     pub source: &'static str,
 }
 
@@ -280,6 +282,14 @@ impl Outcome {
             && self.demand.guideline.zip(limit).is_some_and(|(demand, capacity)| demand > capacity)
     }
 
+    /// Whether the equations would fail it as they do `then`, the same check asked with something else, with what is beside them as well.
+    pub fn would_fail(&self, then: &Self) -> bool {
+        let with = then.demand.guideline.zip(self.capacity).filter(|_| self.beside > 0.0);
+        // Asked as "within", so that what is not a number is not.
+        let within = with.is_none_or(|(demand, capacity)| demand + self.beside <= capacity);
+        then.fails_by_equations() || !within
+    }
+
     /// The demand by one route with so many times the load of the flow.
     pub fn demand_under(&self, route: Route, more: f64) -> Option<f64> {
         let demand = match route {
@@ -329,6 +339,7 @@ impl Outcome {
             rests_on_pressures: true,
             kind: Kind::Any,
             growth: Growth::default(),
+            beside: 0.0,
             source,
         };
         if capacity.is_some() && utilisation.is_none() {

@@ -2,10 +2,10 @@
 //! overturning.
 
 use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
-use crate::demand::Demands;
-use crate::design::{BarrierDesign, Design};
+use crate::demand::{Demand, Demands};
+use crate::design::{BarrierDesign, Design, RigidWall};
 use crate::quantities::quantity::Unit;
-use crate::quantities::wall;
+use crate::quantities::{total_force, wall};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
@@ -13,7 +13,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let name = |source| {
         CheckName::new("wall_moment", "Moment at the foot of the wall, per width", Unit::NewtonMetrePerMetre, source)
     };
-    let demand = demands.one(&wall::MOMENT);
+    let demand = about_its_base(wall, demands);
     vec![match (wall.moment_resistance, wall.stability) {
         (Some(characteristic), _) => {
             let resistance = Resistance { characteristic, factor: wall.resistance_factor };
@@ -33,6 +33,23 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             "barrier.rigid_wall.moment_resistance, or barrier.rigid_wall.stability for a plain block",
         ),
     }]
+}
+
+/// The moment, of a wall that goes on below the bed about its base.
+fn about_its_base(design: &RigidWall, demands: &Demands) -> Demand {
+    let (moment, force) = (demands.one(&wall::MOMENT), demands.one(&total_force::ON_A_METRE));
+    let depth = design.stability.map_or(0.0, |stability| stability.founding_depth);
+    if depth <= 0.0 {
+        return moment;
+    }
+    let lowered =
+        |moment: Option<f64>, force: Option<f64>| moment.zip(force).map(|(moment, force)| moment + force * depth);
+    Demand {
+        guideline: lowered(moment.guideline, force.guideline),
+        simulation: lowered(moment.simulation, force.simulation),
+        characteristic: lowered(moment.characteristic, force.characteristic),
+        cap: None,
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! pressure as in a fluid (Iverson, George & Logan 2016). In fast flows the energy balance is far above what is measured, in slow
 //! ones the jump is above it; the larger of both bounds what a deposit may be heaped up to.
 
+use crate::larger::larger_or_nan;
 use crate::loads::input::GuidelineInput;
 
 /// h + v²/(2 g cos α) (m).
@@ -28,7 +29,7 @@ pub fn by_jump(input: &GuidelineInput) -> f64 {
 
 /// The larger of both (m).
 pub fn bound(input: &GuidelineInput) -> f64 {
-    by_energy(input).max(by_jump(input))
+    larger_or_nan(by_energy(input), by_jump(input))
 }
 
 #[cfg(test)]

@@ -31,6 +31,8 @@ pub struct WallInput {
     pub face_lean: f64,
     /// Of the water under the upstream edge of the base (m).
     pub water_head: f64,
+    /// How far the face goes on below the bed (m).
+    pub buried: f64,
 }
 
 /// kg/m³
@@ -45,6 +47,13 @@ impl WallInput {
     /// Uplift of the water under the base (N/m).
     pub fn uplift(&self) -> f64 {
         0.5 * WATER * crate::units::GRAVITY * self.water_head * self.base_width
+    }
+
+    /// Thrust of that water on the buried part of the face (N/m), and its moment about the base (N m/m).
+    pub fn water_thrust(&self) -> [f64; 2] {
+        let (head, depth) = (self.water_head, self.water_head.min(self.buried));
+        let unit = WATER * crate::units::GRAVITY;
+        [unit * depth * (head - 0.5 * depth), unit * depth * depth * (0.5 * head - depth / 3.0)]
     }
 
     /// What of the weight presses on the ground, the uplift taken off (N/m); 0 for a wall that floats.
@@ -137,7 +146,7 @@ impl WallInput {
     pub fn sliding(&self) -> [f64; 2] {
         [
             self.weight() * libm::cos(self.base_slope) * self.base_friction,
-            self.weight() * libm::sin(self.base_slope) + self.base_friction * self.uplift(),
+            self.weight() * libm::sin(self.base_slope) + self.base_friction * self.uplift() + self.water_thrust()[0],
         ]
     }
 
@@ -147,7 +156,8 @@ impl WallInput {
         [
             self.weight() * libm::cos(self.base_slope) * arm,
             self.weight() * libm::sin(self.base_slope) * 0.5 * self.height
-                + self.uplift() * self.base_width * 2.0 / 3.0,
+                + self.uplift() * self.base_width * 2.0 / 3.0
+                + self.water_thrust()[1],
         ]
     }
 }
@@ -168,6 +178,7 @@ mod tests {
         bed_slope: 0.0,
         face_lean: 0.0,
         water_head: 0.0,
+        buried: 0.0,
     };
 
     #[test]

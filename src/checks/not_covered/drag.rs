@@ -41,7 +41,7 @@ fn leave_open_what_a_usual_drag_fails(Known { design, guideline, .. }: Known, ou
     let with_drag = guideline_for(&dragged, guideline.input);
     let then = check_all(design, &Demands::by_equations(&with_drag, &design.factors));
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        if then.iter().any(|then| then.id == outcome.id && then.fails_by_equations()) {
+        if then.iter().any(|then| then.id == outcome.id && outcome.would_fail(then)) {
             outcome.leave_open(Opening::NotGiven(
                 "with a usual drag of the flow over the full barrier the equations would fail it (give loads.overflow_friction and loads.overflow_length)".into(),
             ));

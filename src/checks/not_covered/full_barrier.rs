@@ -26,11 +26,21 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         false => ("the barrier", "give it more resistance"),
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        let more = if outcome.unit == Unit::NewtonMetrePerMetre { more_moment } else { more };
+        let tips = outcome.unit == Unit::NewtonMetrePerMetre || outcome.kind == Kind::OnTheBase;
+        let more = if tips { more_moment } else { more };
         if more <= 1.0 {
             continue;
         }
         let Some([used, may_be]) = used_under_more(outcome, more, seen) else { continue };
+        // What the equations have is of the full barrier; what is beside them is of the first surge.
+        let beside = |band: f64| match outcome.demand.guideline.zip(outcome.capacity) {
+            Some((demand, capacity)) => (demand + (more * (1.0 + band) - 1.0) * outcome.beside) / capacity,
+            None => 0.0,
+        };
+        let [used, may_be] = match outcome.beside > 0.0 {
+            true => [larger_or_nan(used, beside(0.0)), larger_or_nan(may_be, beside(seen.force_band))],
+            false => [used, may_be],
+        };
         let full = if seen.push > 0.0 {
             format!(
                 "the simulation is of the first surge, and by the guideline {more:.1} times as much presses on {when}"

@@ -4,7 +4,8 @@
 
 use super::known::{FirstSurge, Known};
 use crate::checks::check_all;
-use crate::checks::outcome::{Opening, Outcome};
+use crate::checks::height::left_by_sag;
+use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::Design;
@@ -65,30 +66,32 @@ fn lambda_that_pushes(design: &Design, guideline: &Guideline, push: f64) -> f64 
     given.dynamic_pressure * (1.0 + (push - once) / (twice - once))
 }
 
-/// Largest force along the bed that the equations have for the barrier, with the λ that pushes as hard as the simulation if that is more (N).
+/// Largest force along the bed that the equations have for the barrier (N): with what is given, and with the K that is seen and the λ that pushes as
+/// hard, where those are more.
 pub fn largest_force(design: &Design, guideline: &Guideline, seen: &FirstSurge) -> f64 {
-    let lambda = lambda_that_pushes(design, guideline, seen.push);
-    // Asked so that what is not a number stays so.
-    if lambda <= guideline.input.dynamic_pressure {
-        return guideline.largest_force;
-    }
-    guideline_for(design, GuidelineInput { dynamic_pressure: lambda, ..guideline.input }).largest_force
+    let given = guideline.input;
+    let earth_pressure = larger_or_nan(seen.earth_pressure.unwrap_or(0.0), given.earth_pressure);
+    let dynamic_pressure = larger_or_nan(lambda_that_pushes(design, guideline, seen.push), given.dynamic_pressure);
+    guideline_for(design, GuidelineInput { earth_pressure, dynamic_pressure, ..given }).largest_force
 }
 
 fn leave_open_with(design: &Design, guideline: &Guideline, harder: GuidelineInput, outcomes: &mut [Outcome]) {
     let given = guideline.input;
-    let then = guideline_for(design, harder);
-    let mut checks = check_all(design, &Demands::by_equations(&then, &design.factors));
+    let asked = guideline_for(design, harder);
+    let mut checks = check_all(design, &Demands::by_equations(&asked, &design.factors));
     let before: Vec<bool> = checks.iter().map(Outcome::holds).collect();
-    leave_open_outside_range(design, &then, &mut checks);
+    leave_open_outside_range(design, &asked, &mut checks);
     let found = in_words(given, harder);
+    // Asked as "enough", so that what is not a number is not.
+    let enough_left = left_by_sag(design, &asked).is_none_or(|left| left >= design.limits.residual_height);
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let Some(place) = checks.iter().position(|then| then.id == outcome.id) else { continue };
         let (then, held) = (&checks[place], before[place]);
         let equations_count = outcome.governed_by_equations() || design.loads.to_the_top;
         // What cannot be asked, because something seen is not a number, does not hold.
         let unknown = then.demand.guideline.map_or(outcome.demand.guideline.is_some(), f64::is_nan);
-        let why = if then.fails_by_equations() || unknown {
+        let sags = outcome.kind == Kind::HeightLeft && !enough_left;
+        let why = if outcome.would_fail(then) || unknown || sags {
             "the equations would fail this check"
         } else if held && !then.holds() && equations_count {
             "the equations would be used outside the range they are known for"
