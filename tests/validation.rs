@@ -39,3 +39,14 @@ fn unknown_names_are_told() {
     let unknown = Selection { names: &names, quick_only: false }.cases().err();
     assert_eq!(unknown, Some(vec!["A99".to_string()]));
 }
+
+/// `docs/validation.md` is what the program makes of its cases and their last outcome; `INSTA_UPDATE=always` writes it anew.
+#[test]
+fn the_page_on_validation_is_the_program_s_own() {
+    let page = barrier_check::report::validation::document().expect("a page");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/validation.md");
+    if std::env::var("INSTA_UPDATE").is_ok_and(|wish| wish == "always") {
+        std::fs::write(path, &page).expect("it is written");
+    }
+    assert_eq!(std::fs::read_to_string(path).expect("the page"), page);
+}

@@ -125,4 +125,26 @@ mod tests {
         assert_eq!(verdict(false, 1.0), CheckVerdict::Open);
         assert_eq!(verdict(false, 1.35), CheckVerdict::Pass);
     }
+
+    /// Without dissipators what the equations have for the main rope and the simulated pull of the lateral rope meet at the anchor.
+    #[test]
+    fn without_dissipators_a_lateral_rope_pulls_at_the_anchor_as_well() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.dissipators = None;
+        let lateral_tension = Demand { simulation: Some(30e3), ..Demand::default() };
+        let equations = Demands::by_equations(&guideline(&design), &design.factors);
+        let alone = equations.each(&anchor_load::PEAK)[1].guideline.expect("a load");
+        let outcome = check(&design, &equations.clone().with(&other_ropes::LATERAL, &[lateral_tension])).remove(0);
+        assert_eq!((outcome.demand.guideline, outcome.beside), (Some(alone + 30e3), 30e3));
+        // The equations alone do not know it.
+        assert_eq!(check(&design, &equations)[0].beside, 0.0);
+        // Asked again with more of the equations, the lateral rope is still there.
+        let capacity = outcome.capacity.expect("a capacity");
+        let then = |load: f64| {
+            let demand = Demand { guideline: Some(load), ..Demand::default() };
+            check(&design, &equations.clone().with(&anchor_load::PEAK, &[demand; 3])).remove(0)
+        };
+        assert!(!outcome.would_fail(&then(capacity - 31e3)) && outcome.would_fail(&then(capacity - 29e3)));
+    }
 }

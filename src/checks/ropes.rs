@@ -147,4 +147,27 @@ mod tests {
         net.dissipators.as_mut().expect("dissipators").plateau = 300e3;
         assert_eq!(verdict(&design), CheckVerdict::Fail);
     }
+
+    /// Ends that nobody has described: all rules are asked again with 80 % of the breaking load.
+    #[test]
+    fn what_fails_anywhere_with_weak_ends_is_open_where_they_are_not_described() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let verdict = |design: &Design| {
+            let name = || CheckName::new("net_tension", "x", Unit::Newton, "x");
+            // A rule that asks for 1.2 times the tension that is shown.
+            let judge = |design: &Design| {
+                let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
+                let demand = Demand { simulation: Some(1.2 * 75e3), ..Demand::default() };
+                vec![Outcome::at_most(name(), demand, resistance(design, &net.net_rope), 1.0)]
+            };
+            let mut outcomes = judge(design);
+            assert!(outcomes[0].holds());
+            leave_open_what_sockets_alone_hold(design, &mut outcomes, judge);
+            outcomes[0].verdict
+        };
+        design.factors.rope_end_given = true;
+        assert_ne!(verdict(&design), CheckVerdict::Open);
+        design.factors.rope_end_given = false;
+        assert_eq!(verdict(&design), CheckVerdict::Open);
+    }
 }

@@ -85,4 +85,17 @@ mod tests {
         assert_eq!(verdict(None, Some(2.0)), CheckVerdict::Info);
         assert_eq!(verdict(None, Some(2.5)), CheckVerdict::Open);
     }
+
+    /// 92.6 kN m/m at the bed and 77.6 kN/m: 240 kN m/m about a base 1.9 m deeper.
+    #[test]
+    fn the_moment_of_a_wall_that_goes_on_below_the_bed_is_about_its_base() {
+        let mut design = read_design("x", include_bytes!("../../designs/gravity_wall.yaml")).unwrap().design;
+        let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        wall.stability.as_mut().expect("stability").founding_depth = 1.9;
+        let of = |value: f64| Demand { guideline: Some(value), ..Demand::default() };
+        let demands =
+            Demands::default().with(&wall::MOMENT, &[of(92.6e3)]).with(&total_force::ON_A_METRE, &[of(77.6e3)]);
+        let found = check(&design, &demands)[0].demand.guideline.expect("a moment");
+        assert!((found / 240.04e3 - 1.0).abs() < 1e-9, "{found}");
+    }
 }

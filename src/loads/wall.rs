@@ -257,4 +257,20 @@ mod tests {
         assert_eq!((wet.sliding()[0], wet.overturning()[0]), (dry.sliding()[0], dry.overturning()[0]));
         assert_eq!(WallInput { water_head: 9.0, ..dry }.bears(), 0.0);
     }
+
+    /// 3.55 m of water on a face that goes on 4.7 m below the bed: ½ · 9.81 · 3.55² = 61.82 kN/m, a third of 3.55 m up. 3 m on one of 1 m: the lower
+    /// metre of the triangle, 9.81 · 1 · 2.5 = 24.53 kN/m with 9.81 · (3/2 − 1/3) = 11.45 kN m/m.
+    #[test]
+    fn water_pushes_the_part_of_the_face_that_is_in_the_ground() {
+        let thrust = |head: f64, buried: f64| WallInput { water_head: head, buried, ..BLOCK }.water_thrust();
+        let [force, moment] = thrust(3.55, 4.7);
+        assert_relative_eq!(force, 61.816e3, max_relative = 1e-4);
+        assert_relative_eq!(moment, 61.816e3 * 3.55 / 3.0, max_relative = 1e-4);
+        let [force, moment] = thrust(3.0, 1.0);
+        assert_relative_eq!(force, 24.525e3, max_relative = 1e-4);
+        assert_relative_eq!(moment, 11.445e3, max_relative = 1e-4);
+        assert_eq!(thrust(3.0, 0.0), [0.0, 0.0]);
+        let wet = WallInput { water_head: 3.55, buried: 4.7, ..BLOCK };
+        assert_relative_eq!(wet.sliding()[1] - wet.base_friction * wet.uplift(), 61.816e3, max_relative = 1e-4);
+    }
 }

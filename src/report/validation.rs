@@ -5,9 +5,11 @@ use tera::{Context, Tera};
 
 use crate::program::COMMIT;
 use crate::report::folder::ReportFile;
-use crate::validation::case::{Finding, Ran, Wanted};
+use crate::validation::CASES;
+use crate::validation::case::{Case, Finding, Ran, Wanted};
 
 const HTML: &str = include_str!("../../templates/validation.html");
+const DOCUMENT: &str = include_str!("../../templates/validation_document.md");
 const MARKDOWN: &str = include_str!("../../templates/validation.md");
 
 /// One case, ready to be shown.
@@ -139,6 +141,44 @@ impl Kept {
         let case = |row: &Row| KeptCase { id: row.id.to_string(), title: row.title.to_string(), held: row.passed() };
         Self { commit: COMMIT.to_string(), cases: rows.iter().map(case).collect() }
     }
+}
+
+/// The page of the documentation on validation: every case with its reference, and what it came to when all of them ran last.
+pub fn document() -> Result<String, tera::Error> {
+    let kept = Kept::of_this_version();
+    let result = |case: &Case| {
+        let found = kept.iter().flat_map(|kept| &kept.cases).find(|kept| kept.id == case.id);
+        found.map_or("not run yet", |kept| if kept.held { "passes" } else { "does not pass" })
+    };
+    let row = |case: &&Case| DocumentRow {
+        id: case.id,
+        suite: case.suite.word(),
+        title: case.title,
+        source: case.source,
+        tier: case.tier.word(),
+        weakness: case.weakness,
+        result: result(case),
+    };
+    let rows: Vec<DocumentRow> = CASES.iter().map(row).collect();
+    let count = |result: &str| rows.iter().filter(|row| row.result == result).count();
+    let mut context = Context::new();
+    context.insert("passed", &count("passes"));
+    context.insert("ran", &(rows.len() - count("not run yet")));
+    context.insert("later", &count("not run yet"));
+    context.insert("commit", &kept.as_ref().map_or("unknown", |kept| kept.commit.as_str()));
+    context.insert("cases", &rows);
+    Tera::one_off(DOCUMENT, &context, false)
+}
+
+#[derive(Debug, Serialize)]
+struct DocumentRow {
+    id: &'static str,
+    suite: &'static str,
+    title: &'static str,
+    source: &'static str,
+    tier: &'static str,
+    weakness: &'static str,
+    result: &'static str,
 }
 
 /// How many cases hold; of all that were `asked` for some may not have run.
