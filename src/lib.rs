@@ -11,16 +11,16 @@
 //! |---|---|
 //! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
-//! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes; for the stable step [`dem::time::links`]; its damping in [`dem::contact::restitution`]; `Simulation::surface_contacts` works the normal force out again for pictures |
+//! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes, and its springs by `law::Spring`, from which the stable step and what is shown go as well; its damping in [`dem::contact::restitution`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
-//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], its forces in [`dem::net`], its stiffness in [`dem::time::links`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), its load in [`dem::recorders`] (film and snapshots list what pulls as well); raise the `FORMAT` of [`checkpoint::file`] |
+//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands` and `Barrier::springs` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
 //! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its working with [`loads::cases::working`] |
 //! | another impact model | an entry of [`loads::other_models::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
-//! | a shape of surface | [`dem::tables::surfaces`] (`Surface::nearest` tells what it does to a grain), where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
+//! | a shape of surface | a file in [`dem::tables`] beside `surfaces` and `terrain`, and its lines in [`dem::tables::fixed`], which tells all others what a grain touches; where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
