@@ -50,6 +50,8 @@ fn a_clear_pass_needs_one_start() {
             // Beyond what a single run may be off by.
             ("diameter: 20 mm", "diameter: 24 mm"),
             ("breaking_load: 279 kN", "breaking_load: 401 kN"),
+            ("bed_bolt_resistance: 300 kN", "bed_bolt_resistance: 550 kN"),
+            ("  rope: 1.5 ", "  rope_end: 1\n  rope: 1.5 "),
         ],
     );
     assert_eq!((code, rungs), (Some(0), vec!["equations".to_string(), "grains".to_string()]));
