@@ -113,7 +113,7 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
             most: Some(2200.0),
             unit: "kg/m³",
             source: "Volkwein 2014 (as cited by Albaba 2015)",
-            advice: "K and λ of the guideline were set for flows within this range: compare with \"Other models for the first surge\", and with K and λ of the simulation",
+            advice: "advice only, which leaves no check open: pressures are proportional to the density, and K and λ are chosen in the design; the guideline set them for flows within this range: compare with \"Other models for the first surge\", and with K and λ of the simulation",
             // Pressures are proportional to the density; that K or λ hang on it as well is not known.
             bearing: Bearing::Advice,
         },

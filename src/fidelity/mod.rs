@@ -45,10 +45,7 @@ pub fn choose(design: &Design) -> Fidelity {
         if net < grains { "a knot of the net with a grain pressed on it" } else { "a pair of the smallest grains" };
     let bounce = LONGEST_PHASE / pairs.frequency;
     let stable = share * grains.min(net);
-    let mut reason = format!(
-        "{share} of the critical step of {governing} ({:.2e} s); what is really connected is audited during the run",
-        grains.min(net)
-    );
+    let mut reason = format!("{share} of the estimated critical step of {governing} ({:.2e} s)", grains.min(net));
     if bounce < stable {
         reason.push_str("; shortened so that restitution is kept on the mean of many impacts");
     }

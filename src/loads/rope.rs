@@ -74,7 +74,7 @@ impl RopeInput {
     }
 
     /// Arc length of a parabola of the given sag.
-    fn arc(&self, sag: f64) -> f64 {
+    pub fn arc(&self, sag: f64) -> f64 {
         let slope = 4.0 * sag / self.span;
         if slope < 1e-6 {
             return self.span * (1.0 + slope * slope / 6.0);

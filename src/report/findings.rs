@@ -39,7 +39,7 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
             with_unit(design.flow.mass, "kg"),
             format!("weight {}, its component along the bed {downhill}", with_unit(weight, "N")),
         ),
-        row("Highest mean velocity", with_unit(seen.one(&mass::VELOCITY), "m/s"), fastest),
+        row("Highest mean velocity of all grains", with_unit(seen.one(&mass::VELOCITY), "m/s"), fastest),
         row(
             "Incoming flow",
             incoming,
@@ -73,9 +73,10 @@ fn force_rows(design: &Design, simulated: &Simulated) -> Vec<Row> {
             "Largest total force",
             with_unit(seen.one(&total_force::PEAK), "N"),
             format!(
-                "at {:.2} s; {}; length of the vector, mean over the smoothing window",
+                "at {:.2} s; {}; length of the vector, mean over the smoothing window; the largest part along the bed is {}",
                 seen.one(&total_force::PEAK_TIME),
-                per_width(seen.one(&total_force::PEAK), design)
+                per_width(seen.one(&total_force::PEAK), design),
+                with_unit(seen.one(&total_force::PUSH), "N")
             ),
         ),
         row("Total force at rest", with_unit(seen.one(&total_force::RESIDUAL), "N"), at_rest_remark(design, seen)),
@@ -140,7 +141,10 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
     let at_peak = row(
         "K back-calculated from the grains at rest, at their peak force F₁",
         of(Coefficients::at_peak_of(&told.earth_pressure, &told.force_dead)),
-        format!("F₁ over ρ g' H_d (H_d/2 + h); {}", words_at(told, Coefficients::peak_of(&told.force_dead))),
+        format!(
+            "F₁ over ρ g' H_d (H_d/2 + h), along the channel, at one sample; {}",
+            words_at(told, Coefficients::peak_of(&told.force_dead))
+        ),
     );
     let moving = row(
         "λ back-calculated from the moving grains, at their peak force F₂",
@@ -150,7 +154,7 @@ fn coefficient_rows(run: &Run, seen: &Observed) -> Vec<Row> {
             of(Coefficients::at_peak_of(&told.dynamic_mean, &told.force_moving))
         ),
         format!(
-            "(F₂ − ½ K ρ g' h²)/(ρ v² h) with the design's K, with the velocity just upstream / with the mean velocity of all grains; {}",
+            "(F₂ − ½ K ρ g' h²)/(ρ v² h), along the channel, at one sample and not smoothed, so larger than the value above; with the design's K, with the velocity just upstream / with the mean velocity of all grains; {}",
             words_at(told, Coefficients::peak_of(&told.force_moving))
         ),
     );

@@ -10,8 +10,10 @@ use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::other_models::MODELS;
+use crate::loads::rope::RopeInput;
 use crate::loads::run_up;
 use crate::pipeline::Run;
+use crate::quantities::bed;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
 use crate::report::row::{Row, lower_first, row};
@@ -126,7 +128,7 @@ fn remark(run: &Run, case: &LoadCase) -> String {
         let enters = if case.shear_certainty.decides() {
             "enters the checks"
         } else {
-            "with a default for friction and length, for information only: give loads.overflow_friction and overflow_length to have it checked"
+            "length as deep as the flow and φ = 25° by default, for information only: give loads.overflow_friction and overflow_length to have it checked"
         };
         parts.push(format!(
             "drag on the barrier's top = ρ g' h_o · length · tan φ = {} ({enters})",
@@ -185,6 +187,14 @@ pub fn ropes(run: &Run) -> Vec<RopeRow> {
     run.guideline.ropes.iter().enumerate().filter_map(row).collect()
 }
 
+/// EA of the main ropes (N); 0 for a wall.
+fn axial_stiffness(run: &Run) -> f64 {
+    match &run.file.design.barrier {
+        BarrierDesign::FlexibleNet(net) => net.main_ropes.rope.axial_stiffness(),
+        BarrierDesign::RigidWall(_) => 0.0,
+    }
+}
+
 /// How the demand of the lowest rope between its bolts, and of its worst bolt, follows from the guideline; empty where it has none.
 pub fn bolted_rope(run: &Run) -> String {
     let (BarrierDesign::FlexibleNet(net), Some(load)) = (&run.file.design.barrier, run.guideline.bolt_force) else {
@@ -195,9 +205,17 @@ pub fn bolted_rope(run: &Run) -> String {
     let more = concentration(spacing / net.main_ropes.ring_spacing);
     let axial = net.main_ropes.rope.axial_stiffness() * more;
     let along = libm::cbrt(load * load * axial / 24.0);
+    let simulated = run
+        .simulated
+        .as_ref()
+        .map_or(String::new(), |seen| format!(", {} in the first run", with_unit(seen.first().one(&bed::BOLT), "N")));
     format!(
-        "Rope 1, bolted to the bed: P = {:.2} kN on the space between two bolts, its strip spread evenly; along the rope H = (c P² EA/24)^⅓ = ({more:.2} · {:.2}² · {:.0}/24)^⅓ = {:.1} kN, c = 1 + 2/m² for a load that comes in at the m rings of a space; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst bolt, H and T follow likewise, and the pull of the lateral rope is added to the bolt at the end.",
+        "Rope 1, bolted to the bed: its strip, {:.2} to {:.2} m, carries {:.1} kN in all, so P = {:.2} kN on each of {spaces} spaces of {spacing:.3} m between bolts, with m = {:.0} rings in each; along the rope H = (c P² EA/24)^⅓ = ({more:.2} · {:.2}² · {:.0}/24)^⅓ = {:.1} kN, c = 1 + 2/m² for a load that comes in at the m rings of a space; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst bolt{simulated}, H and T follow likewise, and the pull of the lateral rope is added to the bolt at the end.",
+        run.guideline.ropes.first().map_or(0.0, |rope| rope.strip[0]),
+        run.guideline.ropes.first().map_or(0.0, |rope| rope.strip[1]),
+        run.guideline.bed_force.unwrap_or(0.0) / 1e3,
         load / 1e3,
+        (spacing / net.main_ropes.ring_spacing).floor().max(1.0),
         load / 1e3,
         axial / more / 1e3,
         along / 1e3,
@@ -235,10 +253,14 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
         rope.load / 1e3,
     );
     let (q, sag) = (rope.load / 1e3, rope.state.sag);
+    let line = RopeInput { span, axial_stiffness: axial_stiffness(run), dissipator: None };
+    let arc = line.arc(sag);
     let yields = run.guideline.dissipator.is_some_and(|[plateau, _]| rope.state.tension == plateau);
     if yields {
         format!(
-            "{load}; the dissipators yield, so T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m"
+            "{load}; the dissipators yield, so T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola",
+            span * (1.0 + tension * 1e3 / line.axial_stiffness),
+            rope.state.stroke
         )
     } else {
         format!(
@@ -350,9 +372,10 @@ pub fn holding(run: &Run) -> Vec<Row> {
         "Freeboard after one event",
         with_unit(input.barrier_height - one_event, "m"),
         format!(
-            "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier at the angle of repose ({}), but no higher than the larger run-up; with a level surface {}. No guideline value was found",
+            "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier, its surface falling upstream at {:.1}° (flow.grain_friction), to {}, but no higher than the larger run-up; with a level surface {}. No guideline value was found",
             with_unit(input.barrier_height, "m"),
             with_unit(event.height(), "m"),
+            libm::atan(design.flow.grain_friction).to_degrees(),
             if event.heap.is_finite() { with_unit(event.heap, "m") } else { "no limit".into() },
             with_unit(event.level, "m"),
         ),
@@ -452,7 +475,7 @@ pub fn margin(run: &Run) -> String {
             times(most)
         ),
         Limit::At(factor, first) if factor >= 1.0 => format!(
-            "the {name} could increase by {:.0} % before a check fails by the guideline ({})",
+            "the {name} could increase by {:.0} % before a check fails by the guideline, or is open ({})",
             100.0 * (factor - 1.0),
             lower_first(&first)
         ),
@@ -479,7 +502,11 @@ pub fn least_margin(run: &Run) -> Option<String> {
     };
     let both = [grown("velocity", margin.velocity), grown("depth", margin.depth)];
     let (factor, name, first) = both.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(format!("{:.0} % more {name} makes a check fail ({})", 100.0 * (factor - 1.0), lower_first(&first)))
+    Some(format!(
+        "{:.0} % more {name} makes a check fail or leaves it open ({})",
+        100.0 * (factor - 1.0),
+        lower_first(&first)
+    ))
 }
 
 /// A factor in words: "2.7 times".

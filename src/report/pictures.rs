@@ -390,7 +390,10 @@ fn force_chart(run: &Run, seen: &Simulated) -> Chart {
         band: force_band(seen),
     };
     let band = if seen.starts.len() > 1 { " Band: envelope of all runs." } else { "" };
-    let note = format!("Mean over {:.0} ms. Dashed: guideline.{band}", 1e3 * seen.facts.smoothing);
+    let note = format!(
+        "Length of the force vector, mean over {:.0} ms. Dashed: guideline, along the bed.{band}",
+        1e3 * seen.facts.smoothing
+    );
     Chart::of("Force on the barrier", chart.svg(), note)
 }
 

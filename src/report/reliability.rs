@@ -41,7 +41,7 @@ fn limit_rows(run: &Simulated) -> Vec<Row> {
             "Time step / critical step",
             format!("{:.2}", numerics.step_ratio),
             format!(
-                "largest found during the run; below 1 is stable. Above 1 the step is shortened at once, and the energy balance shows whether it did harm; above {STEP_LIMIT} the run is rejected. {:.0} % of the energy of the critical mode is in the barrier",
+                "largest found during the run, over all that is connected; below 1 is stable. Above 1 the step is shortened at once, and the energy balance shows whether it did harm; above {STEP_LIMIT} the run is rejected. The mode that limits it has {:.0} % of its energy in the barrier, the rest in the grains",
                 100.0 * facts.step_ratio.in_barrier
             ),
         ),
@@ -121,7 +121,7 @@ fn step_remark(run: &Simulated) -> String {
             now / wished
         ),
     };
-    format!("at first {}; {cuts}", run.fidelity.reason)
+    format!("chosen beforehand as {}; {cuts}", run.fidelity.reason)
 }
 
 fn threads(count: usize) -> String {

@@ -150,13 +150,13 @@ fn of_ropes(design: &Design) -> Option<&'static str> {
     match (&design.barrier, design.simulation.barrier_model) {
         (BarrierDesign::RigidWall(_), _) => None,
         (_, BarrierModel::PinnedRopes) => Some(
-            "Ropes pull and never push and do not bend; rings are fixed to the main ropes; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+            "Ropes pull and never push and do not bend; the connecting rings between net and main ropes are fixed to them; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
         ),
         (_, BarrierModel::SlidingRopes) => Some(
-            "Ropes pull and never push and do not bend; main ropes run through the rings of the net with friction; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
+            "Ropes pull and never push and do not bend; main ropes run through the connecting rings of the net with friction; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
         ),
         (_, BarrierModel::Cylinders) => Some(
-            "Ropes are elastic cylinders that bend and twist as solid rods of their modulus; rings are squares of four cylinders that slide on the main ropes with friction; axial damping of 5 % and bending damping of 20 % of critical is added.",
+            "Ropes are elastic cylinders that bend and twist as solid rods of their modulus; the connecting rings between net and main ropes are squares of four cylinders that slide on the main ropes with friction; axial damping of 5 % and bending damping of 20 % of critical is added.",
         ),
     }
 }

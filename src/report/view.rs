@@ -281,7 +281,7 @@ pub fn summary(run: &Run) -> String {
         Verdict::Pass => {
             let one = match &run.simulated {
                 Some(simulated) if simulated.starts.len() == 1 && run.climb.is_empty() => {
-                    "; based on a single run, with an assumed allowance for the scatter between runs"
+                    "; based on a single run, with an assumed allowance for the scatter between runs and the error of the model"
                 }
                 _ => "",
             };

@@ -3,7 +3,7 @@
 use crate::checks::credibility::ESCAPED_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::implausible::implausible;
-use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::checks::range::rope_outside;
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::rung_of;
@@ -279,7 +279,7 @@ fn faster_flow_than_the_guideline_was_given(run: &Run) -> Option<String> {
     (given > 0.0 && seen.incoming.depth > 0.0 && velocity > 1.05 * given).then(|| {
         let front = seen.known(&incoming::FRONT).map_or(String::new(), |front| format!(" (its front with {})", with_unit(front, "m/s")));
         format!(
-            "The simulated flow speeds up on its way: just upstream of the barrier it has {}{front} and a depth of {}, while the guideline calculation uses {} and {}. With the simulated values the pressure λρv² would be {:.0} % higher and the thrust λρv²h {}.",
+            "The front of the simulated flow speeds up and thins on its way: just upstream of the barrier it has {}{front} and a depth of {}, while the guideline calculation uses {} and {}. With the simulated values the pressure λρv² would be {:.0} % higher and the thrust λρv²h {}.",
             with_unit(velocity, "m/s"),
             with_unit(seen.incoming.depth, "m"),
             with_unit(given, "m/s"),
@@ -385,6 +385,10 @@ pub fn left_by_simulation(run: &Run) -> Option<String> {
     }
     let (most, share) = used.into_iter().filter(|(_, used)| *used > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
     let grow = match most.unit {
+        // Between bolts a rope is pulled by the load to the power of two thirds.
+        _ if matches!(most.kind, Kind::Bolts | Kind::BetweenBolts) => {
+            format!(": its demand could increase by {:.0} % before it fails", 100.0 * (1.0 / share - 1.0))
+        }
         Unit::Newton | Unit::NewtonPerMetre | Unit::NewtonMetrePerMetre => format!(
             ": its demand could increase by {:.0} % before it fails (the velocity by {:.0} %, if the demand grows with its square)",
             100.0 * (1.0 / share - 1.0),
@@ -423,7 +427,7 @@ pub fn pinned_fidelity(run: &Run) -> Option<String> {
     let open = rung.open(&run.outcomes);
     let band = &rung.band;
     let known = format!(
-        "for the verdict the simulated demands are also taken with an allowance for the scatter between runs and for the error of this level of model: forces up to {:.0} % and strokes up to {:.0} % more, retained mass and height {:.0} percentage points less",
+        "for the verdict the simulated demands are also taken with an allowance for the scatter between runs and for the error of this level of model, from the largest differences between runs and between levels on the example designs: forces {:.0} % and strokes {:.0} % more, retained mass and height {:.0} percentage points less",
         100.0 * band.force,
         100.0 * band.stroke,
         100.0 * band.share

@@ -6,9 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::checks::check_all;
 use crate::checks::outcome::Outcome;
+use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{filled, guideline_for, input};
+use crate::guideline::{Guideline, filled, guideline_for, input};
 use crate::loads::input::GuidelineInput;
 
 /// What one set of inputs comes to, by the equations or by a simulation.
@@ -78,7 +79,29 @@ fn scale_plateau(design: &mut Design, factor: f64) {
 }
 
 /// What the equations say with one input changed.
-fn changed(design: &Design, (_, _, change): Change, factor: f64) -> Point {
+fn changed(design: &Design, change: Change, factor: f64) -> Point {
+    let (guideline, outcomes) = outcomes_with(design, change, factor);
+    Point::of(guideline.face_force, &outcomes)
+}
+
+/// The check that fails first with one input changed, or that a formula governs which is no longer known to hold then; nothing inside where all
+/// hold, nothing at all where none is judged.
+fn first_to_go(design: &Design, change: Change, factor: f64) -> Option<Option<String>> {
+    let (guideline, mut outcomes) = outcomes_with(design, change, factor);
+    let point = Point::of(guideline.face_force, &outcomes);
+    // Asked as "within", so that what is not a number is not.
+    let within = point.utilisation? <= 1.0;
+    if !within {
+        return Some(Some(point.governing));
+    }
+    let held: Vec<String> =
+        outcomes.iter().filter(|outcome| outcome.holds()).map(|outcome| outcome.id.clone()).collect();
+    leave_open_outside_range(design, &guideline, &mut outcomes);
+    let open = outcomes.iter().find(|outcome| !outcome.holds() && held.contains(&outcome.id));
+    Some(open.map(|outcome| format!("{}, by a formula outside its range", outcome.title)))
+}
+
+fn outcomes_with(design: &Design, (_, _, change): Change, factor: f64) -> (Guideline, Vec<Outcome>) {
     let (mut design, mut flow) = (design.clone(), input(design));
     let before = flow.fill_height;
     change(&mut design, &mut flow, factor);
@@ -88,7 +111,7 @@ fn changed(design: &Design, (_, _, change): Change, factor: f64) -> Point {
     flow.fill_height = flow.fill_height.max(flow.depth.min(flow.barrier_height));
     let guideline = guideline_for(&design, flow);
     let outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
-    Point::of(guideline.face_force, &outcomes)
+    (guideline, outcomes)
 }
 
 impl Point {
@@ -140,7 +163,17 @@ pub fn swings(design: &Design) -> Vec<Swing> {
 
 /// By how much the flow may grow, or must shrink, until the first check by equations just holds.
 pub fn margin(design: &Design) -> Margin {
-    let holds = |change: Change, factor: f64| changed(design, change, factor).utilisation.map(|used| used <= 1.0);
+    // What is outside its range as it is says nothing of how far it may go.
+    let outside = first_to_go(design, VELOCITY, 1.0).flatten().is_some();
+    // Less than the design has leaves ranges as well, which is no margin.
+    let gone = |change: Change, factor: f64| match outside || factor < 1.0 {
+        true => {
+            let point = changed(design, change, factor);
+            point.utilisation.map(|used| if used <= 1.0 { None } else { Some(point.governing) })
+        }
+        false => first_to_go(design, change, factor),
+    };
+    let holds = |change: Change, factor: f64| gone(change, factor).map(|gone| gone.is_none());
     let limit = |change: Change, largest: f64| {
         match (holds(change, SMALLEST), holds(change, largest)) {
             (None, _) | (_, None) => return Limit::Unjudged,
@@ -157,7 +190,7 @@ pub fn margin(design: &Design) -> Margin {
                 high = middle;
             }
         }
-        Limit::At(low, changed(design, change, high).governing)
+        Limit::At(low, gone(change, high).flatten().unwrap_or_default())
     };
     // A flow deeper than the barrier goes over it: no case is of that.
     let flow = input(design);
@@ -187,6 +220,14 @@ mod tests {
     #[test]
     fn at_the_margin_the_first_check_just_holds() {
         let design = design();
+        let Limit::At(factor, first) = margin(&design).velocity else { panic!("no margin") };
+        let at = |factor: f64| changed(&design, VELOCITY, factor).utilisation.unwrap();
+        // Here the sag of rope 2 leaves the range of its parabola before a check fails.
+        assert!(at(factor * 1.001) <= 1.0 && first.ends_with("by a formula outside its range"), "{factor}: {first}");
+        assert_eq!(first_to_go(&design, VELOCITY, factor * 1.001), Some(Some(first)));
+        assert_eq!(first_to_go(&design, VELOCITY, factor), Some(None));
+        // A wall has no such formula.
+        let design = read_design("x", include_bytes!("../../designs/gravity_wall.yaml")).unwrap().design;
         let Limit::At(factor, first) = margin(&design).velocity else { panic!("no margin") };
         let at = |factor: f64| changed(&design, VELOCITY, factor).utilisation.unwrap();
         assert!(at(factor) <= 1.0 && at(factor * 1.001) > 1.0, "{factor}");
@@ -250,6 +291,7 @@ mod tests {
             (dissipator.plateau, dissipator.stroke) = (1e9, 1e9);
             design.factors.overstrength = 1e-9;
         };
+        design.limits.outside_range = crate::design::OutsideRange::Warn;
         let mut strong = design.clone();
         everything(&mut strong, 1e9);
         assert_eq!(margin(&strong).velocity, Limit::NeverFails(LARGEST));
