@@ -73,15 +73,14 @@ fn flow(e: &Entries) -> Option<Flow> {
 
 /// Way that a surge runs before it meets the barrier, over its depth, where the design says none: a block as it is packed moves as one
 /// and hits far too hard; on this way it loosens and its front takes shape.
-const RUN_IN: f64 = 4.0;
+pub const RUN_IN: f64 = 4.0;
 /// Flattest front that is taken where the design says none (rad): 15 degrees.
 const FLATTEST_FRONT: f64 = 0.261_799_387_799_149_4;
 
 /// Angle to the bed of the front of a granular flow, tan = tan φ − tan α, with the friction angle φ of the grains and the slope α
 /// (Pouliquen 1999, for the thin tip of a front on a rough bed).
-fn granular_front(e: &Entries) -> Option<f64> {
-    let steepness = e.number("flow.grain_friction").map_or(0.0, libm::tan) - libm::tan(e.number("channel.slope")?);
-    Some(libm::atan(steepness).max(FLATTEST_FRONT))
+pub fn granular_front(friction: f64, slope: f64) -> f64 {
+    libm::atan(libm::tan(friction) - libm::tan(slope)).max(FLATTEST_FRONT)
 }
 
 fn arrival(e: &Entries) -> Option<Arrival> {
@@ -102,7 +101,8 @@ fn arrival(e: &Entries) -> Option<Arrival> {
         length: area(depth)?,
         depth,
         velocity: value("surge.velocity")?,
-        front_angle: value("surge.front_angle").unwrap_or(granular_front(e)?),
+        front_angle: value("surge.front_angle")
+            .unwrap_or(granular_front(e.number("flow.grain_friction").unwrap_or(0.0), e.number("channel.slope")?)),
         run_in: value("surge.run_in").unwrap_or(RUN_IN * depth),
     }))
 }

@@ -110,7 +110,7 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
         (
             matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.founding_depth > 0.0)),
             "The earth pressure on the part of the wall below the bed, and the resistance of the ground in front of it, are left out.",
-            EITHER,
+            UNSAFE,
         ),
         (
             true,
@@ -180,7 +180,10 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
             bolts,
             "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_bolt_spacing and anchors.bed_bolt_resistance would have them checked)",
         ),
-        (loads.point_load.is_none(), "impact of single boulders larger than the design grains, and of wood"),
+        (
+            loads.point_load.is_none(),
+            "impact of single boulders larger than the design grains, and of wood (loads.point_load)",
+        ),
         (loads.drained.is_none(), "drainage of the deposit"),
         (loads.snow_pressure.is_none(), "snow"),
     ];

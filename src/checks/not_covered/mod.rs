@@ -7,6 +7,7 @@ pub(crate) mod hanging_base;
 pub(crate) mod harder_flow;
 pub(crate) mod heaped;
 pub(crate) mod known;
+pub(crate) mod largest_grain;
 pub(crate) mod load_factor;
 pub(crate) mod not_simulated;
 pub(crate) mod rigid_wall;
@@ -26,6 +27,7 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
     hanging_base::leave_open,
     short_peaks::leave_open,
     rigid_wall::leave_open,
+    largest_grain::leave_open,
     load_factor::leave_open,
     not_simulated::leave_open,
     side_strips::leave_open,

@@ -2,7 +2,17 @@
 
 use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome, Route};
-use crate::design::BarrierDesign;
+use crate::design::resolve::{RUN_IN, granular_front};
+use crate::design::{Arrival, BarrierDesign, Design};
+
+/// Whether the design has a surge hit with a steeper front, or after a shorter way, than it would have by default.
+fn hits_as_a_block(design: &Design) -> bool {
+    let Arrival::Surge(surge) = design.flow.arrival else { return false };
+    let front = granular_front(libm::atan(design.flow.grain_friction), design.channel.slope);
+    // Asked as "like the default", so that what is not a number is not; where nothing is said of the grains the front is not known.
+    let like_the_default = surge.front_angle <= front + 1e-6 && surge.run_in >= RUN_IN * surge.depth * (1.0 - 1e-6);
+    !like_the_default && !design.flow.grain_friction.is_nan()
+}
 
 /// Simulated over the guideline's loads that may come out. The examples reach 1.8, 3.3 for bolts, and walls reached 2.2, and 4.6 under a vertical front at 20 m/s; the
 /// rung of the equations in the ladder of models goes by it as well.
@@ -12,10 +22,12 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     if known.seen.is_some() || !matches!(known.design.barrier, BarrierDesign::RigidWall(_)) {
         return;
     }
+    // Under a front that is made steeper than one of grains, or has no way to take shape, there is no such bound.
+    let bounded = !hits_as_a_block(known.design);
     let close = |outcome: &&mut Outcome| {
         // Asked as "enough to spare", so that what is not a number has none.
         let reached = outcome.demand_under(Route::Guideline, SIMULATIONS_REACH).zip(outcome.capacity);
-        let spare = reached.is_some_and(|(reached, capacity)| reached <= capacity);
+        let spare = bounded && reached.is_some_and(|(reached, capacity)| reached <= capacity);
         outcome.holds() && outcome.resistance.is_some() && outcome.rests_on_pressures && !spare
     };
     for outcome in outcomes.iter_mut().filter(close) {
