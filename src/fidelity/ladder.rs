@@ -146,9 +146,10 @@ fn coarsen(design: &mut Design) {
 /// Packings from which their scatter is told by themselves: the table that k_n is from begins with three.
 const LEAST_STARTS: usize = 3;
 
-/// The rung that a run of this many packings is like, whose fineness the design pins.
+/// Share of the flow that may be coarsened before a run counts as one of coarse grains.
 const SMALL_CUT: f64 = 0.25;
 
+/// The rung that a run of this many packings is like, whose fineness the design pins.
 pub fn rung_of(design: &Design, starts: usize) -> &'static Rung {
     let fine = design.simulation.fidelity == FidelityWish::Fine
         && match &design.barrier {

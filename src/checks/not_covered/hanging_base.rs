@@ -21,7 +21,7 @@ pub fn leave_open(Known { design, .. }: Known, outcomes: &mut [Outcome]) {
     if in_the_ground {
         return;
     }
-    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds() && outcome.id.starts_with("wall_")) {
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         if matches!(outcome.id.as_str(), "wall_sliding" | "wall_overturning" | "wall_bearing" | "wall_eccentricity") {
             outcome.leave_open(Opening::NotGiven(format!(
                 "the base is less steep than the bed, and its downstream edge would stand {:.2} m above the ground (give barrier.rigid_wall.stability.founding_depth, {needed:.2} m or more, or a base as steep as the bed)",

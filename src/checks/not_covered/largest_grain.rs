@@ -13,8 +13,12 @@ pub fn leave_open(Known { design, guideline, .. }: Known, outcomes: &mut [Outcom
         return;
     }
     let force = hit(design, guideline.input.velocity);
-    // The equations alone may know nothing of the grains.
     if force.is_nan() {
+        for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
+            outcome.leave_open(Opening::NotGiven(
+                "the grains of the flow are not given, and the largest one may break the metre of the wall that it hits (give flow.grain_sizes, solid_density and contact_modulus, or loads.point_load)".into(),
+            ));
+        }
         return;
     }
     let height = guideline.input.depth.min(height_over_bed(design));
@@ -91,5 +95,11 @@ mod tests {
             design.loads.point_load = Some((1.0, 1.0));
         };
         assert_eq!(verdict(&named), CheckVerdict::Pass);
+        // Nothing is known of grains that are not given.
+        let unknown = |design: &mut Design| {
+            strength(design, 100.0);
+            design.flow.sizes = crate::design::sizes::SizeCurve::Unknown;
+        };
+        assert_eq!(verdict(&unknown), CheckVerdict::Open);
     }
 }

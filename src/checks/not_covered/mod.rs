@@ -80,6 +80,16 @@ pub mod tests {
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict
     }
 
+    /// A rule that is in no list opens nothing, and the test of its own file would not notice.
+    #[test]
+    fn every_rule_of_this_folder_is_in_the_list() {
+        let (source, _) = include_str!("mod.rs").split_once("#[cfg(test)]").expect("tests");
+        let modules = source.lines().filter_map(|line| line.strip_prefix("pub(crate) mod ")?.strip_suffix(';'));
+        for module in modules.filter(|module| *module != "known") {
+            assert!(source.contains(&format!("    {module}::leave_open,")), "{module}");
+        }
+    }
+
     /// Verdict of a check where the first surge shows certain numbers.
     pub fn simulated_verdict(design: &Design, id: &str, observed: &Observed, seen: FirstSurge) -> CheckVerdict {
         let guideline = guideline(design);
