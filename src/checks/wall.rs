@@ -333,4 +333,22 @@ mod tests {
         assert_eq!(verdicts(None, Some(0.0)), [CheckVerdict::Open; 4]);
         assert_eq!(verdicts(Some(0.0), None), [CheckVerdict::Open; 4]);
     }
+
+    /// 50 kN/m along a bed of 14° press on a plumb face with 50/cos 14° = 51.53 kN/m along a level base: 1.8 m deeper they tip with 92.76 kN m/m
+    /// more.
+    #[test]
+    fn a_wall_tips_about_the_base_that_it_is_founded_on() {
+        let overturning = |depth: f64| {
+            let mut design = read_design("x", include_bytes!("../../designs/gravity_wall.yaml")).unwrap().design;
+            let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+            wall.stability.as_mut().expect("stability").founding_depth = depth;
+            let of = |value: f64| Demand { guideline: Some(value), ..Demand::default() };
+            let demands =
+                Demands::default().with(&quantity::SLIDING, &[of(50e3)]).with(&quantity::OVERTURNING, &[of(100e3)]);
+            let outcomes = check(&design, &demands);
+            outcomes.iter().find(|outcome| outcome.id == "wall_overturning").expect("a check").demand.guideline
+        };
+        let more = overturning(1.8).expect("a moment") - overturning(0.0).expect("a moment");
+        assert!((more / 92.756e3 - 1.0).abs() < 1e-3, "{more}");
+    }
 }
