@@ -4,19 +4,21 @@ use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNe
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
-use crate::loads::fill::{Deposit, Retention, deposit_height};
+use crate::loads::fill::{Deposit, Retention, Spread, deposit_height};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::loads::run_up;
 use crate::loads::wall::WallInput;
+use crate::section::{Section, Survey};
 use crate::units::GRAVITY;
 
 /// Guideline loads and what follows for the ropes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guideline {
     pub input: GuidelineInput,
-    /// Width of the channel (m).
+    /// Width of the channel, or the mean width of its section up to the barrier's top (m).
     pub width: f64,
+    pub section: Section,
     pub cases: Vec<LoadCase>,
     /// Lean of the barrier's face upstream from the bed's normal θ (rad).
     pub lean: f64,
@@ -45,7 +47,7 @@ pub struct Guideline {
 impl Guideline {
     /// Force of the first surge on the empty barrier, without partial factors (N): what a simulation of one surge is to be compared with.
     pub fn first_surge(&self) -> f64 {
-        self.cases.first().map_or(0.0, |case| case.total_force(self.width))
+        self.cases.first().map_or(0.0, |case| case.total_force(&self.section))
     }
 }
 
@@ -54,6 +56,8 @@ impl Guideline {
 pub struct RopeLoad {
     /// Heights above the bed of the strip that the rope carries (m); the topmost has no upper end.
     pub strip: [f64; 2],
+    /// From bank to bank (m).
+    pub span: f64,
     /// Load across the span (N/m).
     pub load: f64,
     /// The point load that enters it, as a force at one place, with the partial factor (N).
@@ -90,14 +94,16 @@ pub fn guideline(design: &Design) -> Guideline {
 /// The same for another flow or other coefficients than the design's.
 pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     let extras = extras(design);
-    let width = design.channel.width;
+    let (width, section) = (design.channel.width, design.channel.section());
     let stages = envelope(&input, &extras);
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
         BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
     };
     let bed_force = match &design.barrier {
-        BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed => ropes.first().map(|rope| rope.load * width),
+        BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed => {
+            ropes.first().map(|rope| rope.load * rope.span)
+        }
         _ => None,
     };
     Guideline {
@@ -110,7 +116,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
             (force - 2.0 * point) / spaces + point
         }),
         cases: all(&input, &extras),
-        largest_force: stages.iter().map(|case| case.total_force(width)).fold(0.0, larger_or_nan),
+        largest_force: stages.iter().map(|case| case.total_force(&section)).fold(0.0, larger_or_nan),
         lean: lean(design),
         face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger_or_nan),
         face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger_or_nan),
@@ -125,6 +131,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         },
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
         retention: held(design),
+        section,
     }
 }
 
@@ -185,23 +192,27 @@ impl EventFill {
 }
 
 pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
-    let volume_per_width = design.flow.event_volume / design.channel.width;
+    let (width, section) = (design.channel.width, design.channel.section());
+    let event = design.flow.event_volume / width;
     let repose = libm::atan(design.flow.grain_friction);
-    let height = |falls: f64| deposit_height(volume_per_width, design.channel.slope, falls, lean(design));
-    let before = (volume_per_width - design.flow.volume() / design.channel.width).max(0.0);
+    let height = |per_width: f64, falls: f64| {
+        let volume = Spread { per_width, width, section: section.clone() };
+        deposit_height(&volume, design.channel.slope, falls, lean(design))
+    };
+    let before = (event - design.flow.volume() / width).max(0.0);
     EventFill {
-        level: height(0.0),
-        heap: height(repose),
-        run_up: run_up::bound(input),
+        level: height(event, 0.0),
+        heap: height(event, repose),
+        run_up: run_up::bound(input, &section),
         several: design.flow.is_one_of_several(),
-        before_last: deposit_height(before, design.channel.slope, 0.0, lean(design)),
+        before_last: height(before, 0.0),
     }
 }
 
 /// Spaces between the bolts of the lowest rope, where their distance is known.
 fn bolt_spaces(design: &Design) -> Option<f64> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    Some(net.bed_bolts?.spaces(design.channel.width) as f64)
+    Some(net.bed_bolts?.spaces(design.channel.section().bed_width()) as f64)
 }
 
 fn extras(design: &Design) -> Extras {
@@ -230,16 +241,19 @@ pub fn held_below(design: &Design, surface: f64) -> Option<Retention> {
     };
     let filled = share * height_over_bed(design);
     let shape = Deposit { width: design.channel.width, slope, lean: lean(design), height: filled, surface };
-    (slope > surface).then(|| shape.retention(design.flow.volume()))
+    (slope > surface).then(|| shape.retention(&design.channel.section(), design.flow.volume()))
 }
 
-/// K of a deposit that fills the barrier and is held by it and by the friction of the bed alone: with its weight per width W, along the bed
-/// W (sin α − tan φ cos α) = ½ K ρ g cos α H². Nothing on a bed that the deposit does not rest on by a slope of its own.
+/// K of a deposit that fills the barrier and is held by it and by the friction of the bed alone: with its weight W, along the bed
+/// W (sin α − tan φ cos α) = K ρ g cos α S(H), S = ½ b H² in a rectangle. Nothing on a bed that the deposit does not rest on by a slope of its own.
 pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Option<f64> {
     let held = guideline.retention?;
     let (slope, friction) = (design.channel.slope, design.channel.base_friction);
-    let pulls = held.volume / guideline.width * (libm::tan(slope) - friction).max(0.0);
-    Some(2.0 * pulls / held.deposit.height.powi(2))
+    let pulls = (libm::tan(slope) - friction).max(0.0);
+    Some(match &guideline.section {
+        Section::Rectangle { width } => 2.0 * (held.volume / width * pulls) / held.deposit.height.powi(2),
+        section @ Section::Surveyed(_) => held.volume * pulls / section.moment(held.deposit.height),
+    })
 }
 
 /// The wall of the design, if it stands by its weight.
@@ -325,11 +339,7 @@ fn lean(design: &Design) -> f64 {
 /// would let through; the topmost carries the weight of the net.
 fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages: &[LoadCase]) -> Vec<RopeLoad> {
     let rope = net.main_ropes.rope;
-    let span = RopeInput {
-        span: design.channel.width,
-        axial_stiffness: rope.axial_stiffness(),
-        dissipator: dissipator(design),
-    };
+    let section = design.channel.section();
     let top = height_over_bed(design);
     let above_bed = |along: f64| top - (net.height - along) * libm::cos(lean(design));
     let heights: Vec<f64> = net.main_ropes.heights.iter().map(|along| above_bed(*along)).collect();
@@ -340,8 +350,19 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let low = if index == 0 { 0.0 } else { 0.5 * (heights[index - 1] + heights[index]) };
             let high = if index == last { f64::INFINITY } else { 0.5 * (heights[index] + heights[index + 1]) };
             let strip = [low, high];
+            // The bed holds the lowest rope from bank to bank, or it hangs over its opening.
+            let held = index == 0 && net.bottom == Bottom::Fixed;
+            let [from, to] = if held { section.bed_ends() } else { section.banks(heights[index]) };
+            let span =
+                RopeInput { span: to - from, axial_stiffness: rope.axial_stiffness(), dissipator: dissipator(design) };
+            let spread_of = |case: &LoadCase| match &section {
+                Section::Rectangle { .. } => case.strip_force(low, high),
+                Section::Surveyed(survey) => {
+                    even_load(survey, [from, to], |ground| case.strip_force(low.max(ground), high))
+                }
+            };
             let on_rope = |case: &LoadCase| {
-                let along_bed = case.strip_force(low, high) + point_on_rope(case, &heights, index, span.span);
+                let along_bed = spread_of(case) + point_on_rope(case, &heights, index, span.span);
                 // Normal to the net's plane, which leans upstream from plumb by its tilt; the weight hangs plumb.
                 let spread = along_bed / libm::cos(lean(design));
                 let hung = if index == last { weight } else { 0.0 };
@@ -359,16 +380,45 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let spread = governing.map_or(0.0, |case| point_on_rope(case, &heights, index, span.span));
             let spread = spread / libm::cos(lean(design));
             let point = 0.5 * design.factors.load * spread * span.span;
-            if index == 0 && net.bottom == Bottom::Fixed {
+            if held {
                 // It neither sags nor pulls at anchors: the bed takes its load where it is.
-                return RopeLoad { strip, load, point, ..RopeLoad::default() };
+                return RopeLoad { strip, span: span.span, load, point, ..RopeLoad::default() };
             }
             let state = span.under(load);
             let across = 0.5 * load * span.span;
             let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
-            RopeLoad { strip, load, point, case: governing.cloned(), state, anchor: [along, across] }
+            RopeLoad { strip, span: span.span, load, point, case: governing.cloned(), state, anchor: [along, across] }
         })
         .collect()
+}
+
+/// Slices of a section over which the load of a rope is summed.
+const SLICES: usize = 200;
+
+/// The even load over a span that bends a beam and pushes on its supports no less than what a section hands to it (N/m): `per_width` gives the
+/// force on a metre of width whose ground is at a height. What presses beside the span goes to its ends.
+fn even_load(survey: &Survey, [from, to]: [f64; 2], per_width: impl Fn(f64) -> f64) -> f64 {
+    let span = to - from;
+    let points = survey.points();
+    let (first, last) = (points[0][0], points[points.len() - 1][0]);
+    let slice = (last - first) / SLICES as f64;
+    let loads: Vec<[f64; 2]> = (0..SLICES)
+        .map(|index| first + (index as f64 + 0.5) * slice)
+        .map(|y| [((y - from) / span).clamp(0.0, 1.0), per_width(survey.ground(y)) * slice])
+        .collect();
+    let total: f64 = loads.iter().map(|[_, force]| force).sum();
+    let at_the_end: f64 = loads.iter().map(|[place, force]| place * force).sum();
+    let at_the_start = total - at_the_end;
+    // Largest moment of the beam: where the shear changes its sign.
+    let (mut shear, mut moment, mut largest, mut before) = (at_the_start, 0.0, 0.0_f64, 0.0);
+    for [place, force] in &loads {
+        moment += shear * (place - before) * span;
+        largest = largest.max(moment);
+        (shear, before) = (shear - force, *place);
+    }
+    let bends = 8.0 * largest / (span * span);
+    let pushes = 2.0 * larger_or_nan(at_the_start, at_the_end) / span;
+    larger_or_nan(bends, pushes)
 }
 
 /// A point load as the uniform load with the same moment at midspan, 2 P/L (N/m), shared by lever between the ropes above

@@ -91,6 +91,7 @@ mod program;
 pub mod quantities;
 pub mod report;
 pub mod scene;
+pub mod section;
 mod sensitivity;
 pub mod simulated;
 mod sources;

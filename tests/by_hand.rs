@@ -13,6 +13,7 @@ use barrier_check::quantities::observed::Observed;
 use barrier_check::quantities::{
     anchor_load, bed, dissipator, height, mass, other_ropes, rope_tension, total_force, wall,
 };
+use barrier_check::section::Section;
 
 const NET: &str = "
 project: {name: By hand, barrier: Net}
@@ -95,7 +96,7 @@ fn loads_of_the_net() {
     // ½ · 19.912 · 0.6² + 24.3 · 0.6
     near(case("first_surge").force_per_width(), 18.164e3);
     // ½ · 19.912 · 2.7189² + 24.3 · 0.6 = 73.599 + 14.58 kN/m, on 4 m, and the boulder of 12 kN.
-    near(case("point_load").total_force(4.0), 364.72e3);
+    near(case("point_load").total_force(&Section::Rectangle { width: 4.0 }), 364.72e3);
     // 19.912 · 2.7189³/6 + 24.3 · (2.7189² − 2.1189²)/2 + 12 · 1.4/4
     near(case("point_load").mean_moment(4.0), 106.17e3);
     near(case("full").force_per_width(), 73.599e3);

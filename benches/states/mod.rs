@@ -155,7 +155,8 @@ impl State {
 
     fn packed(&self) -> Vec<Grain> {
         let bodies: Vec<GrainBody> = (0..self.count).map(|id| self.body(id)).collect();
-        let room = PackingRoom { size: Vec3::new(0.44, 0.30, 0.15) * self.scale(), nose: 0.0, apart: false };
+        let room =
+            PackingRoom { size: Vec3::new(0.44, 0.30, 0.15) * self.scale(), nose: 0.0, apart: false, ground: None };
         let (mut grains, length) = pack(&bodies, self.shape, room, 1).expect("fits");
         for grain in &mut grains {
             grain.position.x *= 0.44 * self.scale() / length;

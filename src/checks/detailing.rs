@@ -1,7 +1,7 @@
 //! Rules of detailing, and the range in which the guideline has been used. They warn; they do not fail a design.
 
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
-use crate::guideline::{Guideline, event_fill};
+use crate::guideline::{Guideline, event_fill, height_over_bed};
 use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
 use crate::loads::input::GuidelineInput;
@@ -82,7 +82,7 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
         rules.push(special("Depth of the flow", input.depth, 2.0, "m"));
         rules.push(special("Velocity of the flow", input.velocity, 10.0, "m/s"));
         rules.extend(of_net(design, net));
-        rules.extend(of_sag(design, guideline));
+        rules.extend(of_sag(guideline));
         rules.extend(guideline.retention.map(of_volume));
         rules.extend(of_point_load(design, net));
     }
@@ -218,14 +218,14 @@ fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
 /// Most that the discharge of the design flow and the estimate from the event's volume may differ, either way.
 const LIKE_DISCHARGES: f64 = 3.0;
 
-/// b h v of the design flow against what flows of the event's volume discharge (Rickenmann 1999): a volume that is one surge of several,
+/// b h v of the design flow, or A v in another section, against what flows of the event's volume discharge (Rickenmann 1999): a volume that is one surge of several,
 /// or a wrong depth or velocity, shows here.
 fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
     let input = &guideline.input;
     let [estimate, ..] = peak_discharge(design.flow.event_volume);
     Rule {
         title: "Discharge (width × depth × velocity) over the estimate from the event volume",
-        found: design.channel.width * input.depth * input.velocity / estimate.value,
+        found: guideline.section.area(input.depth) * input.velocity / estimate.value,
         least: Some(1.0 / LIKE_DISCHARGES),
         most: Some(LIKE_DISCHARGES),
         unit: "",
@@ -236,13 +236,13 @@ fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
 }
 
 /// Beyond a sag of a third of the span a rope hangs down the channel more than it spans it.
-fn of_sag(design: &Design, guideline: &Guideline) -> Option<Rule> {
-    let sag = guideline.ropes.iter().map(|rope| rope.state.sag).reduce(f64::max)?;
+fn of_sag(guideline: &Guideline) -> Option<Rule> {
+    let sag = guideline.ropes.iter().map(|rope| rope.state.sag / rope.span).reduce(f64::max)?;
     Some(Rule {
         bearing: Bearing::Ropes,
         ..most(
             "Largest sag of a main rope / span, by the guideline",
-            sag / design.channel.width,
+            sag,
             LARGEST_SAG,
             "-",
             "derived: the parabola and small strains no longer hold",
@@ -278,7 +278,7 @@ fn of_volume(held: Retention) -> Rule {
 }
 
 fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
-    let width = design.channel.width;
+    let width = design.channel.section().width(height_over_bed(design));
     let coarse = design.flow.sizes.named(0.9);
     let lean = (design.channel.slope + net.tilt).to_degrees();
     let mut rules = vec![

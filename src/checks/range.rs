@@ -74,9 +74,9 @@ fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
 /// Why the parabola of a main rope is no longer known to hold, if so.
 pub fn rope_outside(design: &Design, guideline: &Guideline, rope: usize) -> Option<String> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    let state = &guideline.ropes.get(rope)?.state;
+    let (state, span) = guideline.ropes.get(rope).map(|rope| (&rope.state, rope.span))?;
     let line = net.main_ropes.rope;
-    let (sag, strain) = (state.sag / design.channel.width, state.tension / line.axial_stiffness());
+    let (sag, strain) = (state.sag / span, state.tension / line.axial_stiffness());
     let within = sag <= LARGEST_SAG && strain <= LARGEST_STRAIN;
     (!within).then(|| {
         format!(
@@ -142,7 +142,7 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.dissipators.as_mut().expect("dissipators").plateau = 55e3;
         let guideline = guideline(&design);
-        assert!(guideline.ropes[1].state.sag > LARGEST_SAG * design.channel.width);
+        assert!(guideline.ropes[1].state.sag > LARGEST_SAG * guideline.ropes[1].span);
         assert!(rope_outside(&design, &guideline, 1).is_some());
         assert_eq!(verdict(&design, "anchor_2_load"), CheckVerdict::Open);
     }

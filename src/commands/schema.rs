@@ -101,6 +101,14 @@ fn kind(kind: &Kind) -> Value {
         Kind::Quantities { dimension, low, high } => {
             json!({ "type": "array", "minItems": 1, "items": self::kind(&Kind::Quantity { dimension, low, high }) })
         }
+        Kind::Points { low, high } => {
+            let length = self::kind(&Kind::Quantity { dimension: Dimension::Length, low, high });
+            json!({ "type": "array", "minItems": 3, "items": { "type": "array", "minItems": 2, "maxItems": 2, "items": length } })
+        }
+        Kind::Steepness { .. } => {
+            let angle = units(Dimension::Angle);
+            json!({ "type": "string", "pattern": format!("^ *({NUMBER} *({angle})|[0-9.]+ *: *[0-9.]+) *$") })
+        }
         Kind::Number { low, high } => json!({ "type": "number", "minimum": low, "maximum": high }),
         Kind::Count { low, high } => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Kind::Text => json!({ "type": ["string", "number", "boolean"] }),

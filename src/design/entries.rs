@@ -22,6 +22,7 @@ pub enum Purpose {
 pub enum Value {
     Number(f64),
     Numbers(Vec<f64>),
+    Points(Vec<[f64; 2]>),
     Text(String),
     /// A length told as so many times the grain size below which the share `finer` of the mass lies, and its bounds (m);
     /// [`super::grain_lengths`] puts a number in its place.
@@ -85,6 +86,13 @@ impl Entries {
     pub fn numbers(&self, path: &str) -> Option<&[f64]> {
         match &self.values.get(path)?.value {
             Value::Numbers(numbers) => Some(numbers),
+            _ => None,
+        }
+    }
+
+    pub fn points(&self, path: &str) -> Option<&[[f64; 2]]> {
+        match &self.values.get(path)?.value {
+            Value::Points(points) => Some(points),
             _ => None,
         }
     }
@@ -261,6 +269,7 @@ impl Reader<'_> {
         }
         for (name, node) in known {
             if let Some(key) = keys.iter().find(|key| key.name == name) {
+                self.entries.mentioned.push(join(path, name));
                 self.value(node, key, &join(path, name), Origin::File);
             }
         }
@@ -313,6 +322,16 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
             Node::List(_) => Err(("an empty list".into(), None)),
             other => Err((other.describe(), Some("write a list: `[1 m, 2 m]`".into()))),
         },
+        Kind::Points { low, high } => match node {
+            Node::List(items) if !items.is_empty() => {
+                items.iter().map(|item| point(item, low, high)).collect::<Result<_, _>>().map(Value::Points)
+            }
+            Node::List(_) => Err(("an empty list".into(), None)),
+            other => {
+                Err((other.describe(), Some("write a list of points: `[[-3 m, 2 m], [0 m, 0 m], [3 m, 2 m]]`".into())))
+            }
+        },
+        Kind::Steepness { low, high } => steepness(node, low, high).map(Value::Number),
         Kind::Number { low, high } => match *node {
             Node::Number(number) if (low..=high).contains(&number) => Ok(Value::Number(number)),
             Node::Number(number) => Err((format!("`{number}`"), None)),
@@ -346,6 +365,32 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
         },
         Kind::Section(_) | Kind::OneOf(_) => Err((node.describe(), None)),
     }
+}
+
+/// A pair of lengths (m).
+fn point(node: &Node, low: f64, high: f64) -> Result<[f64; 2], Misunderstood> {
+    let hint = || Some("a point is a distance and a height in brackets: `[-3 m, 2 m]`".to_string());
+    match node {
+        Node::List(items) if items.len() == 2 => {
+            let length = |item| quantity(item, Dimension::Length, low, high);
+            Ok([length(&items[0])?, length(&items[1])?])
+        }
+        Node::List(items) => Err((format!("a point of {} value(s), `{}`", items.len(), typed(node)), hint())),
+        other => Err((other.describe(), hint())),
+    }
+}
+
+/// An angle (rad), or the angle of a ratio of rise to run.
+fn steepness(node: &Node, low: f64, high: f64) -> Result<f64, Misunderstood> {
+    let text = typed(node);
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| *number > 0.0 && number.is_finite());
+    let ratio = text.split_once(':').and_then(|(rise, run)| Some([number(rise)?, number(run)?]));
+    let Some([rise, run]) = ratio else { return quantity(node, Dimension::Angle, low, high) };
+    let angle = libm::atan2(rise, run);
+    if !(low..=high).contains(&angle) {
+        return Err((format!("`{}`, an angle of {}", text.trim(), Dimension::Angle.show(angle)), None));
+    }
+    Ok(angle)
 }
 
 fn quantity(node: &Node, dimension: Dimension, low: f64, high: f64) -> Result<f64, Misunderstood> {

@@ -35,6 +35,16 @@ pub enum Kind {
         low: f64,
         high: f64,
     },
+    /// A list of pairs of lengths.
+    Points {
+        low: f64,
+        high: f64,
+    },
+    /// An angle, or a ratio of rise to run: `1:1.5`.
+    Steepness {
+        low: f64,
+        high: f64,
+    },
     /// A bare number.
     Number {
         low: f64,
@@ -106,6 +116,14 @@ impl Kind {
             }
             Self::Quantities { dimension, low, high } => {
                 format!("a list of values, each {}", Self::Quantity { dimension, low, high }.allowed())
+            }
+            Self::Points { low, high } => {
+                let each = Self::Quantity { dimension: Dimension::Length, low, high }.allowed();
+                format!("a list of points of two lengths, [[-3 m, 2 m], [0 m, 0 m], ...], each {each}")
+            }
+            Self::Steepness { low, high } => {
+                let angle = Self::Quantity { dimension: Dimension::Angle, low, high }.allowed();
+                format!("{angle}, or a ratio of rise to run (1:1.5)")
             }
             Self::Number { low, high } => format!("a number from {low} to {high}"),
             Self::Count { low, high } => format!("a whole number from {low} to {high}"),

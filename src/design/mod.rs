@@ -1,5 +1,7 @@
 //! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
 
+pub(crate) mod channel_entries;
+pub(crate) mod channel_rules;
 pub(crate) mod document;
 pub mod entries;
 pub(crate) mod factor_sets;
@@ -19,6 +21,7 @@ pub(crate) mod wall_rules;
 pub(crate) mod yaml_faults;
 
 use self::sizes::SizeCurve;
+use crate::section::{Section, Survey};
 
 /// A checked design. Lengths in m, masses in kg, forces in N, angles in rad, friction as tan φ.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,20 +48,29 @@ pub struct Project {
     pub notes: String,
 }
 
-/// A straight channel of rectangular section.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A straight channel.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Between the side walls (m).
+    /// Between vertical side walls, or the mean width of a surveyed section up to the barrier's top (m).
     pub width: f64,
+    /// The section where it is no rectangle.
+    pub survey: Option<Survey>,
     /// Slope of the bed against the horizontal (rad).
     pub slope: f64,
-    /// Of the side walls, normal to the bed (m).
+    /// Of the side walls, or of the lower end of a surveyed section, normal to the bed (m).
     pub wall_height: f64,
     /// Friction of grains on the bed and on the side walls, tan φ.
     pub base_friction: f64,
     pub side_friction: f64,
     /// Friction of grains on the barrier, wall or rope, tan φ.
     pub barrier_friction: f64,
+}
+
+impl Channel {
+    /// What lies across the channel, normal to its bed.
+    pub fn section(&self) -> Section {
+        self.survey.clone().map_or(Section::Rectangle { width: self.width }, Section::Surveyed)
+    }
 }
 
 /// The design flow.

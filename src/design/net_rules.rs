@@ -1,5 +1,6 @@
 //! Contradictions between values of a flexible net; listed in [`super::rules`].
 
+use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
 use crate::design::show::{at, length};
 use crate::problem::Problem;
@@ -81,7 +82,7 @@ pub fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
 }
 
 pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
-    let (mesh, width) = (e.number(&at("mesh_opening"))?, e.number("channel.width")?);
+    let (mesh, width) = (e.number(&at("mesh_opening"))?, section(e)?.width(height_of_barrier(e)?));
     (3.0 * mesh * std::f64::consts::SQRT_2 > width).then(|| {
         let found = format!("a mesh of {} across a channel of {}", length(mesh), length(width));
         Problem::new(at("mesh_opening"), found, "at least three mesh diagonals across the channel")
@@ -111,7 +112,7 @@ fn has_cylinders(e: &Entries) -> bool {
 pub fn cylinders_are_bearable(e: &Entries) -> Option<Problem> {
     let ropes =
         e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
-    let (piece, width) = (e.number(&at("main_ropes.element_length"))?, e.number("channel.width")?);
+    let (piece, width) = (e.number(&at("main_ropes.element_length"))?, section(e)?.breadth());
     let count = ropes * width / piece;
     (has_cylinders(e) && count > MOST_CYLINDERS).then(|| {
         let found = format!("{} for {ropes} ropes of {}: {count:.0} cylinders", length(piece), length(width));
@@ -199,7 +200,7 @@ const MOST_KNOTS: f64 = 50_000.0;
 
 pub fn knots_are_bearable(e: &Entries) -> Option<Problem> {
     let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
-    let knots = e.number("channel.width")? * height / (mesh * mesh);
+    let knots = section(e)?.mean_width(height_of_barrier(e)?) * height / (mesh * mesh);
     (knots > MOST_KNOTS).then(|| {
         let found = format!("a mesh of {} with about {knots:.0} knots", length(mesh));
         Problem::new(at("mesh_opening"), found, format!("at most {MOST_KNOTS:.0} knots")).hint("is the unit right?")

@@ -1,5 +1,6 @@
 //! From checked entries to the design, in SI.
 
+use crate::design::channel_entries::{height_of_barrier, height_of_sides, section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve};
 use crate::design::net_rules::rope_heights;
@@ -40,9 +41,10 @@ fn project(e: &Entries) -> Project {
 fn channel(e: &Entries) -> Option<Channel> {
     let value = |key: &str| e.number(&format!("channel.{key}"));
     Some(Channel {
-        width: value("width")?,
+        width: section(e)?.mean_width(height_of_barrier(e)?),
+        survey: if value("width").is_some() { None } else { Some(survey(e)?) },
         slope: value("slope")?,
-        wall_height: value("wall_height")?,
+        wall_height: height_of_sides(e)?,
         base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
         side_friction: value("side_friction").map_or(f64::NAN, libm::tan),
         barrier_friction: value("barrier_friction").map_or(f64::NAN, libm::tan),
@@ -85,12 +87,12 @@ pub fn granular_front(friction: f64, slope: f64) -> f64 {
 
 fn arrival(e: &Entries) -> Option<Arrival> {
     let value = |key: &str| e.number(&format!("flow.arrival.{key}"));
-    let area = |length: f64| Some(flow_volume(e)? / (length * e.number("channel.width")?));
+    let section = section(e)?;
     if e.has_section("flow.arrival.dam_break") {
         let length = value("dam_break.length")?;
         return Some(Arrival::DamBreak(DamBreak {
             length,
-            height: area(length)?,
+            height: section.depth_of(flow_volume(e)?, length),
             distance: value("dam_break.distance")?,
             depth_at_barrier: value("dam_break.depth_at_barrier"),
             velocity_at_barrier: value("dam_break.velocity_at_barrier"),
@@ -98,7 +100,7 @@ fn arrival(e: &Entries) -> Option<Arrival> {
     }
     let depth = value("surge.depth")?;
     Some(Arrival::Surge(Surge {
-        length: area(depth)?,
+        length: flow_volume(e)? / section.area(depth),
         depth,
         velocity: value("surge.velocity")?,
         front_angle: value("surge.front_angle")
@@ -210,7 +212,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
 fn bed_bolts(e: &Entries) -> Option<BedBolts> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.anchors.{key}"));
     let bolts = BedBolts { spacing: value("bed_bolt_spacing")?, resistance: value("bed_bolt_resistance") };
-    let number = bolts.spaces(e.number("channel.width")?) + 1;
+    let number = bolts.spaces(section(e)?.bed_width()) + 1;
     let share = value("bed_resistance").map(|of_all| of_all / number as f64);
     Some(BedBolts { resistance: bolts.resistance.or(share), ..bolts })
 }

@@ -1,12 +1,13 @@
 //! Contradictions between values, each rule one function. A rule whose values are missing or wrong keeps
 //! silent: that was already reported.
 
+use crate::design::channel_entries::{height_of_sides, section};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, quantiles, size_curve};
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
-use crate::design::{net_rules, wall_rules};
+use crate::design::{channel_rules, net_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -15,6 +16,21 @@ type Rule = fn(&Entries) -> Option<Problem>;
 /// Rules that every design keeps, in the order of the file.
 pub const RULES: &[Rule] = &[
     schema_version_is_known,
+    channel_rules::width_or_section,
+    channel_rules::walls_belong_to_a_width,
+    channel_rules::bed_is_told_of_points,
+    channel_rules::points_are_three,
+    channel_rules::points_go_to_the_right,
+    channel_rules::points_are_apart,
+    channel_rules::both_banks_are_there,
+    channel_rules::section_has_a_width,
+    channel_rules::barrier_within_the_section,
+    channel_rules::walls_stand_in_a_rectangle,
+    channel_rules::strips_lie_on_vertical_walls,
+    channel_rules::ropes_of_cylinders_are_straight,
+    channel_rules::lowest_rope_has_a_length,
+    channel_rules::ropes_hang_clear_of_the_ground,
+    channel_rules::flow_within_the_section,
     mass_or_volume,
     event_is_no_less_than_the_flow,
     solid_is_denser_than_bulk,
@@ -144,8 +160,17 @@ fn curve_increases(e: &Entries) -> Option<Problem> {
     ))
 }
 
+/// Width of the surface of the flow as it is let go (m).
+fn width_of_the_flow(e: &Entries) -> Option<f64> {
+    let section = section(e)?;
+    let depth = e
+        .number("flow.arrival.surge.depth")
+        .or_else(|| Some(section.depth_of(flow_volume(e)?, e.number("flow.arrival.dam_break.length")?)));
+    Some(section.width(depth?))
+}
+
 fn grains_fit_the_channel(e: &Entries) -> Option<Problem> {
-    let (largest, width) = (size_curve(e)?.quantile(1.0), e.number("channel.width")?);
+    let (largest, width) = (size_curve(e)?.quantile(1.0), width_of_the_flow(e)?);
     (3.0 * largest > width).then(|| {
         let found = format!("grains of {} in a channel {} wide", length(largest), length(width));
         Problem::new("flow.grain_sizes", found, "grains of at most a third of the channel's width")
@@ -179,8 +204,8 @@ fn grain_count_is_bearable(e: &Entries) -> Option<Problem> {
 fn dam_break_height_agrees(e: &Entries) -> Option<Problem> {
     let path = "flow.arrival.dam_break";
     let length_m = e.number(&format!("{path}.length"))?;
-    let needed = flow_volume(e)? / (length_m * e.number("channel.width")?);
-    let wall = e.number("channel.wall_height")?;
+    let needed = section(e)?.depth_of(flow_volume(e)?, length_m);
+    let wall = height_of_sides(e)?;
     if let Some(height) = e.number(&format!("{path}.height")).filter(|height| (height / needed - 1.0).abs() > 0.05) {
         let found = format!("{}, while the volume needs {}", length(height), length(needed));
         return Some(
@@ -189,15 +214,18 @@ fn dam_break_height_agrees(e: &Entries) -> Option<Problem> {
         );
     }
     (needed > wall).then(|| {
-        let found = format!("a block {} high between walls of {}", length(needed), length(wall));
-        Problem::new(format!("{path}.length"), found, "a block lower than channel.wall_height")
-            .hint("make the block longer")
+        let (between, allowed) = match e.mentions("channel.section") {
+            true => ("banks", "a block lower than the lower bank of channel.section"),
+            false => ("walls", "a block lower than channel.wall_height"),
+        };
+        let found = format!("a block {} high between {between} of {}", length(needed), length(wall));
+        Problem::new(format!("{path}.length"), found, allowed).hint("make the block longer")
     })
 }
 
 fn surge_length_agrees(e: &Entries) -> Option<Problem> {
     let path = "flow.arrival.surge";
-    let needed = flow_volume(e)? / (e.number(&format!("{path}.depth"))? * e.number("channel.width")?);
+    let needed = flow_volume(e)? / section(e)?.area(e.number(&format!("{path}.depth"))?);
     let typed = e.number(&format!("{path}.length"))?;
     ((typed / needed - 1.0).abs() > 0.05).then(|| {
         let found = format!("{}, while the volume needs {}", length(typed), length(needed));
@@ -281,17 +309,19 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
 
 fn block_larger_than_the_grains(e: &Entries) -> Option<Problem> {
     let largest = size_curve(e)?.quantile(1.0);
-    let area = flow_volume(e)? / e.number("channel.width")?;
-    let (typed_path, typed) = match e.number("flow.arrival.surge.depth") {
-        Some(depth) => ("flow.arrival.surge.depth", depth),
-        None => ("flow.arrival.dam_break.length", e.number("flow.arrival.dam_break.length")?),
+    let (volume, section) = (flow_volume(e)?, section(e)?);
+    let (typed_path, typed, other) = match e.number("flow.arrival.surge.depth") {
+        Some(depth) => ("flow.arrival.surge.depth", depth, volume / section.area(depth)),
+        None => {
+            let length = e.number("flow.arrival.dam_break.length")?;
+            ("flow.arrival.dam_break.length", length, section.depth_of(volume, length))
+        }
     };
-    let smaller = typed.min(area / typed);
+    let smaller = typed.min(other);
     (smaller < 1.2 * largest).then(|| {
-        let found =
-            format!("a block {} by {} of grains up to {}", length(typed), length(area / typed), length(largest));
+        let found = format!("a block {} by {} of grains up to {}", length(typed), length(other), length(largest));
         Problem::new(typed_path, found, "a block longer and deeper than 1.2 times its largest grains").hint(
-            if typed < area / typed {
+            if typed < other {
                 "grains cannot be packed into a layer thinner than themselves: give more here, or smaller grains"
             } else {
                 "what is given here leaves the flow too thin the other way: give less here, or more volume"

@@ -12,6 +12,8 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const STEEPEST: f64 = 80.0 * std::f64::consts::PI / 180.0;
 const FRICTION: Kind = quantity(D::Angle, 0.0, STEEPEST);
 const GRAIN: Kind = quantity(D::Length, 1e-4, 10.0);
+/// From 5 to 89 degrees.
+const BANK: Kind = Kind::Steepness { low: 5.0 * DEGREE, high: 89.0 * DEGREE };
 const NOTE: Kind = Kind::Text;
 
 /// The whole file.
@@ -23,7 +25,7 @@ pub const DESIGN: &[Key] = &[
         "version of this table of keys that the file was written for",
     ),
     Key::required("project", Kind::Section(PROJECT), "what the report is about"),
-    Key::required("channel", Kind::Section(CHANNEL), "a straight channel of rectangular section"),
+    Key::required("channel", Kind::Section(CHANNEL), "a straight channel"),
     Key::required("flow", Kind::Section(FLOW), "the design flow"),
     Key::required("barrier", Kind::OneOf(BARRIER), "the barrier"),
     Key::default("limits", Kind::Section(LIMITS), "", "what the design must keep"),
@@ -43,12 +45,42 @@ const PROJECT: &[Key] = &[
 ];
 
 const CHANNEL: &[Key] = &[
-    Key::required("width", quantity(D::Length, 0.01, 200.0), "width between the side walls"),
+    Key::optional(
+        "width",
+        quantity(D::Length, 0.01, 200.0),
+        "width between vertical side walls; give this or the section",
+    ),
+    Key::optional("section", Kind::OneOf(CROSS_SECTION), "surveyed section across the gully; give this or the width"),
     Key::required("slope", quantity(D::Angle, 0.0, STEEPEST), "slope of the bed against the horizontal"),
-    Key::required("wall_height", quantity(D::Length, 0.01, 500.0), "height of the side walls, normal to the bed"),
+    Key::optional(
+        "wall_height",
+        quantity(D::Length, 0.01, 500.0),
+        "height of the side walls, normal to the bed; goes with the width",
+    ),
+    Key::optional(
+        "bed_up_to",
+        quantity(D::Angle, 0.0, STEEPEST),
+        "slope across the gully up to which the ground beside the lowest point of section.points is bed, beyond which it is bank; by default 25 deg",
+    ),
     Key::for_grains("base_friction", FRICTION, "friction angle between grains and bed"),
-    Key::for_grains("side_friction", FRICTION, "friction angle between grains and side walls"),
+    Key::for_grains("side_friction", FRICTION, "friction angle between grains and side walls or banks"),
     Key::for_grains("barrier_friction", FRICTION, "friction angle between grains and barrier"),
+];
+
+const CROSS_SECTION: &[Key] = &[
+    Key::optional("trapezoid", Kind::Section(TRAPEZOID), "a level bed between two even banks"),
+    Key::optional(
+        "points",
+        Kind::Points { low: -1e3, high: 1e4 },
+        "points of the ground, from the left to the right looking downstream: distance and height, both as surveyed (heights plumb)",
+    ),
+];
+
+const TRAPEZOID: &[Key] = &[
+    Key::required("bed_width", quantity(D::Length, 0.01, 200.0), "width of the level bed"),
+    Key::required("left_bank", BANK, "slope of the left bank, looking downstream, against the horizontal"),
+    Key::required("right_bank", BANK, "slope of the right bank, looking downstream, against the horizontal"),
+    Key::required("depth", quantity(D::Length, 0.01, 500.0), "height of the banks above the bed, plumb"),
 ];
 
 const FLOW: &[Key] = &[
@@ -571,6 +603,7 @@ pub struct Either {
 
 /// The JSON Schema tells these; [`super::rules`] words what it says of them.
 pub const EITHER: &[Either] = &[
+    Either { keys: ["width", "section"], needed: true },
     Either { keys: ["mass", "volume"], needed: true },
     Either { keys: ["count", "heights"], needed: true },
     Either { keys: ["bed_resistance", "bed_bolt_resistance"], needed: false },

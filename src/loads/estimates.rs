@@ -2,6 +2,8 @@
 //!
 //! Empirical, scattered by a factor of two and more, and from memory: shown as estimates, never used in a check.
 
+use crate::section::Section;
+
 /// One estimate of a discharge (m³/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -21,10 +23,10 @@ pub fn peak_discharge(volume: f64) -> [Estimate; 3] {
     ]
 }
 
-/// v = 2.1 Q^0.33 S^0.33 (Rickenmann), S = tan of the slope; h = Q/(v b).
-pub fn velocity_and_depth(discharge: f64, slope: f64, width: f64) -> [f64; 2] {
+/// v = 2.1 Q^0.33 S^0.33 (Rickenmann), S = tan of the slope; h = Q/(v b), or the depth of the area Q/v in another section.
+pub fn velocity_and_depth(discharge: f64, slope: f64, section: &Section) -> [f64; 2] {
     let velocity = 2.1 * libm::pow(discharge, 0.33) * libm::pow(libm::tan(slope), 0.33);
-    [velocity, discharge / (velocity * width)]
+    [velocity, section.depth_of(discharge, velocity)]
 }
 
 /// v = h^⅔ S^½/n (Manning-Strickler); n is 0.05 to 0.18 s/m^⅓ for debris flows.
@@ -43,7 +45,7 @@ mod tests {
         for (estimate, expected) in peak_discharge(1000.0).iter().zip([31.6, 29.5, 4.41]) {
             assert_relative_eq!(estimate.value, expected, max_relative = 3e-3);
         }
-        let [velocity, depth] = velocity_and_depth(29.5, 20_f64.to_radians(), 12.0);
+        let [velocity, depth] = velocity_and_depth(29.5, 20_f64.to_radians(), &Section::Rectangle { width: 12.0 });
         assert_relative_eq!(velocity, 4.60, max_relative = 2e-3);
         assert_relative_eq!(depth, 0.535, max_relative = 2e-3);
         let slope = libm::atan(1_f64);

@@ -1,5 +1,7 @@
 //! A pressure diagram over the height of the barrier: a static triangle, cut at the barrier's top, and a block.
 
+use crate::section::Section;
+
 /// Pressures over the height z above the bed (m), uniform over the width.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Diagram {
@@ -52,6 +54,44 @@ impl Diagram {
         )
     }
 
+    /// Force on the strip between two heights over a section, ∫ p w dz (N).
+    pub fn force_over(&self, section: &Section, low: f64, high: f64) -> f64 {
+        match section {
+            Section::Rectangle { width } => self.force(low, high) * width,
+            Section::Surveyed(_) => self.over(section, low, high, |_| 1.0),
+        }
+    }
+
+    /// Moment about the bed of the pressures on a strip over a section, ∫ p w z dz (N m).
+    pub fn moment_over(&self, section: &Section, low: f64, high: f64) -> f64 {
+        match section {
+            Section::Rectangle { width } => self.moment(low, high) * width,
+            Section::Surveyed(_) => self.over(section, low, high, |z| z),
+        }
+    }
+
+    /// ∫ p w f dz by Simpson's rule between the kinks of pressure and width, exact for f of the first degree.
+    fn over(&self, section: &Section, low: f64, high: f64, factor: impl Fn(f64) -> f64) -> f64 {
+        let (low, high) = (low.clamp(0.0, self.top), high.clamp(0.0, self.top));
+        let mut stops = section.kinks();
+        stops.extend([low, high, self.surface, self.block_from, self.block_to]);
+        stops.retain(|stop| (low..=high).contains(stop));
+        stops.sort_by(f64::total_cmp);
+        let part = |pair: &[f64]| {
+            let [from, to] = [pair[0], pair[1]];
+            let middle = 0.5 * (from + to);
+            let block = if middle > self.block_from && middle < self.block_to { self.block } else { 0.0 };
+            let pressure = |z: f64| self.unit * (self.surface - z).max(0.0) + block;
+            // The width may jump at a level bed: its ends are taken from inside.
+            let [first, last] = [-0.25, 0.25].map(|share| middle + share * (to - from));
+            let slope = (section.width(last) - section.width(first)) / (last - first);
+            let width = |z: f64| section.width(middle) + slope * (z - middle);
+            let value = |z: f64| pressure(z) * width(z) * factor(z);
+            (to - from) / 6.0 * (value(from) + 4.0 * value(middle) + value(to))
+        };
+        stops.windows(2).filter(|pair| pair[1] > pair[0]).map(part).sum()
+    }
+
     fn integrate(
         &self,
         low: f64,
@@ -91,6 +131,32 @@ mod tests {
             .fold((0.0, 0.0), |(force, moment), z| (force + diagram.at(z) * width, moment + diagram.at(z) * z * width));
         assert_relative_eq!(diagram.force(0.5, 3.0), force, max_relative = 1e-5);
         assert_relative_eq!(diagram.moment(0.5, 3.0), moment, max_relative = 1e-5);
+    }
+
+    /// A trapezoid with w = 4 + 3 z: ∫ 7 (3.6 − z) (4 + 3 z) dz from 0 to 3 and 4 (4 + 3 z) from 2.2 to 3. In a rectangle, width by force.
+    #[test]
+    fn pressures_are_integrated_over_the_width_at_each_height() {
+        let points = [[-7.0, 8.0], [-2.0, 3.0], [2.0, 3.0], [12.0, 8.0]];
+        let section = Section::Surveyed(crate::section::Survey::new(&points, 0.1));
+        let diagram = Diagram { unit: 7.0, surface: 3.6, top: 3.0, block: 4.0, block_from: 2.2, block_to: 3.6 };
+        // 7 (14.4 z + 3.4 z² − z³) and 16 z + 6 z².
+        let force = 7.0 * (43.2 + 30.6 - 27.0) + 16.0 * 0.8 + 6.0 * (9.0 - 4.84);
+        assert_relative_eq!(diagram.force_over(&section, 0.0, 9.0), force, max_relative = 1e-12);
+        // 7 (7.2 z² + 6.8 z³/3 − 3 z⁴/4) and 8 z² + 4 z³.
+        let moment = 7.0 * (64.8 + 61.2 - 60.75) + 8.0 * (9.0 - 4.84) + 4.0 * (27.0 - 10.648);
+        assert_relative_eq!(diagram.moment_over(&section, 0.0, 9.0), moment, max_relative = 1e-12);
+        let strips = diagram.force_over(&section, 0.0, 1.3) + diagram.force_over(&section, 1.3, 3.0);
+        assert_relative_eq!(strips, force, max_relative = 1e-12);
+        let even = Section::Rectangle { width: 2.5 };
+        assert_eq!(diagram.force_over(&even, 0.5, 3.0), 2.5 * diagram.force(0.5, 3.0));
+    }
+
+    /// A groove of 45° filled to its top, at rest: ½ ∫ (z' − z) 2 z dz = ρ g h³/3 of a fluid.
+    #[test]
+    fn a_groove_carries_a_third_of_the_cube() {
+        let section = Section::Surveyed(crate::section::Survey::new(&[[-4.0, 4.0], [0.0, 0.0], [4.0, 4.0]], 0.1));
+        let diagram = Diagram { unit: 10.0, surface: 2.0, top: 2.0, ..Diagram::default() };
+        assert_relative_eq!(diagram.force_over(&section, 0.0, 2.0), 10.0 * 8.0 / 3.0, max_relative = 1e-12);
     }
 
     /// Up to its top, which is loaded; a surface above it leaves a trapezium.

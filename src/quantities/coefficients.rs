@@ -7,6 +7,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::loads::input::GuidelineInput;
+use crate::loads::pressure::Diagram;
+use crate::section::Section;
 use dem::recorders::histories::{Histories, peak, smoothed};
 
 /// Share of the mass in a gauge that may be at rest without the gauge telling of a deposit.
@@ -35,6 +37,27 @@ pub struct Coefficients {
     pub dynamic_mean: Vec<f64>,
 }
 
+/// The section of the channel, and the width on which forces per width are told (m).
+pub struct Across<'a> {
+    pub section: &'a Section,
+    pub width: f64,
+}
+
+impl Across<'_> {
+    /// Per width, of a deposit and a depth of flow over it: the pressures of a fluid of this weight (N/m³) that the deposit books and the flow
+    /// books (N/m), and the area of the flow (m).
+    fn of(&self, weight: f64, deposit: f64, depth: f64) -> [f64; 3] {
+        if let Section::Rectangle { .. } = self.section {
+            return [weight * deposit * (0.5 * deposit + depth), 0.5 * weight * depth * depth, depth];
+        }
+        let surface = deposit + depth;
+        let fluid = Diagram { unit: weight, surface, top: surface, ..Diagram::default() };
+        let own = fluid.force_over(self.section, deposit, surface);
+        let moves = self.section.area(surface) - self.section.area(deposit);
+        [weight * self.section.moment(surface) - own, own, moves].map(|whole| whole / self.width)
+    }
+}
+
 /// Share of the highest velocity below which λ is not told.
 const SLOW: f64 = 0.2;
 
@@ -42,11 +65,11 @@ const SLOW: f64 = 0.2;
 pub fn coefficients(
     histories: &Histories,
     input: &GuidelineInput,
-    width: f64,
+    across: &Across,
     window: usize,
     grain: f64,
 ) -> Coefficients {
-    let along: Vec<f64> = histories.force.iter().map(|force| force.x / width).collect();
+    let along: Vec<f64> = histories.force.iter().map(|force| force.x / across.width).collect();
     let along = smoothed(&along, window);
     let by_state = |state: usize| {
         let touch: Vec<f64> = histories.pushes_by_state.iter().map(|pushes| pushes[state]).collect();
@@ -66,9 +89,8 @@ pub fn coefficients(
         let share = if both > 0.0 { (dead[sample] / both).clamp(0.0, 1.0) } else { 0.0 };
         let (first, second) = (share * along[sample], (1.0 - share) * along[sample]);
         let (deposit, depth) = (deposit[sample], (total_depth[sample] - deposit[sample]).max(0.0));
-        let fixed = weight * deposit * (0.5 * deposit + depth);
-        let own = 0.5 * weight * depth * depth;
-        let flux = |velocity: f64| input.density * velocity * velocity * depth;
+        let [fixed, own, moves] = across.of(weight, deposit, depth);
+        let flux = |velocity: f64| input.density * velocity * velocity * moves;
         let standing = histories.incoming[sample].at_rest > STANDING;
         let lambda = |velocity: f64| {
             if depth > grain && velocity > slow {
@@ -147,7 +169,7 @@ mod tests {
             velocity: vec![[2.0 * velocity, 0.0]; count],
             ..Histories::default()
         };
-        let told = coefficients(&histories, &input, width, 5, 0.1);
+        let told = coefficients(&histories, &input, &Across { section: &Section::Rectangle { width }, width }, 5, 0.1);
         assert_relative_eq!(told.earth_pressure[10], 1.3, max_relative = 1e-12);
         assert_relative_eq!(told.dynamic_upstream[10], 0.8, max_relative = 1e-12);
         assert_relative_eq!(told.dynamic_mean[10], 0.2, max_relative = 1e-12);
@@ -167,7 +189,17 @@ mod tests {
             ..Histories::default()
         };
         change(&mut histories);
-        coefficients(&histories, input, 3.0, 1, 0.1)
+        coefficients(&histories, input, &Across { section: &Section::Rectangle { width: 3.0 }, width: 3.0 }, 1, 0.1)
+    }
+
+    /// In a groove of 45°, a metre of flow over a metre of deposit: γ z³/3 of both is 8/3, of the flow 1/3 + 1, and its area is 3 m².
+    #[test]
+    fn what_deposit_and_flow_book_is_integrated_over_a_section() {
+        let section = Section::Surveyed(crate::section::Survey::new(&[[-4.0, 4.0], [0.0, 0.0], [4.0, 4.0]], 0.1));
+        let across = Across { section: &section, width: 2.0 };
+        for (found, by_hand) in across.of(30.0, 1.0, 1.0).into_iter().zip([20.0, 20.0, 1.5]) {
+            assert_relative_eq!(found, by_hand, max_relative = 1e-12);
+        }
     }
 
     /// 30 kN/m, two thirds of them by grains at rest, 1.5 m deep under 0.5 m of moving ones: K ρ g' 1.5 · 1.25 and

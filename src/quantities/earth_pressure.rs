@@ -1,10 +1,12 @@
 //! K and λ back-calculated from the simulation. Those that are reported are left out where the deposit or the flow is thinner than two
 //! grains, because no depth can be measured there.
 
+use crate::loads::pressure::Diagram;
 use crate::quantities::coefficients::{Coefficients, STANDING};
 use crate::quantities::quantity::Unit::Number;
 use crate::quantities::quantity::{Of, Quantity, Told};
 use crate::quantities::reading::Reading;
+use crate::section::Section;
 use dem::recorders::histories::tail_mean;
 
 /// K that the force along the bed at rest means for the depth of the deposit.
@@ -83,7 +85,13 @@ fn k_of_deposit(run: &Reading, thin: f64) -> Option<f64> {
         let at_rest = tail_mean(&along, run.samples.tail);
         // What stands above the barrier's top presses on what is below it.
         let top = depth.min(run.guideline.input.barrier_height);
-        2.0 * at_rest / run.width() / (unit_weight(run) * top * (2.0 * depth - top))
+        match &run.guideline.section {
+            Section::Rectangle { width } => 2.0 * at_rest / width / (unit_weight(run) * top * (2.0 * depth - top)),
+            section @ Section::Surveyed(_) => {
+                let fluid = Diagram { unit: unit_weight(run), surface: depth, top, ..Diagram::default() };
+                at_rest / fluid.force_over(section, 0.0, top)
+            }
+        }
     })
 }
 
@@ -91,7 +99,18 @@ fn lambda(run: &Reading) -> Option<f64> {
     let flows = run.incoming.depth > 0.5 * run.thin() && run.incoming.at_rest <= STANDING && run.largest_flux > 0.0;
     flows.then(|| {
         let standing = run.histories.barrier_depth.get(run.at_push).copied().unwrap_or(0.0);
-        let fixed = 0.5 * run.guideline.input.earth_pressure * unit_weight(run) * standing.powi(2);
-        (run.push / run.width() - fixed) / (run.guideline.input.density * run.largest_flux)
+        let unit = run.guideline.input.earth_pressure * unit_weight(run);
+        match &run.guideline.section {
+            Section::Rectangle { width } => {
+                let fixed = 0.5 * unit * standing.powi(2);
+                (run.push / width - fixed) / (run.guideline.input.density * run.largest_flux)
+            }
+            section @ Section::Surveyed(_) => {
+                // The flux is the depth by the square of the velocity: on the mean width of the flow.
+                let width = section.mean_width(run.incoming.depth);
+                let fixed = unit * section.moment(standing);
+                (run.push - fixed) / (run.guideline.input.density * run.largest_flux * width)
+            }
+        }
     })
 }

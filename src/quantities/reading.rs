@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::guideline::Guideline;
-use crate::quantities::coefficients::{Coefficients, STANDING, coefficients};
+use crate::quantities::coefficients::{Across, Coefficients, STANDING, coefficients};
 use dem::recorders::channels::Channel;
 use dem::recorders::gauge::Gauge;
 use dem::recorders::histories::{Histories, peak, smoothed, tail_mean};
@@ -51,6 +51,7 @@ impl<'a> Reading<'a> {
         let until_push = &flux[..flux.len().min(at_push + 1)];
         let (at_largest, largest_flux) = peak(&smoothed(until_push, samples.window));
         let grain = design.flow.sizes.quantile(0.5);
+        let across = Across { section: &guideline.section, width: guideline.width };
         Self {
             histories,
             design,
@@ -64,7 +65,7 @@ impl<'a> Reading<'a> {
             incoming: histories.incoming.get(at_largest).copied().unwrap_or_default(),
             largest_flux,
             incoming_at_peak: histories.approaching.get(at_peak).copied().unwrap_or_default(),
-            coefficients: coefficients(histories, &guideline.input, design.channel.width, samples.window, grain),
+            coefficients: coefficients(histories, &guideline.input, &across, samples.window, grain),
         }
     }
 

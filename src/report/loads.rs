@@ -92,7 +92,7 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
         pressure_dynamic: with_unit(case.diagram.block, "Pa"),
         force_per_width: with_unit(case.force_per_width(), "N/m"),
         moment: with_unit(case.mean_moment(width), "N m/m"),
-        total: with_unit(case.total_force(width), "N"),
+        total: with_unit(case.total_force(&run.guideline.section), "N"),
         formula: case.formula,
         working: working(case),
         remark: remark(run, case),
@@ -200,8 +200,9 @@ pub fn bolted_rope(run: &Run) -> String {
     let (BarrierDesign::FlexibleNet(net), Some(load)) = (&run.file.design.barrier, run.guideline.bolt_force) else {
         return String::new();
     };
-    let spaces = net.bed_bolts.map_or(1, |bolts| bolts.spaces(run.guideline.width));
-    let spacing = run.guideline.width / spaces as f64;
+    let bed = run.guideline.section.bed_width();
+    let spaces = net.bed_bolts.map_or(1, |bolts| bolts.spaces(bed));
+    let spacing = bed / spaces as f64;
     let more = concentration(spacing / net.main_ropes.ring_spacing);
     let axial = net.main_ropes.rope.axial_stiffness() * more;
     let along = libm::cbrt(load * load * axial / 24.0);
@@ -239,7 +240,7 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     } else {
         ""
     };
-    let span = design.channel.width;
+    let span = rope.span;
     let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
     let half = 0.5 * rope.load * span / 1e3;
     let tension = libm::hypot(horizontal, half);
@@ -364,7 +365,7 @@ pub fn holding(run: &Run) -> Vec<Row> {
     let event = event_fill(design, input);
     rows.push(row(
         "Run-up on the barrier",
-        format!("{} / {}", with_unit(run_up::by_jump(input), "m"), with_unit(run_up::by_energy(input), "m")),
+        format!("{} / {}", with_unit(run_up::by_jump(input, &run.guideline.section), "m"), with_unit(run_up::by_energy(input), "m")),
         "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; dry friction is left out",
     ));
     let one_event = event.height();
@@ -391,7 +392,7 @@ fn estimates(run: &Run) -> Vec<Row> {
     let slope = design.channel.slope;
     if slope > 0.0 {
         for estimate in peak_discharge(design.flow.event_volume) {
-            let [velocity, depth] = velocity_and_depth(estimate.value, slope, design.channel.width);
+            let [velocity, depth] = velocity_and_depth(estimate.value, slope, &run.guideline.section);
             rows.push(row(
                 format!("Estimate from the volume alone: {}", estimate.name),
                 with_unit(estimate.value, "m³/s"),

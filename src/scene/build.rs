@@ -8,8 +8,10 @@ use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, packed_block, shape};
+use crate::scene::ground;
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
+use crate::section::Survey;
 use crate::units::GRAVITY;
 use dem::Vec3;
 use dem::elements::ground::{Ground, Plane};
@@ -21,6 +23,7 @@ use dem::simulation::Simulation;
 use dem::tables::barrier::Barrier;
 use dem::tables::grains::Grain;
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use dem::tables::terrain::Terrain;
 
 /// A simulation at the moment of release.
 pub struct Scene {
@@ -130,7 +133,7 @@ pub fn build_watched(
     }
     simulation.remove_surfaces(SurfaceRole::Gate);
     if let Some(net) = &net {
-        simulation.put_up(Barrier { ground: Some(ground(design, &net.barrier)), ..net.barrier.clone() });
+        simulation.put_up(Barrier { ground: Some(ground_of(design, &net.barrier)), ..net.barrier.clone() });
     }
     simulation.start_account();
     let recorder = recorder_setup(design, net);
@@ -151,7 +154,7 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
         shape: shape(flow),
         grains,
         surfaces: surfaces(design, block),
-        terrain: None,
+        terrain: design.channel.survey.as_ref().map(|survey| terrain_of(design, survey, block)),
         barrier: None,
         material: Material {
             modulus: flow.modulus,
@@ -248,6 +251,16 @@ fn speed_limit(design: &Design, block: &Block) -> f64 {
     10.0 * ((2.0 * GRAVITY * drop).sqrt() + block.velocity)
 }
 
+/// How far the ground goes on upstream of the block and beyond the outlet (m).
+const MARGIN: f64 = 20.0;
+
+/// The ground of a surveyed section along the whole of the scene.
+fn terrain_of(design: &Design, survey: &Survey, block: &Block) -> Terrain {
+    let channel = &design.channel;
+    let along = [block.front - block.length - MARGIN, outlet(design) + MARGIN];
+    ground::terrain(survey, along, |is_bed| if is_bed { channel.base_friction } else { channel.side_friction })
+}
+
 /// Base, side walls, back wall and gate, and the rigid wall if that is the barrier.
 fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     let channel = &design.channel;
@@ -257,11 +270,14 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     let along = Span::unbounded(x);
     let walls = up_to(channel.wall_height);
     let back = x * (block.front - block.length);
-    let mut all = vec![
-        Surface::new(SurfaceRole::Base, Vec3::zeros(), z, [along, across], channel.base_friction),
-        Surface::new(SurfaceRole::Side, Vec3::zeros(), y, [along, walls], channel.side_friction),
-        Surface::new(SurfaceRole::Side, y * channel.width, -y, [along, walls], channel.side_friction),
-    ];
+    let mut all = match channel.survey {
+        Some(_) => Vec::new(),
+        None => vec![
+            Surface::new(SurfaceRole::Base, Vec3::zeros(), z, [along, across], channel.base_friction),
+            Surface::new(SurfaceRole::Side, Vec3::zeros(), y, [along, walls], channel.side_friction),
+            Surface::new(SurfaceRole::Side, y * channel.width, -y, [along, walls], channel.side_friction),
+        ],
+    };
     if matches!(design.flow.arrival, Arrival::DamBreak(_)) {
         all.push(Surface::new(SurfaceRole::Side, back, x, [Span::unbounded(z), across], channel.side_friction));
         all.push(Surface::new(
@@ -281,8 +297,13 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     all
 }
 
+/// How far upstream of its foot a barrier reaches (m).
+fn reach_of(barrier: &Barrier) -> f64 {
+    barrier.nodes.iter().map(|node| -node.position.x).fold(0.0, f64::max)
+}
+
 /// Bed and side walls, as the net lies on them: with the smaller friction of grains on them and on ropes.
-fn ground(design: &Design, barrier: &Barrier) -> Ground {
+fn ground_of(design: &Design, barrier: &Barrier) -> Ground {
     let channel = &design.channel;
     let plane = |origin, normal, top, friction: f64| Plane {
         origin,
@@ -290,13 +311,20 @@ fn ground(design: &Design, barrier: &Barrier) -> Ground {
         top,
         friction: friction.min(channel.barrier_friction),
     };
+    let moduli = [design.flow.modulus, barrier.contact_modulus];
+    if let Some(survey) = &channel.survey {
+        let along = [-MARGIN - reach_of(barrier), outlet(design) + MARGIN];
+        let friction = |is_bed: bool| if is_bed { channel.base_friction } else { channel.side_friction };
+        let terrain = ground::terrain(survey, along, |is_bed| friction(is_bed).min(channel.barrier_friction));
+        return Ground::over(&barrier.nodes, terrain, moduli);
+    }
     let (y, walls) = (Vec3::y(), channel.wall_height);
     let planes = [
         plane(Vec3::zeros(), Vec3::z(), f64::INFINITY, channel.base_friction),
         plane(Vec3::zeros(), y, walls, channel.side_friction),
         plane(y * channel.width, -y, walls, channel.side_friction),
     ];
-    Ground::under(&barrier.nodes, planes, [design.flow.modulus, barrier.contact_modulus])
+    Ground::under(&barrier.nodes, planes, moduli)
 }
 
 /// Where the flow is gauged, upstream of the barrier's most upstream point, over its height: just before the barrier, for the velocity
@@ -312,10 +340,12 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
     let height = barrier_height(design);
     let lean = reach(design, net.as_ref());
     let bulge = if net.is_some() { DEPOSIT[0] * height } else { 0.0 };
+    let across = ground::across(&design.channel);
+    let section = design.channel.section();
     let window = |[near, far]: [f64; 2]| GaugeWindow {
         near: lean + near * height,
         far: lean + far * height,
-        width: design.channel.width,
+        across: across.clone(),
         bulk_density: design.flow.bulk_density,
         mean_diameter: design.flow.sizes.quantile(0.5),
     };
@@ -337,9 +367,10 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
             BarrierDesign::FlexibleNet(_) => None,
         },
         bolt_spaces: match &design.barrier {
-            BarrierDesign::FlexibleNet(net) => net.bed_bolts.map_or(0, |bolts| bolts.spaces(design.channel.width)),
+            BarrierDesign::FlexibleNet(net) => net.bed_bolts.map_or(0, |bolts| bolts.spaces(section.bed_width())),
             BarrierDesign::RigidWall(_) => 0,
         },
+        bolted: section.bed_ends(),
         incoming: window(INCOMING),
         approaching: window(APPROACHING),
         deposit: GaugeWindow { near: -bulge, far: lean + DEPOSIT[1] * height, ..window(INCOMING) },

@@ -4,5 +4,6 @@ pub mod build;
 pub(crate) mod estimate;
 pub mod event;
 pub mod flow;
+pub(crate) mod ground;
 pub(crate) mod net;
 pub(crate) mod patience;

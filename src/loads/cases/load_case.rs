@@ -2,6 +2,7 @@
 
 use crate::loads::cases::working::Working;
 use crate::loads::pressure::Diagram;
+use crate::section::Section;
 
 /// How sure we are of a formula or a value; only what is certain may decide a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,9 +84,16 @@ impl LoadCase {
         self.diagram.moment(0.0, f64::INFINITY) + self.decisive_shear() * self.diagram.top
     }
 
-    /// Force on a barrier of this width, its point load included (N).
-    pub fn total_force(&self, width: f64) -> f64 {
-        self.force_per_width() * width + self.point.map_or(0.0, |point| point.force)
+    /// Force on a barrier across this section, its point load included (N).
+    pub fn total_force(&self, section: &Section) -> f64 {
+        let spread = match section {
+            Section::Rectangle { width } => self.force_per_width() * width,
+            Section::Surveyed(_) => {
+                let drag = self.decisive_shear() * section.width(self.diagram.top);
+                self.diagram.force_over(section, 0.0, f64::INFINITY) + drag
+            }
+        };
+        spread + self.point.map_or(0.0, |point| point.force)
     }
 
     /// Moment about the bed, per width, of all that acts on a barrier of this width (N m/m).
@@ -96,7 +104,7 @@ impl LoadCase {
     /// Force normal to a face that leans by θ from the bed's normal, on a barrier of this width (N): what presses on it has R along the bed
     /// and R tan θ off it, R/cos θ in all. Drag and point load are taken likewise, which is on the safe side.
     pub fn face_force(&self, width: f64, lean: f64) -> f64 {
-        self.total_force(width) / libm::cos(lean)
+        self.total_force(&Section::Rectangle { width }) / libm::cos(lean)
     }
 
     /// Moment of that force about the foot of the face, per width (N m/m): the pressures act at z/cos θ along it, so that theirs is the

@@ -6,6 +6,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::scene::ground::terrain;
+use crate::section::{Section, Survey};
 use dem::Vec3;
 use dem::model::{Material, Model};
 use dem::simd::quad::Quad;
@@ -27,15 +29,17 @@ const LENGTHENING: [f64; 11] = [0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.16, 0
 
 /// A box from the origin to `size` (m), in the channel frame, whose downstream face may slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PackingRoom {
+pub struct PackingRoom<'a> {
     pub size: Vec3,
     /// Length along x over which the downstream face falls from the full height to the bed (m); 0 for a vertical face.
     pub nose: f64,
     /// Whether no two grains may touch in the end.
     pub apart: bool,
+    /// The ground of a section in place of level floor and sides.
+    pub ground: Option<&'a Survey>,
 }
 
-impl PackingRoom {
+impl PackingRoom<'_> {
     /// Unit normal of the downstream face, out of the room.
     fn front(&self) -> Vec3 {
         Vec3::new(self.size.z, 0.0, self.nose).normalize()
@@ -48,7 +52,17 @@ impl PackingRoom {
 
     /// m³
     fn volume(&self) -> f64 {
-        self.size.y * self.size.z * (self.size.x - 0.5 * self.nose)
+        let Some(survey) = self.ground else {
+            return self.size.y * self.size.z * (self.size.x - 0.5 * self.nose);
+        };
+        let section = Section::Surveyed(survey.clone());
+        let area = section.area(self.size.z);
+        area * (self.size.x - self.nose) + self.nose * section.moment(self.size.z) / self.size.z
+    }
+
+    /// How far a point is above the floor (m).
+    fn above_floor(&self, point: &Vec3) -> f64 {
+        point.z - self.ground.map_or(0.0, |survey| survey.ground(point.y))
     }
 }
 
@@ -129,7 +143,7 @@ fn pack_once(
         shape,
         grains: scatter(bodies, room, seed),
         surfaces: walls(room),
-        terrain: None,
+        terrain: room.ground.map(|survey| terrain(survey, [-room.size.x, 2.0 * room.size.x], |_| 0.0)),
         barrier: None,
         material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
         gravity: Vec3::zeros(),
@@ -161,6 +175,7 @@ fn hold_inside(simulation: &mut Simulation, room: PackingRoom) {
         let margin = Vec3::repeat(0.5 * body.radius) + axis.abs() * body.offset;
         let position = simulation.grains.place[row].vector();
         let mut held = position.sup(&margin).inf(&(room.size - margin).sup(&margin));
+        held.z -= room.above_floor(&held).min(0.0);
         if room.nose > 0.0 {
             let front = room.front();
             let short = margin.dot(&front.abs()) - room.behind_front(&held);
@@ -209,7 +224,9 @@ fn scatter(bodies: &[GrainBody], room: PackingRoom, seed: u64) -> Vec<Grain> {
     };
     let inside = |counts: &Counts| -> Vec<usize> {
         let middle = |cell: &usize| place(*cell, counts, Vec3::repeat(0.5));
-        (0..counts.product()).filter(|cell| room.nose == 0.0 || room.behind_front(&middle(cell)) > 0.0).collect()
+        let behind = |place: &Vec3| room.nose == 0.0 || room.behind_front(place) > 0.0;
+        let is_inside = |place: Vec3| behind(&place) && room.above_floor(&place) > 0.0;
+        (0..counts.product()).filter(|cell| is_inside(middle(cell))).collect()
     };
     let mut cells = inside(&counts);
     while cells.len() < bodies.len() {
@@ -249,6 +266,9 @@ fn walls(room: PackingRoom) -> Vec<Surface> {
             Span::unbounded(direction)
         });
         for (origin, normal) in [(Vec3::zeros(), inward), (inward * room.size[axis], -inward)] {
+            if room.ground.is_some() && (axis == 1 || normal.z > 0.0) {
+                continue;
+            }
             if axis == 0 && normal.x < 0.0 && room.nose > 0.0 {
                 surfaces.push(sloping_front(room));
                 continue;
@@ -270,11 +290,12 @@ fn sloping_front(room: PackingRoom) -> Surface {
 mod tests {
     use super::*;
 
-    fn pack_at(share: f64, aspect: f64, seed: u64) -> (Vec<Grain>, f64, PackingRoom) {
+    fn pack_at(share: f64, aspect: f64, seed: u64) -> (Vec<Grain>, f64, PackingRoom<'static>) {
         let bodies: Vec<GrainBody> =
             (0..400).map(|i| GrainBody::clump(0.20 + 0.0005 * f64::from(i), aspect, 2650.0)).collect();
         let volume: f64 = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>() / share;
-        let room = PackingRoom { size: Vec3::new(volume / (3.0 * 1.2), 3.0, 1.2), nose: 0.0, apart: false };
+        let room =
+            PackingRoom { size: Vec3::new(volume / (3.0 * 1.2), 3.0, 1.2), nose: 0.0, apart: false, ground: None };
         let shape = if aspect > 1.0 { GrainShape::Clump } else { GrainShape::Sphere };
         let (grains, length) = pack(&bodies, shape, room, seed).expect("fits");
         (grains, length, room)
@@ -301,7 +322,7 @@ mod tests {
         let volume: f64 = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>() / 0.55;
         let (width, height, nose) = (3.0, 1.2, 2.0);
         let size = Vec3::new(volume / (width * height) + 0.5 * nose, width, height);
-        let room = PackingRoom { size, nose, apart: true };
+        let room = PackingRoom { size, nose, apart: true, ground: None };
         let (grains, length) = pack(&bodies, GrainShape::Clump, room, 1).expect("fits");
         assert!(length <= 1.0501 * size.x, "{length}");
         let room = PackingRoom { size: Vec3::new(length, width, height), ..room };

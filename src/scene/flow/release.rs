@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
 use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched};
+use crate::section::Section;
 use crate::units::GRAVITY;
 use dem::Vec3;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
@@ -17,13 +18,18 @@ pub struct Block {
     pub height: f64,
     /// Length along the bed over which its downstream face rises to the full height (m); 0 for a vertical face.
     pub nose: f64,
-    /// Area of the tip of the nose that is too thin for grains (m²).
+    /// Share of the nose, as long as the full body, that it lacks: a half between vertical walls.
+    pub lack: f64,
+    /// Area along the channel, on the mean width, of the tip of the nose that is too thin for grains (m²).
     pub tip: f64,
     pub velocity: f64,
 }
 
 /// Depth of the tip of a nose that holds no grains, over their mean diameter.
 const TIP: f64 = 0.75;
+
+/// What a nose between vertical walls lacks of a full body.
+const LACK: f64 = 0.5;
 
 /// Share of the length of an even flow that its nose may take at the most, on the middle of the height: so that a short surge still has
 /// a surface.
@@ -33,9 +39,15 @@ impl Block {
     /// The velocity of a surge is that of its arrival: what slope and friction of the bed give or take on the run-in s is left out or
     /// added at the release, v₀² = v² − 2 g (sin α − tan φ cos α) s, but no less than half the velocity.
     pub fn of(flow: &Flow, channel: &Channel, upstream_reach: f64) -> Self {
+        let section = channel.section();
+        let thin = TIP * flow.sizes.quantile(0.5);
         match flow.arrival {
             Arrival::DamBreak(DamBreak { length, height, distance, .. }) => {
-                Self { front: -distance, length, height, nose: 0.0, tip: 0.0, velocity: 0.0 }
+                let height = match section {
+                    Section::Rectangle { .. } => height,
+                    Section::Surveyed(_) => higher(&section, height, thin),
+                };
+                Self { front: -distance, length, height, nose: 0.0, lack: LACK, tip: 0.0, velocity: 0.0 }
             }
             Arrival::Surge(Surge { length, depth, velocity, front_angle, run_in }) => {
                 let nose = (depth / libm::tan(front_angle)).clamp(0.0, 2.0 * LONGEST_NOSE * length);
@@ -44,19 +56,38 @@ impl Block {
                     * (libm::sin(channel.slope) - channel.base_friction * libm::cos(channel.slope))
                     * run_in;
                 let velocity = (velocity * velocity - gain).max(0.25 * velocity * velocity).sqrt();
-                let thin = (TIP * flow.sizes.quantile(0.5)).min(depth);
-                let tip = 0.5 * thin * thin * nose / depth;
-                // The triangle that the nose lacks, and the tip that holds nothing, are made up for by length.
-                let length = length + 0.5 * nose + tip / depth;
-                Self { front: -upstream_reach - run_in, length, height: depth, nose, tip, velocity }
+                let thin = thin.min(depth);
+                let (lack, tip, even) = match section {
+                    Section::Rectangle { .. } => (LACK, 0.5 * thin * thin * nose / depth, length),
+                    Section::Surveyed(_) => {
+                        let area = section.area(depth);
+                        let lack = 1.0 - section.moment(depth) / (depth * area);
+                        let tip = section.moment(thin) * nose / area;
+                        (lack, tip, length * area / section.deep_area(depth, thin))
+                    }
+                };
+                // What the nose lacks, and the tip that holds nothing, are made up for by length.
+                let length = even + lack * nose + tip / depth;
+                Self { front: -upstream_reach - run_in, length, height: depth, nose, lack, tip, velocity }
             }
         }
     }
 
     /// Of its section along the channel, as far as it holds grains (m²).
     pub fn area(&self) -> f64 {
-        self.height * (self.length - 0.5 * self.nose) - self.tip
+        self.height * (self.length - self.lack * self.nose) - self.tip
     }
+}
+
+/// Height of a block that holds what one of a given height would, if there were grains in the thin wedges along its banks (m).
+fn higher(section: &Section, height: f64, thin: f64) -> f64 {
+    let area = section.area(height);
+    let (mut low, mut high) = (height, height + thin);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if section.deep_area(middle, thin.min(middle)) < area { low = middle } else { high = middle }
+    }
+    high
 }
 
 /// The bodies of all grains, from the design's size curve.
@@ -79,9 +110,10 @@ pub fn packed_block(
     attempts: Attempts,
 ) -> Result<(Vec<Grain>, Block), PackingError> {
     let room = PackingRoom {
-        size: Vec3::new(block.length, channel.width, block.height),
+        size: Vec3::new(block.length, channel.section().breadth(), block.height),
         nose: block.nose,
         apart: block.moves(),
+        ground: channel.survey.as_ref(),
     };
     let (mut grains, length) = pack_watched(&bodies(flow), shape(flow), room, seed, attempts)?;
     let corner = Vec3::new(block.front - length, 0.0, 0.0);

@@ -46,12 +46,18 @@ impl BuiltNet {
 
 /// Builds the net of `design` across `channel`, each side of a mesh of so many straight `pieces`. The barrier's foot is at x = 0.
 pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, pieces: u32) -> BuiltNet {
+    let section = channel.section();
+    let top = design.height * libm::cos(channel.slope + design.tilt) + design.bottom.gap();
+    let [starts, ends] = section.banks(top);
+    let width = ends - starts;
     let mut builder = Builder {
         design,
         pieces,
         channel,
         model,
-        grid: Grid::fit(design, channel.width),
+        grid: Grid::fit(design, width),
+        starts,
+        width,
         barrier: Barrier {
             friction: channel.barrier_friction,
             contact_modulus: design.net_rope.modulus,
@@ -62,10 +68,14 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
         rope_nodes: BTreeMap::new(),
         wings: Vec::new(),
     };
-    builder.add_knots();
-    builder.add_net();
-    builder.add_main_ropes();
-    builder.add_lateral_ropes();
+    if let Some(survey) = &channel.survey {
+        builder.add_cut_net(survey);
+    } else {
+        builder.add_knots();
+        builder.add_net();
+        builder.add_main_ropes();
+        builder.add_lateral_ropes();
+    }
     if let Some(extension) = &design.side_extension {
         builder.add_side_extensions(extension);
     }
@@ -79,6 +89,9 @@ pub(super) struct Builder<'a> {
     /// Of a side of a mesh.
     pieces: u32,
     pub(super) grid: Grid,
+    /// Where the uppermost rope begins and how long it is, from bank to bank (m).
+    starts: f64,
+    pub(super) width: f64,
     pub(super) barrier: Barrier,
     pub(super) knots: BTreeMap<(usize, usize), u32>,
     /// Nodes of main ropes from end to end, by row.
@@ -93,11 +106,11 @@ impl Builder<'_> {
         self.grid.rope_rows.contains(&row) && (row > 0 || self.design.bottom != Bottom::Fixed)
     }
 
-    /// Distance of a column from the first side wall (m).
+    /// Place of a column across the channel (m).
     pub(super) fn across(&self, column: usize) -> f64 {
         let gap = self.design.side_gap();
-        let inner = self.channel.width - 2.0 * gap;
-        gap + inner * column as f64 / self.grid.columns as f64
+        let inner = self.width - 2.0 * gap;
+        self.starts + gap + inner * column as f64 / self.grid.columns as f64
     }
 
     /// Unit vectors up the barrier's plane and out of it, upstream.
@@ -164,14 +177,24 @@ impl Builder<'_> {
     }
 
     /// A side of a mesh from knot to knot, in straight pieces.
-    fn add_side_of_mesh(&mut self, knots: [u32; 2]) {
+    pub(super) fn add_side_of_mesh(&mut self, knots: [u32; 2]) {
         let [from, to] = knots.map(|knot| self.barrier.nodes[knot as usize].position);
-        let inner = (1..self.pieces).map(|piece| from.lerp(&to, f64::from(piece) / f64::from(self.pieces)));
+        let pieces = self.pieces_of((to - from).norm());
+        let inner = (1..pieces).map(|piece| from.lerp(&to, f64::from(piece) / f64::from(pieces)));
         let inner: Vec<u32> = inner.collect::<Vec<_>>().into_iter().map(|place| self.add_node(place, false)).collect();
         let nodes = [&knots[..1], &inner, &knots[1..]].concat();
         for pair in nodes.windows(2) {
             self.add_line([pair[0], pair[1]], SegmentKind::Net, &self.design.net_rope);
         }
+    }
+
+    /// Pieces of a side of this length: fewer where it was cut (m).
+    fn pieces_of(&self, length: f64) -> u32 {
+        let whole = self.design.mesh_opening;
+        if length > 0.75 * whole || self.pieces == 1 {
+            return self.pieces;
+        }
+        (f64::from(self.pieces) * length / whole).round().max(1.0) as u32
     }
 
     fn add_main_ropes(&mut self) {
@@ -197,13 +220,13 @@ impl Builder<'_> {
                 self.add_chain(segments);
                 let up = self.grid.row_heights[row];
                 self.add_rope_end(rope, ends[0], self.place(0.0, up));
-                self.add_rope_end(rope, ends[1], self.place(self.channel.width, up));
+                self.add_rope_end(rope, ends[1], self.place(self.width, up));
             }
         }
     }
 
     /// Lets a main rope run through its rings, if the model has it so.
-    fn add_chain(&mut self, segments: Vec<u32>) {
+    pub(super) fn add_chain(&mut self, segments: Vec<u32>) {
         if self.model == BarrierModel::SlidingRopes {
             let rings = &self.design.main_ropes;
             let shortest = SHORTEST_SEGMENT * rings.ring_spacing;
@@ -212,7 +235,7 @@ impl Builder<'_> {
     }
 
     /// Anchors one end of a main rope, through a dissipator where the design has them.
-    fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
+    pub(super) fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
         let anchor = self.add_node(place, true);
         self.barrier.anchors.push(Anchor { node: anchor, rope });
         match self.design.dissipators {
@@ -256,8 +279,8 @@ impl Builder<'_> {
         }
     }
 
-    fn knots_of_row(&self, row: usize) -> Vec<u32> {
-        self.grid.knot_columns(row).map(|column| self.knots[&(column, row)]).collect()
+    pub(super) fn knots_of_row(&self, row: usize) -> Vec<u32> {
+        self.grid.knot_columns(row).filter_map(|column| self.knots.get(&(column, row)).copied()).collect()
     }
 
     /// Adds a straight rope between two nodes, as a segment or as a cylinder.

@@ -1,7 +1,9 @@
 //! The flexible barrier: mesh, main and lateral ropes, dissipators and anchors, as nodes and elements.
 
 pub(crate) mod build;
+pub(crate) mod cut;
 mod extension;
 pub(crate) mod grid;
+pub(crate) mod outline;
 pub(crate) mod ring_shape;
 pub(crate) mod rings;

@@ -40,7 +40,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
 fn poured() -> Result<Simulation, Broken> {
     let bodies = vec![GrainBody::sphere(RADIUS, DENSITY); COUNT];
     let height = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / (0.30 * SIDE * SIDE);
-    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false };
+    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false, ground: None };
     let (grains, length) =
         pack(&bodies, GrainShape::Sphere, room, 6).map_err(|error| Broken::Scene(error.to_string()))?;
     let mut model =

@@ -86,7 +86,7 @@ fn column(seed: u64) -> Result<Column, Broken> {
 fn filled(seed: u64) -> Result<Simulation, Broken> {
     let bodies = vec![GrainBody::sphere(RADIUS, 2600.0); COUNT];
     let height = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / (0.57 * SIDE * SIDE);
-    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false };
+    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false, ground: None };
     let (mut grains, length) =
         pack(&bodies, GrainShape::Sphere, room, seed).map_err(|error| Broken::Scene(error.to_string()))?;
     // What overlap the packing has left would lock stresses in between the walls: everything is spread out a little.

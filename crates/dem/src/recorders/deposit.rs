@@ -18,7 +18,7 @@ pub fn beyond_the_first_gap(grains: impl Iterator<Item = (f64, f64)>, window: &G
         cells.resize(cells.len().max(place + 1), 0.0);
         cells[place] += mass;
     }
-    let thin = THIN * window.mean_diameter * window.bulk_density * window.width * cell;
+    let thin = window.across.mass_at(THIN * window.mean_diameter, window.bulk_density, cell);
     let first = (near / cell).ceil() as usize;
     let gap = (first.min(cells.len())..cells.len()).find(|&place| cells[place] < thin).unwrap_or(cells.len());
     cells[gap..].iter().fold(0.0, |sum, mass| sum + mass)
@@ -27,11 +27,12 @@ pub fn beyond_the_first_gap(grains: impl Iterator<Item = (f64, f64)>, window: &G
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recorders::across::Across;
     use approx::assert_relative_eq;
 
     /// Stretches of 1 m that are thin below 250 kg.
     const WINDOW: GaugeWindow =
-        GaugeWindow { near: 0.0, far: 1.0, width: 1.0, bulk_density: 2000.0, mean_diameter: 0.5 };
+        GaugeWindow { near: 0.0, far: 1.0, across: Across::Even(1.0), bulk_density: 2000.0, mean_diameter: 0.5 };
 
     fn beyond(masses: &[f64], near: f64) -> f64 {
         let grains = masses.iter().enumerate().map(|(place, mass)| (place as f64 + 0.5, *mass));

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::recorders::across::Across;
 use crate::tables::grains::Grain;
 
 /// The flow in a window across the channel; zeros where there are no grains.
@@ -15,17 +16,16 @@ pub struct Gauge {
     pub depth: f64,
     /// Share of the mass in the window that is at rest.
     pub at_rest: f64,
-    /// Σ m v² over the window's area and the bulk density: h v² of an even flow (m³/s²).
+    /// Depth times the mean of v² by mass: h v² of an even flow (m³/s²).
     pub flux: f64,
 }
 
 /// A window across the channel, between two distances upstream of the barrier's foot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GaugeWindow {
     pub near: f64,
     pub far: f64,
-    /// Width of the channel (m).
-    pub width: f64,
+    pub across: Across,
     /// kg/m³
     pub bulk_density: f64,
     /// Mean diameter of the grains (m).
@@ -51,7 +51,7 @@ impl GaugeWindow {
         }
         let windows = cells.windows(2).map(|pair| [pair[0][0] + pair[1][0], pair[0][1] + pair[1][1]]);
         let most = windows.fold([0.0; 2], |most, window| if window[0] > most[0] { window } else { most });
-        most.map(|mass| mass / (self.bulk_density * self.width * 2.0 * cell))
+        most.map(|mass| self.across.depth_of(mass, self.bulk_density, 2.0 * cell))
     }
 
     /// `slow` tells which grains are at rest.
@@ -73,13 +73,16 @@ impl GaugeWindow {
         let count = heights.len();
         let rank = (count * 9 / 10).min(count - 1);
         let (_, ninety, _) = heights.select_nth_unstable_by(rank, f64::total_cmp);
-        let full_mass_per_depth = self.bulk_density * self.width * (self.far - self.near);
+        let depth = self.across.depth_of(mass, self.bulk_density, self.far - self.near);
         Gauge {
             thickness: *ninety + 0.5 * self.mean_diameter,
             velocity: velocity / count as f64,
             at_rest: at_rest / mass,
-            depth: mass / full_mass_per_depth,
-            flux: momentum_flux / full_mass_per_depth,
+            depth,
+            flux: match &self.across {
+                Across::Even(_) => self.across.depth_of(momentum_flux, self.bulk_density, self.far - self.near),
+                Across::Ground(_) => depth * momentum_flux / mass,
+            },
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What is written down while a model runs.
 
+pub mod across;
 pub(crate) mod body;
 pub(crate) mod bolts;
 pub mod channels;

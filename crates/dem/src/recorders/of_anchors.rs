@@ -75,5 +75,5 @@ fn bolt_loads(barrier: &Barrier, setup: &RecorderSetup, forces: &[Vec3]) -> Vec<
     let lowest = setup.net_rows.first().into_iter().flatten().map(|&node| node as usize);
     let held = lowest.filter(|&node| barrier.nodes[node].fixed);
     let knots = held.map(|node| (barrier.nodes[node].position.y, forces[node]));
-    share_between_bolts(knots, setup.bolt_spaces, setup.incoming.width)
+    share_between_bolts(knots, setup.bolt_spaces, setup.bolted)
 }

@@ -225,12 +225,13 @@ impl Recorder {
     /// Notes grains that are where none can get, wholly below the bed or wholly beyond a side wall that they have not gone over, and
     /// counts all that have left the channel as lost.
     fn look_for_strays(&mut self, grains: &[Grain]) {
-        let width = self.setup.incoming.width;
         for grain in grains {
             let reach = grain.body.radius + grain.body.offset;
             let (y, z) = (grain.position.y, grain.position.z);
-            let below = z < -reach;
-            let beyond = y < -reach || y > width + reach;
+            let across = &self.setup.incoming.across;
+            let (ground, cosine) = across.ground(y);
+            let below = z < ground - reach / cosine;
+            let beyond = y < -reach || y > across.breadth() + reach;
             if !(below || beyond) {
                 continue;
             }

@@ -25,6 +25,8 @@ pub struct RecorderSetup {
     pub wall: Option<WallFace>,
     /// Spaces between the bolts of the lowest main rope; 0 where it has none or their distance is not known.
     pub bolt_spaces: usize,
+    /// Where across the channel that rope begins and ends (m).
+    pub bolted: [f64; 2],
     /// Window in which the incoming flow is gauged, just upstream of the barrier.
     pub incoming: GaugeWindow,
     /// The same about a barrier's height upstream.

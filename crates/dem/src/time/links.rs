@@ -140,7 +140,7 @@ impl Linked<'_> {
         let link = |footing: &Footing| {
             let link = Link::between(self.node_end(barrier, footing.node, 1.0));
             let spring = ground.spring(&barrier.nodes[footing.node as usize]);
-            self.contact(link, ground.planes[footing.plane as usize].normal, &spring)
+            self.contact(link, ground.normal(footing, &barrier.nodes), &spring)
         };
         barrier.footings.iter().map(link).collect()
     }

@@ -1,0 +1,119 @@
+//! The section of the channel as recorders need it: how deep a mass stands in it, and where its ground is.
+
+use serde::{Deserialize, Serialize};
+
+/// What lies across the channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Across {
+    /// A level bed of this width between vertical walls (m).
+    Even(f64),
+    Ground(GroundLine),
+}
+
+/// Ground over the width.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroundLine {
+    /// (y, z) of the ground, y never falling (m).
+    pub points: Vec<[f64; 2]>,
+    /// Area under a level surface (m²) by its height (m), both rising from 0; between two heights in proportion.
+    pub areas: Vec<[f64; 2]>,
+}
+
+impl Across {
+    /// Depth (m) of a mass (kg) over a length of the channel (m) at a density (kg/m³).
+    pub fn depth_of(&self, mass: f64, density: f64, length: f64) -> f64 {
+        match self {
+            Self::Even(width) => mass / (density * width * length),
+            Self::Ground(ground) => ground.height_of(mass / (density * length)),
+        }
+    }
+
+    /// Mass (kg) that stands at a depth (m) over a length of the channel (m).
+    pub fn mass_at(&self, depth: f64, density: f64, length: f64) -> f64 {
+        match self {
+            Self::Even(width) => depth * density * width * length,
+            Self::Ground(ground) => ground.area_under(depth) * density * length,
+        }
+    }
+
+    /// From one side to the other (m).
+    pub fn breadth(&self) -> f64 {
+        match self {
+            Self::Even(width) => *width,
+            Self::Ground(ground) => ground.points.last().map_or(0.0, |point| point[0]),
+        }
+    }
+
+    /// Height of the ground (m), and the cosine of its slope across the channel.
+    pub fn ground(&self, y: f64) -> (f64, f64) {
+        match self {
+            Self::Even(_) => (0.0, 1.0),
+            Self::Ground(ground) => ground.at(y),
+        }
+    }
+}
+
+impl GroundLine {
+    fn at(&self, y: f64) -> (f64, f64) {
+        let after = self.points.partition_point(|point| point[0] < y);
+        match (after.checked_sub(1).map(|before| self.points[before]), self.points.get(after)) {
+            (Some(a), Some(b)) => {
+                let [across, rise] = [b[0] - a[0], b[1] - a[1]];
+                (a[1] + rise * (y - a[0]) / across, across / libm::hypot(across, rise))
+            }
+            (Some(end), None) | (None, Some(&end)) => (end[1], 1.0),
+            (None, None) => (0.0, 1.0),
+        }
+    }
+
+    fn height_of(&self, area: f64) -> f64 {
+        along(&self.areas, area, 1, 0)
+    }
+
+    fn area_under(&self, height: f64) -> f64 {
+        along(&self.areas, height, 0, 1)
+    }
+}
+
+/// The column `to` of a table where its column `from` has a value; beyond the end as in the last interval.
+fn along(table: &[[f64; 2]], value: f64, from: usize, to: usize) -> f64 {
+    let Some(last) = table.len().checked_sub(2) else { return 0.0 };
+    let index = table.partition_point(|row| row[from] < value).saturating_sub(1).min(last);
+    let [a, b] = [table[index], table[index + 1]];
+    a[to] + (b[to] - a[to]) * (value - a[from]) / (b[from] - a[from])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// A bed of 2 m between banks of 45°, A = 2 z + z².
+    fn trapezoid() -> Across {
+        let areas = (0..=400).map(|step| 0.01 * f64::from(step)).map(|z| [z, 2.0 * z + z * z]).collect();
+        Across::Ground(GroundLine { points: vec![[0.0, 4.0], [4.0, 0.0], [6.0, 0.0], [10.0, 4.0]], areas })
+    }
+
+    #[test]
+    fn a_mass_stands_as_deep_as_its_area_is_high() {
+        // 1000 kg/m³ over 2 m: 16 t is 8 m², which is 2 m deep.
+        assert_relative_eq!(trapezoid().depth_of(16e3, 1000.0, 2.0), 2.0, max_relative = 1e-4);
+        assert_relative_eq!(trapezoid().mass_at(2.0, 1000.0, 2.0), 16e3, max_relative = 1e-4);
+        assert_relative_eq!(Across::Even(4.0).depth_of(16e3, 1000.0, 2.0), 2.0);
+        assert_relative_eq!(Across::Even(4.0).mass_at(2.0, 1000.0, 2.0), 16e3);
+        assert_eq!(trapezoid().depth_of(0.0, 1000.0, 2.0), 0.0);
+        assert!(trapezoid().depth_of(1e6, 1000.0, 2.0) > 4.0);
+    }
+
+    #[test]
+    fn the_ground_is_that_of_its_points() {
+        let (height, cosine) = trapezoid().ground(1.0);
+        assert_relative_eq!(height, 3.0, max_relative = 1e-12);
+        assert_relative_eq!(cosine, std::f64::consts::FRAC_1_SQRT_2, max_relative = 1e-12);
+        assert_eq!(
+            (trapezoid().ground(5.0), trapezoid().ground(11.0).0, trapezoid().breadth()),
+            ((0.0, 1.0), 4.0, 10.0)
+        );
+        assert_eq!((Across::Even(3.0).ground(9.0), Across::Even(3.0).breadth()), ((0.0, 1.0), 3.0));
+    }
+}

@@ -1,0 +1,201 @@
+//! Contradictions between values of a channel; listed in [`super::rules`].
+
+use crate::design::channel_entries::{height_of_barrier, survey};
+use crate::design::entries::Entries;
+use crate::design::net_rules::rope_heights;
+use crate::design::show::{NET, at, length};
+use crate::problem::Problem;
+use crate::section::Section;
+
+const POINTS: &str = "channel.section.points";
+
+pub fn width_or_section(e: &Entries) -> Option<Problem> {
+    let found = match (e.mentions("channel.width"), e.mentions("channel.section")) {
+        (true, true) => "both width and section",
+        (false, false) if e.has_section("channel") => "neither width nor section",
+        _ => return None,
+    };
+    Some(Problem::new("channel", found, "either width or section").hint(
+        "`width` is that of a channel of rectangular section; `section` is a surveyed one, as a trapezoid or as points",
+    ))
+}
+
+pub fn walls_belong_to_a_width(e: &Entries) -> Option<Problem> {
+    let path = "channel.wall_height";
+    match (e.mentions("channel.width"), e.mentions("channel.section"), e.mentions(path)) {
+        (true, false, false) => {
+            let allowed = "the height of the side walls beside their distance";
+            Some(
+                Problem::new("channel", "no key `wall_height`", allowed)
+                    .hint("`wall_height` is the height of the side walls, normal to the bed"),
+            )
+        }
+        (false, true, true) => Some(
+            Problem::new(path, "the height of side walls beside a section", "this key beside `width` only")
+                .hint("the section itself says how high its banks are: leave wall_height out"),
+        ),
+        _ => None,
+    }
+}
+
+pub fn bed_is_told_of_points(e: &Entries) -> Option<Problem> {
+    let path = "channel.bed_up_to";
+    (e.mentions(path) && !e.mentions(POINTS)).then(|| {
+        Problem::new(path, "what is bed, of a section that says so itself", "this key beside `section.points` only")
+            .hint("leave it out")
+    })
+}
+
+pub fn points_are_three(e: &Entries) -> Option<Problem> {
+    let points = e.points(POINTS)?;
+    (points.len() < 3).then(|| {
+        Problem::new(
+            POINTS,
+            format!("{} point(s)", points.len()),
+            "three points or more: two banks and the bed between them",
+        )
+    })
+}
+
+pub fn points_go_to_the_right(e: &Entries) -> Option<Problem> {
+    let points = e.points(POINTS)?;
+    let index = points.windows(2).position(|pair| pair[1][0] < pair[0][0])?;
+    let (before, after) = (points[index][0], points[index + 1][0]);
+    let hint = if points.windows(2).all(|pair| pair[1][0] <= pair[0][0]) {
+        "these go from the right to the left: list them the other way round"
+    } else {
+        "the ground must not overhang or cross itself: list each point once, in order"
+    };
+    let found = format!("{} after {}", length(after), length(before));
+    let allowed = "points from the left to the right, looking downstream; a vertical bank has two at one distance";
+    Some(Problem::new(format!("{POINTS}.{}", index + 1), found, allowed).hint(hint))
+}
+
+pub fn points_are_apart(e: &Entries) -> Option<Problem> {
+    let points = e.points(POINTS)?;
+    let index = points.windows(2).position(|pair| pair[0] == pair[1])?;
+    let found = format!("the point {}, {} a second time", length(points[index][0]), length(points[index][1]));
+    Some(Problem::new(format!("{POINTS}.{}", index + 1), found, "each point once"))
+}
+
+pub fn both_banks_are_there(e: &Entries) -> Option<Problem> {
+    let points = e.points(POINTS).filter(|points| points.len() >= 3)?;
+    let lowest = points.iter().map(|point| point[1]).fold(f64::INFINITY, f64::min);
+    let missing = |end: &[f64; 2]| end[1] <= lowest;
+    let (left, right) = (missing(&points[0]), missing(&points[points.len() - 1]));
+    let which = match (left, right) {
+        (true, true) => "either bank",
+        (true, false) => "the left bank",
+        (false, true) => "the right bank",
+        (false, false) => return None,
+    };
+    let found = format!("a section without {which}: it ends at its lowest point");
+    Some(Problem::new(POINTS, found, "points up to the height of the barrier's top on either side"))
+}
+
+pub fn section_has_a_width(e: &Entries) -> Option<Problem> {
+    let points = e.points(POINTS).filter(|points| points.len() >= 3)?;
+    (points[points.len() - 1][0] == points[0][0])
+        .then(|| Problem::new(POINTS, "points at one distance only", "points on either side of the bed"))
+}
+
+/// The barrier hangs from bank to bank: what rises above the survey has no bank to hang on.
+pub fn barrier_within_the_section(e: &Entries) -> Option<Problem> {
+    let (survey, top) = (survey(e)?, height_of_barrier(e)?);
+    let end = survey.lower_end();
+    let plumb = libm::cos(e.number("channel.slope")?);
+    (top > end * (1.0 + 1e-9)).then(|| {
+        let found = format!("a section whose lower end is {} above the bed", length(end / plumb));
+        let allowed = format!("both banks up to the barrier's top, {} above the bed (plumb)", length(top / plumb));
+        Problem::new(path_of_section(e, "depth"), found, allowed)
+            .hint("survey the banks further up, or give a lower barrier")
+    })
+}
+
+fn path_of_section(e: &Entries, of_trapezoid: &str) -> String {
+    if e.mentions(POINTS) { POINTS.to_string() } else { format!("channel.section.trapezoid.{of_trapezoid}") }
+}
+
+pub fn walls_stand_in_a_rectangle(e: &Entries) -> Option<Problem> {
+    (e.has_section("barrier.rigid_wall") && e.mentions("channel.section")).then(|| {
+        Problem::new("channel.section", "a rigid wall across a surveyed section", "a net, or a channel with a `width`")
+            .hint("a wall is modelled between vertical side walls only: give `width` and `wall_height` of the rectangle that it closes")
+    })
+}
+
+pub fn strips_lie_on_vertical_walls(e: &Entries) -> Option<Problem> {
+    let path = at("side_extension");
+    (e.has_section(&path) && e.mentions("channel.section")).then(|| {
+        Problem::new(path, "strips along the banks of a surveyed section", "this group beside a `width` only")
+            .hint("strips are modelled on vertical side walls only: leave them out")
+    })
+}
+
+pub fn ropes_of_cylinders_are_straight(e: &Entries) -> Option<Problem> {
+    let path = "simulation.barrier_model";
+    (e.text(path) == Some("cylinders") && e.mentions("channel.section")).then(|| {
+        Problem::new(path, "cylinders in a surveyed section", "sliding_ropes or pinned_ropes")
+            .hint("a net that is cut to its banks is modelled of ropes only")
+    })
+}
+
+/// Length of the lowest rope below which it is none, in diagonals of the mesh.
+const SHORTEST_ROPE: f64 = 2.0;
+
+pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
+    let (survey, mesh) = (survey(e)?, e.number(&at("mesh_opening"))?);
+    let least = SHORTEST_ROPE * mesh * std::f64::consts::SQRT_2;
+    let opening = e.number(&at("bottom.opening"));
+    let bed = survey.bed();
+    let width = match opening {
+        Some(opening) => survey.banks(opening)[1] - survey.banks(opening)[0],
+        None => bed[bed.len() - 1][0] - bed[0][0],
+    };
+    (width < least).then(|| {
+        let (path, what, hint) = match opening {
+            Some(_) => (at("bottom.opening"), "between the banks", "a higher opening has more width below its rope"),
+            None => (
+                path_of_section(e, "bed_width"),
+                "of bed between the banks",
+                "the lowest rope is bolted to the bed; where the banks meet in a groove, give barrier.flexible_net.bottom.opening, or say with channel.bed_up_to up to which slope the ground counts as bed",
+            ),
+        };
+        let found = format!("{} {what} for the lowest rope", length(width));
+        Problem::new(path, found, format!("at least two mesh diagonals, {}", length(least))).hint(hint)
+    })
+}
+
+/// A rope that is free to move hangs from bank to bank, with no ground between.
+pub fn ropes_hang_clear_of_the_ground(e: &Entries) -> Option<Problem> {
+    let (survey, heights) = (survey(e)?, rope_heights(e).filter(|_| e.has_section(NET))?);
+    let lean = e.number("channel.slope")? + e.number(&at("tilt"))?;
+    let opening = e.number(&at("bottom.opening"));
+    let section = Section::Surveyed(survey.clone());
+    let free = heights.iter().enumerate().skip(usize::from(opening.is_none()));
+    let highest_bed = survey.bed().iter().map(|point| point[1]).fold(0.0, f64::max);
+    let caught = |height: f64| {
+        let z = height * libm::cos(lean) + opening.unwrap_or(0.0);
+        let [right, left] = survey.banks(z);
+        // It meets the ground between its ends, or the bed before it comes to a bank.
+        section.width(z) > (left - right) * (1.0 + 1e-9) || (opening.is_none() && z <= highest_bed)
+    };
+    let (index, height) = free.into_iter().find(|(_, height)| caught(**height))?;
+    let found = format!("main rope {} at {} with ground between its ends", index + 1, length(*height));
+    Some(
+        Problem::new(at("main_ropes"), found, "ropes that hang clear of the ground from bank to bank")
+            .hint("a bar in the bed must be lower than the second rope: change the heights of the ropes"),
+    )
+}
+
+pub fn flow_within_the_section(e: &Entries) -> Option<Problem> {
+    let survey = survey(e)?;
+    let depth = e.number("flow.arrival.surge.depth")?;
+    (depth > survey.lower_end()).then(|| {
+        let found = format!(
+            "a flow {} deep in a section whose lower bank ends at {}",
+            length(depth),
+            length(survey.lower_end())
+        );
+        Problem::new("flow.arrival.surge.depth", found, "at most the height of the lower bank, normal to the bed")
+    })
+}
