@@ -91,11 +91,13 @@
   const h = head.wall[1] || 0.08 * head.extent;
   const quad = (a, b, c, d) => [...a, ...b, ...c, ...a, ...c, ...d];
   const bed = quad([back, 0, 0], [front, 0, 0], [front, w, 0], [back, w, 0]);
+  const ground = head.ground.slice(1).map(([y, z], i) => [head.ground[i], [y, z]]);
+  const strips = ground.flatMap(([a, b]) => quad([back, ...a], [front, ...a], [front, ...b], [back, ...b]));
   const top = head.wall[0];
   const wall = quad([0, 0, 0], [0, w, 0], [top, w, h], [top, 0, h]);
   const sides = [0, w].flatMap(y => quad([back, y, 0], [front, y, 0], [front, y, h], [back, y, h]));
   const planeArray = attach(planes, 3, [["corner", 3]], 0);
-  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([...bed, ...sides, ...wall]), gl.STATIC_DRAW);
+  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([...bed, ...sides, ...wall, ...strips]), gl.STATIC_DRAW);
 
   // ---- the moment shown ----
   const colourBy = box.querySelector("select"), slider = box.querySelector("input"), clock = box.querySelector("output");
@@ -166,7 +168,16 @@
     use(planes);
     gl.bindVertexArray(planeArray.array);
     gl.uniform4f(planes.place("paint"), 0.82, 0.80, 0.76, 1);
-    gl.drawArrays(gl.TRIANGLES, 0, 6);
+    if (!ground.length) gl.drawArrays(gl.TRIANGLES, 0, 6);
+    // Seen from below, the ground is but a veil: it would hide the flow.
+    gl.enable(gl.CULL_FACE);
+    ground.forEach(([a, b], i) => {
+      // The steeper a strip, the darker.
+      const level = Math.abs(b[0] - a[0]) / Math.hypot(b[0] - a[0], b[1] - a[1]), shade = 0.7 + 0.3 * level;
+      gl.uniform4f(planes.place("paint"), 0.82 * shade, 0.80 * shade, 0.76 * shade, 1);
+      gl.drawArrays(gl.TRIANGLES, 24 + 6 * i, 6);
+    });
+    gl.disable(gl.CULL_FACE);
     if (head.wall[1]) { gl.uniform4f(planes.place("paint"), 0.55, 0.57, 0.6, 1); gl.drawArrays(gl.TRIANGLES, 18, 6); }
     use(balls);
     gl.uniform1f(balls.place("tall"), tall);
@@ -186,7 +197,8 @@
     gl.bindVertexArray(planeArray.array);
     gl.enable(gl.BLEND); gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA); gl.depthMask(false);
     gl.uniform4f(planes.place("paint"), 0.4, 0.45, 0.5, 0.12);
-    gl.drawArrays(gl.TRIANGLES, 6, 12);
+    if (ground.length) gl.drawArrays(gl.TRIANGLES, 24, 6 * ground.length);
+    else gl.drawArrays(gl.TRIANGLES, 6, 12);
     gl.depthMask(true); gl.disable(gl.BLEND);
   };
 

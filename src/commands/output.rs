@@ -84,7 +84,7 @@ fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Fail
     }
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
         let named = |file: ReportFile| ReportFile { name: format!("{}/{}", vtk::FOLDER, file.name), ..file };
-        files.extend(vtk::files(&seen.histories.film).into_iter().map(named));
+        files.extend(vtk::files(&seen.histories.film, &run.file.design.channel.ground_line()).into_iter().map(named));
     }
     files.push(ReportFile::new("design.yaml", run.file.text.clone()));
     files.push(ReportFile::new(recording::FILE, recording::encode(run)?));

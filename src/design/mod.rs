@@ -71,6 +71,13 @@ impl Channel {
     pub fn section(&self) -> Section {
         self.survey.clone().map_or(Section::Rectangle { width: self.width }, Section::Surveyed)
     }
+
+    /// (y, z) of the ground across the channel, side walls included (m).
+    pub fn ground_line(&self) -> Vec<[f64; 2]> {
+        let (width, high) = (self.width, self.wall_height);
+        let walls = || vec![[0.0, high], [0.0, 0.0], [width, 0.0], [width, high]];
+        self.survey.as_ref().map_or_else(walls, |survey| survey.points().to_vec())
+    }
 }
 
 /// The design flow.

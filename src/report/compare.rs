@@ -11,7 +11,7 @@ use crate::quantities::total_force;
 use crate::report::folder::ReportFile;
 use crate::report::numbers::{with_scatter, with_unit};
 use crate::report::pictures::Chart;
-use crate::report::plots::line_chart::{LineChart, Series, resampled};
+use crate::report::plots::line_chart::{LineChart, Series, TIME, resampled};
 use crate::report::render::{Rendered, render_as};
 use crate::report::row::{is_share, used};
 use crate::report::spreads::{Observable, over_packings};
@@ -291,7 +291,7 @@ fn chart(
         colour: index % 6,
     };
     let series = seen.iter().zip(curves.iter().map(Vec::as_slice)).enumerate().map(series).collect();
-    let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new(), band: None }.svg();
+    let svg = LineChart { title: label, unit, factor, along: TIME, time, series, levels: Vec::new(), band: None }.svg();
     Chart { title, file: file.into(), svg, note: "First run of each design; time since release.".into() }
 }
 

@@ -17,6 +17,7 @@ use crate::quantities::bed;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
 use crate::report::row::{Row, lower_first, row};
+use crate::section::Section;
 use crate::sensitivity;
 
 #[derive(Debug, Serialize)]
@@ -101,6 +102,20 @@ pub fn cases(run: &Run) -> Vec<CaseRow> {
         svg: pressure_diagram(&case.diagram, highest, tallest),
     };
     run.guideline.cases.iter().map(row).collect()
+}
+
+/// What "per width" means where the section is no rectangle; empty where it is one.
+pub fn per_width(run: &Run) -> String {
+    let section = &run.guideline.section;
+    let Section::Surveyed(survey) = section else { return String::new() };
+    let top = run.guideline.input.barrier_height;
+    format!(
+        "The section is not a rectangle: pressures, force per width and moment are those of a metre of width at its lowest point. The force is integrated over the width at each height, R = ∫ p(z) w(z) dz, with w = {:.2} m at the bed and {:.2} m at the barrier's top, and {:.1} m² between them. A main rope takes, over its own span, the even load that bends a beam and pushes on its supports no less than the pressures on its strip do, each metre of width from the ground up; what presses beside the span goes to its ends. Heights of the survey ({} points) count normal to the bed, plumb heights times cos α.",
+        section.width(0.0),
+        section.width(top),
+        section.area(top),
+        survey.points().len()
+    )
 }
 
 /// The formula with its numbers.

@@ -17,6 +17,7 @@ pub mod render;
 pub(crate) mod replay;
 pub(crate) mod row;
 pub(crate) mod series;
+pub(crate) mod site;
 pub(crate) mod spreads;
 pub(crate) mod stability_map;
 pub(crate) mod statements;

@@ -10,7 +10,7 @@ use crate::quantities::{mass, total_force};
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::escape;
-use crate::report::plots::line_chart::{Level, LineChart, Series, resampled};
+use crate::report::plots::line_chart::{Level, LineChart, Series, TIME, resampled};
 use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
 use crate::report::plots::utilisation::{Bar, utilisation};
@@ -34,7 +34,7 @@ pub struct Chart {
 
 impl Chart {
     /// A picture whose file is called as its title is.
-    fn of(title: &'static str, svg: String, note: impl Into<String>) -> Self {
+    pub fn of(title: &'static str, svg: String, note: impl Into<String>) -> Self {
         let note = note.into();
         Self { title, file: file_name(title), svg: labelled(&svg, title), note }
     }
@@ -125,6 +125,7 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         title: "load of an anchor",
         unit: "kN",
         factor: 1e-3,
+        along: TIME,
         time: &seen.histories.time,
         series: rope_series(seen.histories.barrier.rows(&of_anchors::LOAD)),
         levels: vec![Level {
@@ -152,7 +153,8 @@ fn wall_charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
         let largest = series.iter().flat_map(|series| series.values).copied().fold(0.0, f64::max);
         let (unit, factor) = if largest < 2000.0 { (units[0], 1.0) } else { (units[1], 1e-3) };
         let time = &histories.time;
-        let svg = LineChart { title: label, unit, factor, time, series, levels: Vec::new(), band: None }.svg();
+        let svg =
+            LineChart { title: label, unit, factor, along: TIME, time, series, levels: Vec::new(), band: None }.svg();
         Chart::of(title, svg, note)
     };
     let segment = |(index, values)| Series { label: format!("segment {}", index + 1), values, colour: index % 6 };
@@ -189,6 +191,7 @@ fn energy_chart(seen: &Simulated) -> Chart {
         title: "energy",
         unit,
         factor,
+        along: TIME,
         time: &seen.histories.time,
         series: vec![
             series("released", &released, 2),
@@ -206,9 +209,11 @@ fn energy_chart(seen: &Simulated) -> Chart {
 /// The slice along the middle at every moment kept.
 pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let design = &run.file.design;
+    let bed = run.guideline.section.bed_ends();
     let setting = Setting {
         slope: design.channel.slope,
-        width: design.channel.width,
+        middle: 0.5 * (bed[0] + bed[1]),
+        width: run.guideline.section.width(run.guideline.input.barrier_height),
         height: run.guideline.input.barrier_height,
         wall: match &design.barrier {
             BarrierDesign::RigidWall(wall) => {
@@ -269,7 +274,7 @@ pub fn profiles(run: &Run, seen: &Simulated) -> Vec<Chart> {
             with_unit(depth, "m"),
             with_unit(velocity, "m/s")
         );
-        let svg = profile(&snapshot.touches, run.guideline.width, input.barrier_height, &diagram);
+        let svg = profile(&snapshot.touches, &run.guideline.section, input.barrier_height, &diagram);
         Some(Chart::of(title, svg, note))
     };
     seen.histories.snapshots.iter().filter_map(chart).collect()
@@ -291,7 +296,7 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
     Some(Chart {
         title: "Barrier from upstream, at its largest load",
         file: file_name("Barrier from upstream"),
-        svg: elevation(snapshot, design.channel.width, resistance),
+        svg: elevation(snapshot, run.guideline.section.banks(run.guideline.input.barrier_height), resistance),
         note: format!(
             "At {:.2} s, as deformed then; colour by tension over design resistance at that instant. Main ropes are numbered from the bottom.{}",
             snapshot.time,
@@ -313,7 +318,8 @@ pub fn replay(run: &Run, seen: &Simulated) -> Option<Replay> {
         }
         BarrierDesign::FlexibleNet(_) => None,
     };
-    pack(&seen.histories.film, &Stage { width: channel.width, slope: channel.slope, wall })
+    let ground = channel.survey.as_ref().map_or(Vec::new(), |survey| survey.points().to_vec());
+    pack(&seen.histories.film, &Stage { width: channel.width, ground, slope: channel.slope, wall })
 }
 
 fn split_chart(seen: &Simulated) -> Chart {
@@ -326,6 +332,7 @@ fn split_chart(seen: &Simulated) -> Chart {
         title: "force per width",
         unit,
         factor,
+        along: TIME,
         time: &seen.histories.time,
         series: vec![
             series("F₁ at rest", &told.force_dead, 0),
@@ -354,6 +361,7 @@ fn coefficient_chart(run: &Run, seen: &Simulated) -> Chart {
         title: "coefficient",
         unit: "–",
         factor: 1.0,
+        along: TIME,
         time: &seen.histories.time,
         series: vec![
             Series { label: "K".into(), values: &k, colour: 0 },
@@ -375,17 +383,17 @@ fn force_chart(run: &Run, seen: &Simulated) -> Chart {
     let histories = &seen.histories;
     let force: Vec<f64> = histories.force.iter().map(|force| force.norm()).collect();
     let force = smoothed(&force, crate::scene::build::SAMPLES_PER_WINDOW as usize);
-    let width = run.file.design.channel.width;
     let levels = run.guideline.cases.iter();
     let (unit, factor) = if seen.first().one(&total_force::PEAK) < 2000.0 { ("N", 1.0) } else { ("kN", 1e-3) };
     let chart = LineChart {
         title: "total force",
         unit,
         factor,
+        along: TIME,
         time: &histories.time,
         series: vec![Series { label: "simulation".into(), values: &force, colour: 0 }],
         levels: levels
-            .map(|case| Level { label: case.id.replace('_', " "), value: case.force_per_width() * width })
+            .map(|case| Level { label: case.id.replace('_', " "), value: case.spread_force(&run.guideline.section) })
             .collect(),
         band: force_band(seen),
     };
@@ -404,6 +412,7 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
         title: "share of the mass",
         unit: "%",
         factor: 100.0,
+        along: TIME,
         time: &histories.time,
         series: vec![
             Series { label: "held".into(), values: &retained, colour: 0 },
@@ -428,6 +437,7 @@ fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
         title: "stroke used",
         unit: "m",
         factor: 1.0,
+        along: TIME,
         time: &seen.histories.time,
         series: rope_series(seen.histories.barrier.rows(&of_dissipators::STROKE)),
         levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
@@ -448,6 +458,7 @@ fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
         title: "largest tension",
         unit: "kN",
         factor: 1e-3,
+        along: TIME,
         time: &seen.histories.time,
         series: rope_series(seen.histories.barrier.rows(&of_ropes::LARGEST)),
         levels: resistance.map(|value| Level { label: "design resistance".into(), value }).into_iter().collect(),
@@ -463,6 +474,7 @@ fn velocity_chart(seen: &Simulated) -> Chart {
         title: "mean velocity",
         unit: "m/s",
         factor: 1.0,
+        along: TIME,
         time: &seen.histories.time,
         series: vec![Series { label: "along the bed".into(), values: &velocity, colour: 0 }],
         levels: Vec::new(),

@@ -51,6 +51,8 @@ struct Head {
     speed: f32,
     force: f32,
     tension: f32,
+    /// (y, z) of the ground across the channel (m); empty for a level bed between vertical walls.
+    ground: Vec<[f64; 2]>,
     /// Of the channel (m), its slope (rad), and the top of a rigid wall over its foot (m along the channel, m normal to the bed), zeros for a net.
     width: f64,
     slope: f64,
@@ -58,8 +60,10 @@ struct Head {
 }
 
 /// The channel that the film was taken in.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Stage {
+    /// (y, z) of the ground across the channel (m); empty for a level bed.
+    pub ground: Vec<[f64; 2]>,
     /// m
     pub width: f64,
     /// rad
@@ -153,6 +157,7 @@ impl<'a> Packer<'a> {
             speed,
             force,
             tension,
+            ground: stage.ground.clone(),
             width: stage.width,
             slope: stage.slope,
             wall: stage.wall.unwrap_or_default(),

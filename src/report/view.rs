@@ -17,6 +17,7 @@ use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
 use crate::report::replay::Replay;
+use crate::report::site;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::report::warnings::{left_by_simulation, warnings};
 use crate::simulated::Simulated;
@@ -57,6 +58,10 @@ pub struct View {
     pub rules: Vec<RuleRow>,
     pub tornado: Vec<SwingRow>,
     pub margin: String,
+    /// The site, to scale.
+    pub site: Vec<Chart>,
+    /// What "per width" means where the section is no rectangle.
+    pub per_width: String,
     pub varied: Vec<SwingRow>,
     pub starts: Vec<Row>,
     pub findings: Vec<Row>,
@@ -158,6 +163,8 @@ impl View {
                 .flatten()
                 .collect::<Vec<_>>()
                 .join(" "),
+            site: site::charts(run),
+            per_width: loads::per_width(run),
             varied: loads::swing_rows(&run.varied),
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
@@ -181,8 +188,14 @@ impl View {
 
     /// Every picture as a file that stands alone: name and text.
     pub fn pictures(&self) -> Vec<(String, String)> {
-        let pictures =
-            self.charts.iter().chain(&self.views).chain(&self.profiles).chain(&self.elevation).chain(&self.utilisation);
+        let pictures = self
+            .site
+            .iter()
+            .chain(&self.charts)
+            .chain(&self.views)
+            .chain(&self.profiles)
+            .chain(&self.elevation)
+            .chain(&self.utilisation);
         let cases = self.cases.iter().map(|case| (case.file.clone(), pictures::alone(&case.svg)));
         pictures.map(|chart| (chart.file.clone(), chart.alone())).chain(cases).collect()
     }

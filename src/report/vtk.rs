@@ -13,8 +13,8 @@ use dem::recorders::film::{Film, Frame};
 /// Folder of the files within the report's.
 pub const FOLDER: &str = "vtk";
 
-/// All files of a film.
-pub fn files(film: &Film) -> Vec<ReportFile> {
+/// All files of a film, and of the ground it was taken on: (y, z) across the channel (m).
+pub fn files(film: &Film, ground: &[[f64; 2]]) -> Vec<ReportFile> {
     let mut files = Vec::new();
     let mut series = |name: &str, text: &dyn Fn(&Frame) -> String| {
         let names: Vec<String> = (0..film.frames.len()).map(|number| format!("{name}_{number:04}.vtp")).collect();
@@ -25,7 +25,20 @@ pub fn files(film: &Film) -> Vec<ReportFile> {
     if !film.ropes.is_empty() {
         series("barrier", &|frame| barrier(film, frame));
     }
+    files.push(ReportFile::new("ground.vtp".to_string(), ground_strips(film, ground)));
     files
+}
+
+/// The ground along the stretch in which there are grains.
+fn ground_strips(film: &Film, ground: &[[f64; 2]]) -> String {
+    let places = || film.frames.iter().flat_map(|frame| frame.grains.iter().flatten().map(|pose| pose.place[0]));
+    let (from, to) = (places().fold(0.0, f32::min), places().fold(0.0, f32::max));
+    let points: Vec<f32> =
+        ground.iter().flat_map(|[y, z]| [from, *y as f32, *z as f32, to, *y as f32, *z as f32]).collect();
+    let strips = ground.len().saturating_sub(1) as u32;
+    let corners: Vec<u32> = (0..strips).flat_map(|strip| [0, 1, 3, 2].map(|corner| 2 * strip + corner)).collect();
+    let ends: Vec<u32> = (1..=strips).map(|strip| 4 * strip).collect();
+    poly_data(&points, "Polys", [&corners, &ends], "CellData", &[])
 }
 
 fn collection(files: &[String], frames: &[Frame]) -> String {
@@ -91,9 +104,11 @@ fn poly_data(
 ) -> String {
     let count = points.len() / 3;
     let pieces = offsets.len();
-    let other = if cells == "Verts" { "NumberOfLines" } else { "NumberOfVerts" };
+    let count_of = |kind: &str| if kind == cells { pieces } else { 0 };
+    let counts = ["Verts", "Lines", "Strips", "Polys"].map(|kind| format!("NumberOf{kind}=\"{}\"", count_of(kind)));
+    let counts = counts.join(" ");
     format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n<PolyData>\n<Piece NumberOfPoints=\"{count}\" NumberOf{cells}=\"{pieces}\" {other}=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n{}</Points>\n<{cells}>\n{}{}</{cells}>\n<{place}>\n{}</{place}>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n<PolyData>\n<Piece NumberOfPoints=\"{count}\" {counts}>\n<Points>\n{}</Points>\n<{cells}>\n{}{}</{cells}>\n<{place}>\n{}</{place}>\n</Piece>\n</PolyData>\n</VTKFile>\n",
         array("Points", 3, points),
         integers("connectivity", connectivity),
         integers("offsets", offsets),

@@ -86,14 +86,18 @@ impl LoadCase {
 
     /// Force on a barrier across this section, its point load included (N).
     pub fn total_force(&self, section: &Section) -> f64 {
-        let spread = match section {
+        self.spread_force(section) + self.point.map_or(0.0, |point| point.force)
+    }
+
+    /// Force of pressures and drag on a barrier across this section (N).
+    pub fn spread_force(&self, section: &Section) -> f64 {
+        match section {
             Section::Rectangle { width } => self.force_per_width() * width,
             Section::Surveyed(_) => {
                 let drag = self.decisive_shear() * section.width(self.diagram.top);
                 self.diagram.force_over(section, 0.0, f64::INFINITY) + drag
             }
-        };
-        spread + self.point.map_or(0.0, |point| point.force)
+        }
     }
 
     /// Moment about the bed, per width, of all that acts on a barrier of this width (N m/m).

@@ -1,4 +1,4 @@
-//! The barrier seen along the channel, from upstream: ropes and net coloured by the share of their design resistance.
+//! The barrier seen along the channel, from upstream, its right bank at the right: ropes and net coloured by the share of their design resistance.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -16,14 +16,14 @@ const FOOT: f64 = 22.0;
 /// Upper ends of the classes, as shares of the design resistance.
 pub const CLASSES: [f64; 6] = [0.05, 0.25, 0.5, 0.75, 1.0, f64::INFINITY];
 
-/// SVG of the barrier; `resistance` gives the design resistance of a part (N).
-pub fn elevation(snapshot: &Snapshot, width: f64, resistance: impl Fn(SegmentKind) -> f64) -> String {
+/// SVG of the barrier, which hangs from one place across the channel to another (m); `resistance` gives the design resistance of a part (N).
+pub fn elevation(snapshot: &Snapshot, [from, to]: [f64; 2], resistance: impl Fn(SegmentKind) -> f64) -> String {
     let points = || snapshot.strands.iter().flat_map(|strand| strand.ends);
     let highest = points().map(|place| place.z).fold(0.0, f64::max);
     let lowest = points().map(|place| place.z).fold(0.0, f64::min);
-    let scale = (WIDTH - 2.0 * MARGIN) / width;
+    let scale = (WIDTH - 2.0 * MARGIN) / (to - from);
     let height = (highest - lowest) * scale + 2.0 * MARGIN + FOOT;
-    let screen = |place: &Vec3| (MARGIN + place.y * scale, MARGIN + (highest - place.z) * scale);
+    let screen = |place: &Vec3| (MARGIN + (to - place.y) * scale, MARGIN + (highest - place.z) * scale);
     let class = |strand: &Strand| {
         let used = strand.tension / resistance(strand.kind);
         CLASSES.iter().position(|limit| used <= *limit).unwrap_or(CLASSES.len() - 1)
@@ -54,14 +54,14 @@ pub fn elevation(snapshot: &Snapshot, width: f64, resistance: impl Fn(SegmentKin
     svg + &super::scale_bar(MARGIN, height - 8.0, scale, 0.2 * WIDTH) + "</svg>"
 }
 
-/// The first end of each main rope, where its number is written.
+/// The left end of each main rope, where its number is written.
 fn rope_ends(snapshot: &Snapshot) -> BTreeMap<u16, Vec3> {
     let mut ends: BTreeMap<u16, Vec3> = BTreeMap::new();
     for strand in &snapshot.strands {
         if let SegmentKind::Main(rope) = strand.kind {
-            let outer = strand.ends.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)).unwrap_or(strand.ends[0]);
+            let outer = strand.ends.into_iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap_or(strand.ends[0]);
             let known = ends.entry(rope).or_insert(outer);
-            if outer.y < known.y {
+            if outer.y > known.y {
                 *known = outer;
             }
         }

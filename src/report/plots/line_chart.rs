@@ -23,12 +23,17 @@ pub struct LineChart<'a> {
     pub unit: &'a str,
     /// Factor from the series' unit to the shown unit.
     pub factor: f64,
+    /// What runs along the chart, with its unit, and its values.
+    pub along: &'a str,
     pub time: &'a [f64],
     pub series: Vec<Series<'a>>,
     pub levels: Vec<Level>,
     /// Least and largest value over several starts, drawn behind the curves.
     pub band: Option<[Vec<f64>; 2]>,
 }
+
+/// Of charts over time.
+pub const TIME: &str = "time since release (s)";
 
 /// So small that the text is read in half a page's width.
 const WIDTH: f64 = 500.0;
@@ -146,8 +151,9 @@ impl LineChart<'_> {
         let middle = 0.5 * (LEFT + end);
         let _ = write!(
             out,
-            r#"<text class="axis" text-anchor="middle" x="{middle}" y="{}">time since release (s)</text>"#,
-            HEIGHT - 6.0
+            r#"<text class="axis" text-anchor="middle" x="{middle}" y="{}">{}</text>"#,
+            HEIGHT - 6.0,
+            escape(self.along)
         );
         let up = 0.5 * (TOP + bottom);
         let _ = write!(
@@ -247,7 +253,7 @@ mod tests {
 
     fn of_one<'a>(time: &'a [f64], values: &'a [f64]) -> LineChart<'a> {
         let series = vec![Series { label: "a".into(), values, colour: 0 }];
-        LineChart { title: "t", unit: "N", factor: 1.0, time, series, levels: Vec::new(), band: None }
+        LineChart { title: "t", unit: "N", factor: 1.0, along: TIME, time, series, levels: Vec::new(), band: None }
     }
 
     #[test]

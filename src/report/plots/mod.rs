@@ -1,7 +1,9 @@
 //! Charts as plain SVG, so that the report opens offline and prints sharply.
 
+pub(crate) mod cross_section;
 pub(crate) mod elevation;
 pub(crate) mod line_chart;
+pub(crate) mod long_profile;
 pub(crate) mod pareto;
 pub(crate) mod pressure;
 pub(crate) mod profile;

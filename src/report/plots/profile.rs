@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::loads::pressure::Diagram;
+use crate::section::Section;
 
 const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 300.0;
@@ -15,14 +16,18 @@ const STRIPS: usize = 10;
 /// Points of the diagram.
 const POINTS: usize = 60;
 
-/// Touches as height (m) and force along the channel (N), over a width (m).
-pub fn profile(touches: &[[f64; 2]], width: f64, height: f64, guideline: &Diagram) -> String {
+/// Touches as height (m) and force along the channel (N), over a section.
+pub fn profile(touches: &[[f64; 2]], section: &Section, height: f64, guideline: &Diagram) -> String {
     let strip = height / STRIPS as f64;
     let mut pressures = [0.0; STRIPS];
+    let area = |index: usize| match section {
+        Section::Rectangle { width } => strip * width,
+        Section::Surveyed(_) => section.area((index + 1) as f64 * strip) - section.area(index as f64 * strip),
+    };
     for [place, force] in touches {
         let index = (place / strip).max(0.0) as usize;
         if index < STRIPS {
-            pressures[index] += force / (strip * width);
+            pressures[index] += force / area(index);
         }
     }
     let heights = (0..=POINTS).map(|point| height * point as f64 / POINTS as f64);
@@ -72,7 +77,7 @@ mod tests {
     #[test]
     fn a_strip_is_as_long_as_its_pressure() {
         // One touch of 10 kN in the lowest of ten strips of 0.1 m, on 2 m: 50 kPa, the largest there is.
-        let svg = profile(&[[0.05, 1e4]], 2.0, 1.0, &Diagram::default());
+        let svg = profile(&[[0.05, 1e4]], &Section::Rectangle { width: 2.0 }, 1.0, &Diagram::default());
         let whole = WIDTH - LEFT - RIGHT;
         assert!(svg.contains(&format!("width=\"{whole:.1}\"")) && svg.contains(">50.0<"), "{svg}");
     }

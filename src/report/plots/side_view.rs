@@ -20,6 +20,8 @@ const CLASSES: [f64; 4] = [0.05, 0.35, 0.75, f64::INFINITY];
 /// What is drawn around the snapshot, SI.
 pub struct Setting {
     pub slope: f64,
+    /// Where the middle of the bed is across the channel, and the width of which the slice is a share.
+    pub middle: f64,
     pub width: f64,
     /// Of the barrier, normal to the bed.
     pub height: f64,
@@ -52,7 +54,7 @@ pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
     if let Some([x, z]) = setting.wall {
         line("wall", Vec3::zeros(), Vec3::new(x, 0.0, z));
     }
-    let within = |place: &Vec3, share: f64| (place.y - 0.5 * setting.width).abs() <= 0.5 * share * setting.width;
+    let within = |place: &Vec3, share: f64| (place.y - setting.middle).abs() <= 0.5 * share * setting.width;
     let visible = |place: &Vec3| {
         let (x, y) = screen(place);
         (-20.0..WIDTH + 20.0).contains(&x) && (-20.0..HEIGHT + 20.0).contains(&y)
