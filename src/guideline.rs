@@ -4,7 +4,7 @@ use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNe
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
-use crate::loads::fill::{Deposit, Retention, Spread, deposit_height};
+use crate::loads::fill::{Reservoir, Retention, Surface};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::loads::run_up;
@@ -192,20 +192,17 @@ impl EventFill {
 }
 
 pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
-    let (width, section) = (design.channel.width, design.channel.section());
+    let width = design.channel.width;
     let event = design.flow.event_volume / width;
     let repose = libm::atan(design.flow.grain_friction);
-    let height = |per_width: f64, falls: f64| {
-        let volume = Spread { per_width, width, section: section.clone() };
-        deposit_height(&volume, design.channel.slope, falls, lean(design))
-    };
+    let reservoir = reservoir(design);
     let before = (event - design.flow.volume() / width).max(0.0);
     EventFill {
-        level: height(event, 0.0),
-        heap: height(event, repose),
-        run_up: run_up::bound(input, &section),
+        level: reservoir.height(event, 0.0),
+        heap: reservoir.height(event, repose),
+        run_up: run_up::bound(input, &reservoir.section),
         several: design.flow.is_one_of_several(),
-        before_last: height(before, 0.0),
+        before_last: reservoir.height(before, 0.0),
     }
 }
 
@@ -226,22 +223,31 @@ fn extras(design: &Design) -> Extras {
     }
 }
 
-/// The height that the filled barrier keeps, and the volume behind it, with the design's slope of the deposit.
-fn held(design: &Design) -> Option<Retention> {
-    held_below(design, design.loads.deposit_slope * design.channel.slope)
+/// The channel upstream of the barrier.
+pub fn reservoir(design: &Design) -> Reservoir {
+    let channel = &design.channel;
+    Reservoir {
+        section: channel.section(),
+        width: channel.width,
+        slope: channel.slope,
+        lean: lean(design),
+        profile: channel.profile.clone(),
+    }
 }
 
-/// The same below a surface of the given slope (rad); nothing where that does not meet the bed.
-pub fn held_below(design: &Design, surface: f64) -> Option<Retention> {
-    let slope = design.channel.slope;
+/// The height that the filled barrier keeps, and the volume behind it, with the design's slope of the deposit.
+pub fn held(design: &Design) -> Option<Retention> {
+    held_below(design, Surface::OfTheBed(design.loads.deposit_slope))
+}
+
+/// The same below another surface; nothing where that does not meet the bed.
+pub fn held_below(design: &Design, surface: Surface) -> Option<Retention> {
     // A wall does not sag.
     let share = match &design.barrier {
         BarrierDesign::RigidWall(_) => 1.0,
         BarrierDesign::FlexibleNet(_) => design.loads.filled_height,
     };
-    let filled = share * height_over_bed(design);
-    let shape = Deposit { width: design.channel.width, slope, lean: lean(design), height: filled, surface };
-    (slope > surface).then(|| shape.retention(&design.channel.section(), design.flow.volume()))
+    reservoir(design).retention(share * height_over_bed(design), surface, design.flow.volume())
 }
 
 /// K of a deposit that fills the barrier and is held by it and by the friction of the bed alone: with its weight W, along the bed
@@ -249,6 +255,12 @@ pub fn held_below(design: &Design, surface: f64) -> Option<Retention> {
 pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Option<f64> {
     let held = guideline.retention?;
     let (slope, friction) = (design.channel.slope, design.channel.base_friction);
+    let reservoir = reservoir(design);
+    if reservoir.profile.is_some() {
+        let surface = Surface::OfTheBed(design.loads.deposit_slope);
+        let pull = reservoir.stored(held.deposit.height, surface, friction)?.pull.max(0.0);
+        return Some(pull / guideline.section.moment(held.deposit.height));
+    }
     let pulls = (libm::tan(slope) - friction).max(0.0);
     Some(match &guideline.section {
         Section::Rectangle { width } => 2.0 * (held.volume / width * pulls) / held.deposit.height.powi(2),
@@ -300,12 +312,11 @@ fn incoming(design: &Design) -> (f64, f64) {
 /// Velocity that the slope of the bed less its friction gives the flow on its way to the barrier (m/s): of a dam break that of the block or of
 /// its front, of a surge from its release on.
 pub fn velocity_on_its_way(design: &Design) -> f64 {
-    let slope = design.channel.slope;
     match design.flow.arrival {
         Arrival::DamBreak(block) => front_velocity(design, &block),
         Arrival::Surge(surge) => {
-            let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
-            (surge.velocity.powi(2) + 2.0 * acceleration.max(0.0) * surge.run_in).sqrt()
+            let gain = gain_of(design, surge.run_in);
+            (surge.velocity.powi(2) + gain).sqrt()
         }
     }
 }
@@ -315,10 +326,19 @@ pub fn velocity_on_its_way(design: &Design) -> f64 {
 /// (Mangeney, Heinrich & Roche 2000). No granular front is faster, so this is an upper bound.
 fn front_velocity(design: &Design, block: &DamBreak) -> f64 {
     let slope = design.channel.slope;
-    let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
-    let sliding = 2.0 * acceleration.max(0.0) * (block.distance + 0.5 * block.length);
+    let sliding = gain_of(design, block.distance + 0.5 * block.length);
     let start = RITTER_FRONT.powi(2) * GRAVITY * libm::cos(slope) * block.height;
-    sliding.max(start + 2.0 * acceleration.max(0.0) * block.distance).sqrt()
+    sliding.max(start + gain_of(design, block.distance)).sqrt()
+}
+
+/// 2 a s of a body that comes to the barrier from a distance s along the bed, where the slope gives more than friction takes; over reaches of
+/// several slopes 2 g (ΔZ − tan φ ΔX) (m²/s²).
+fn gain_of(design: &Design, distance: f64) -> f64 {
+    let (slope, friction) = (design.channel.slope, design.channel.base_friction);
+    match &design.channel.profile {
+        None => 2.0 * (GRAVITY * (libm::sin(slope) - friction * libm::cos(slope))).max(0.0) * distance,
+        Some(profile) => 2.0 * GRAVITY * profile.gain(distance, friction).max(0.0),
+    }
 }
 
 /// Plateau (N) and stroke (m) of the dissipators, if there are any.

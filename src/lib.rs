@@ -87,6 +87,7 @@ mod loads;
 mod lock;
 pub mod pipeline;
 mod problem;
+pub mod profile;
 mod program;
 pub mod quantities;
 pub mod report;

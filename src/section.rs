@@ -54,6 +54,12 @@ impl Survey {
         Self { points, bed: [first, last], datum }
     }
 
+    /// A level bed between vertical walls (m).
+    pub fn between_walls(width: f64, height: f64) -> Self {
+        let (left, right) = (-0.5 * width, 0.5 * width);
+        Self::new(&[[left, height], [left, 0.0], [right, 0.0], [right, height]], 0.0)
+    }
+
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }

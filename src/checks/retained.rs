@@ -4,7 +4,8 @@ use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{event_fill, guideline, height_over_bed, held_below, input};
+use crate::guideline::{event_fill, guideline, height_over_bed, held, held_below, input};
+use crate::loads::fill::Surface;
 use crate::quantities::mass;
 use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
@@ -78,7 +79,7 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
         )));
     }
     // To a level surface at the height that the filled barrier keeps: what it holds for certain; nothing is known on a level bed.
-    let level = held_below(design, 0.0).map(|held| held.volume);
+    let level = held_below(design, Surface::Plane(0.0)).map(|held| held.volume);
     let holds = level.is_some_and(|level| level >= design.limits.retained_mass * flow.event_volume);
     let level = level.map_or("an unknown volume".to_string(), |level| format!("{level:.0} m³"));
     (!holds).then(|| {
@@ -96,7 +97,7 @@ fn stored(design: &Design) -> f64 {
     if let Some(left) = left_by_sag(design, &guideline(design)) {
         sagged.loads.filled_height = design.loads.filled_height.min(left);
     }
-    held_below(&sagged, design.loads.deposit_slope * design.channel.slope).map_or(0.0, |held| held.volume)
+    held(&sagged).map_or(0.0, |held| held.volume)
 }
 
 #[cfg(test)]
@@ -213,7 +214,7 @@ mod tests {
         };
         let fast = |share: f64| event(9.0, &|design| share * heaps(design));
         assert_eq!((fast(0.99), fast(1.01)), (CheckVerdict::Pass, CheckVerdict::Open));
-        let level = |design: &Design| held_below(design, 0.0).expect("a deposit").volume / 0.9;
+        let level = |design: &Design| held_below(design, Surface::Plane(0.0)).expect("a deposit").volume / 0.9;
         let slow = |share: f64| event(0.1, &|design| share * level(design));
         assert_eq!((slow(0.99), slow(1.01)), (CheckVerdict::Pass, CheckVerdict::Open));
         // An event that is larger by less than a thousandth is the one flow.
@@ -256,7 +257,7 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.dissipators.as_mut().expect("dissipators").plateau = 70e3;
         let left = left_by_sag(&design, &guideline(&design)).expect("a load");
-        let whole = held_below(&design, design.loads.deposit_slope * design.channel.slope).expect("a deposit").volume;
+        let whole = held(&design).expect("a deposit").volume;
         assert!(left < 0.95, "{left}");
         assert!((stored(&design) / (whole * left * left) - 1.0).abs() < 1e-9);
     }

@@ -101,9 +101,9 @@ fn kind(kind: &Kind) -> Value {
         Kind::Quantities { dimension, low, high } => {
             json!({ "type": "array", "minItems": 1, "items": self::kind(&Kind::Quantity { dimension, low, high }) })
         }
-        Kind::Points { low, high } => {
-            let length = self::kind(&Kind::Quantity { dimension: Dimension::Length, low, high });
-            json!({ "type": "array", "minItems": 3, "items": { "type": "array", "minItems": 2, "maxItems": 2, "items": length } })
+        Kind::Pairs { first, second, .. } => {
+            let both = [first, second].map(|value| self::kind(&value.kind()));
+            json!({ "type": "array", "minItems": 1, "items": { "type": "array", "minItems": 2, "maxItems": 2, "items": both } })
         }
         Kind::Steepness { .. } => {
             let angle = units(Dimension::Angle);

@@ -2,6 +2,7 @@
 
 use crate::design::entries::Entries;
 use crate::design::show::at;
+use crate::profile::Profile;
 use crate::section::{Section, Survey};
 
 const SECTION: &str = "channel.section";
@@ -65,4 +66,17 @@ pub fn height_of_barrier(e: &Entries) -> Option<f64> {
     }
     let height = e.number(&at("height"))?;
     Some(height * libm::cos(lean(&at("tilt"))) + e.number(&at("bottom.opening")).unwrap_or(0.0))
+}
+
+/// Level distances from the barrier with the slopes that begin there (rad), upstream or downstream.
+pub fn reaches(e: &Entries, side: &str) -> Vec<[f64; 2]> {
+    e.points(&format!("channel.profile.{side}")).map_or(Vec::new(), <[[f64; 2]]>::to_vec)
+}
+
+/// The bed where it has several reaches.
+pub fn profile(e: &Entries) -> Option<Profile> {
+    let (upstream, downstream) = (reaches(e, "upstream"), reaches(e, "downstream"));
+    let several = !(upstream.is_empty() && downstream.is_empty());
+    let rounding = e.number("channel.profile.rounded_over").unwrap_or(0.0);
+    several.then(|| Some(Profile::new(e.number("channel.slope")?, &upstream, &downstream, rounding)))?
 }

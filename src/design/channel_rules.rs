@@ -1,6 +1,6 @@
 //! Contradictions between values of a channel; listed in [`super::rules`].
 
-use crate::design::channel_entries::{height_of_barrier, survey};
+use crate::design::channel_entries::{height_of_barrier, reaches, survey};
 use crate::design::entries::Entries;
 use crate::design::net_rules::rope_heights;
 use crate::design::show::{NET, at, length};
@@ -198,4 +198,38 @@ pub fn flow_within_the_section(e: &Entries) -> Option<Problem> {
         );
         Problem::new("flow.arrival.surge.depth", found, "at most the height of the lower bank, normal to the bed")
     })
+}
+
+pub fn profile_has_a_reach(e: &Entries) -> Option<Problem> {
+    let path = "channel.profile";
+    let mentioned = ["upstream", "downstream"].iter().any(|side| e.mentions(&format!("{path}.{side}")));
+    (e.has_section(path) && !mentioned).then(|| {
+        Problem::new(path, "neither upstream nor downstream", "reaches on one side at least, or no profile")
+            .hint("`upstream: [[25 m, 14 deg]]`: from 25 m upstream on the bed slopes at 14 deg")
+    })
+}
+
+pub fn reaches_upstream_follow(e: &Entries) -> Option<Problem> {
+    reaches_follow(e, "upstream")
+}
+
+pub fn reaches_downstream_follow(e: &Entries) -> Option<Problem> {
+    reaches_follow(e, "downstream")
+}
+
+/// Breaks lie in order, far enough apart for their rounding.
+fn reaches_follow(e: &Entries, side: &str) -> Option<Problem> {
+    let reaches = reaches(e, side);
+    let rounding = e.number("channel.profile.rounded_over").unwrap_or(0.0);
+    let path = |index: usize| format!("channel.profile.{side}.{index}");
+    if let Some(index) = reaches.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
+        let found = format!("{} after {}", length(reaches[index + 1][0]), length(reaches[index][0]));
+        return Some(Problem::new(path(index + 1), found, "distances that increase away from the barrier"));
+    }
+    let first = reaches.first().filter(|reach| reach[0] < 0.5 * rounding);
+    let near = reaches.windows(2).position(|pair| pair[1][0] - pair[0][0] < rounding).map(|index| index + 1);
+    let index = first.map(|_| 0).or(near)?;
+    let found = format!("a break at {} that is rounded over {}", length(reaches[index][0]), length(rounding));
+    let allowed = "breaks at least that far from each other, and half of it from the barrier";
+    Some(Problem::new(path(index), found, allowed).hint("give a shorter rounded_over"))
 }

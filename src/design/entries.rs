@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::design::document::Node;
 use crate::design::grain_multiple;
-use crate::design::key::{Key, Kind, Need, names};
+use crate::design::key::{Bounded, Key, Kind, Need, names};
 use crate::problem::{MOST_PROBLEMS, Problem, nearest};
 use crate::units::{self, Dimension, separators};
 
@@ -322,14 +322,14 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
             Node::List(_) => Err(("an empty list".into(), None)),
             other => Err((other.describe(), Some("write a list: `[1 m, 2 m]`".into()))),
         },
-        Kind::Points { low, high } => match node {
-            Node::List(items) if !items.is_empty() => {
-                items.iter().map(|item| point(item, low, high)).collect::<Result<_, _>>().map(Value::Points)
-            }
+        Kind::Pairs { first, second, example } => match node {
+            Node::List(items) if !items.is_empty() => items
+                .iter()
+                .map(|item| pair(item, [first, second], example))
+                .collect::<Result<_, _>>()
+                .map(Value::Points),
             Node::List(_) => Err(("an empty list".into(), None)),
-            other => {
-                Err((other.describe(), Some("write a list of points: `[[-3 m, 2 m], [0 m, 0 m], [3 m, 2 m]]`".into())))
-            }
+            other => Err((other.describe(), Some(format!("write a list of pairs: `{example}`")))),
         },
         Kind::Steepness { low, high } => steepness(node, low, high).map(Value::Number),
         Kind::Number { low, high } => match *node {
@@ -367,15 +367,18 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
     }
 }
 
-/// A pair of lengths (m).
-fn point(node: &Node, low: f64, high: f64) -> Result<[f64; 2], Misunderstood> {
-    let hint = || Some("a point is a distance and a height in brackets: `[-3 m, 2 m]`".to_string());
+/// A pair of quantities, SI.
+fn pair(node: &Node, kinds: [Bounded; 2], example: &str) -> Result<[f64; 2], Misunderstood> {
+    let hint = || Some(format!("each is two values in brackets: `{example}`"));
     match node {
         Node::List(items) if items.len() == 2 => {
-            let length = |item| quantity(item, Dimension::Length, low, high);
-            Ok([length(&items[0])?, length(&items[1])?])
+            let value = |index: usize| {
+                let Bounded { dimension, low, high } = kinds[index];
+                quantity(&items[index], dimension, low, high)
+            };
+            Ok([value(0)?, value(1)?])
         }
-        Node::List(items) => Err((format!("a point of {} value(s), `{}`", items.len(), typed(node)), hint())),
+        Node::List(items) => Err((format!("{} value(s) in brackets, `{}`", items.len(), typed(node)), hint())),
         other => Err((other.describe(), hint())),
     }
 }

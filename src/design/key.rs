@@ -15,6 +15,20 @@ pub struct Key {
     pub former: Option<&'static str>,
 }
 
+/// A quantity within SI bounds.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounded {
+    pub dimension: Dimension,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Bounded {
+    pub const fn kind(self) -> Kind {
+        Kind::Quantity { dimension: self.dimension, low: self.low, high: self.high }
+    }
+}
+
 /// What stands behind a key.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
@@ -35,10 +49,12 @@ pub enum Kind {
         low: f64,
         high: f64,
     },
-    /// A list of pairs of lengths.
-    Points {
-        low: f64,
-        high: f64,
+    /// A list of pairs of quantities, each with its bounds.
+    Pairs {
+        first: Bounded,
+        second: Bounded,
+        /// How such a list is written.
+        example: &'static str,
     },
     /// An angle, or a ratio of rise to run: `1:1.5`.
     Steepness {
@@ -117,9 +133,9 @@ impl Kind {
             Self::Quantities { dimension, low, high } => {
                 format!("a list of values, each {}", Self::Quantity { dimension, low, high }.allowed())
             }
-            Self::Points { low, high } => {
-                let each = Self::Quantity { dimension: Dimension::Length, low, high }.allowed();
-                format!("a list of points of two lengths, [[-3 m, 2 m], [0 m, 0 m], ...], each {each}")
+            Self::Pairs { first, second, example } => {
+                let [one, other] = [first, second].map(|value| value.kind().allowed());
+                format!("a list of pairs, {example}: {one}, and {other}")
             }
             Self::Steepness { low, high } => {
                 let angle = Self::Quantity { dimension: Dimension::Angle, low, high }.allowed();

@@ -21,6 +21,7 @@ pub(crate) mod wall_rules;
 pub(crate) mod yaml_faults;
 
 use self::sizes::SizeCurve;
+use crate::profile::Profile;
 use crate::section::{Section, Survey};
 
 /// A checked design. Lengths in m, masses in kg, forces in N, angles in rad, friction as tan φ.
@@ -55,6 +56,8 @@ pub struct Channel {
     pub width: f64,
     /// The section where it is no rectangle.
     pub survey: Option<Survey>,
+    /// The bed where it has several reaches; its slope at the barrier is `slope`.
+    pub profile: Option<Profile>,
     /// Slope of the bed against the horizontal (rad).
     pub slope: f64,
     /// Of the side walls, or of the lower end of a surveyed section, normal to the bed (m).
@@ -70,6 +73,12 @@ impl Channel {
     /// What lies across the channel, normal to its bed.
     pub fn section(&self) -> Section {
         self.survey.clone().map_or(Section::Rectangle { width: self.width }, Section::Surveyed)
+    }
+
+    /// The section where the ground is no three planes: surveyed, or between side walls on a bed of several reaches.
+    pub fn ground(&self) -> Option<Survey> {
+        let walls = || Survey::between_walls(self.width, self.wall_height);
+        self.survey.clone().or_else(|| self.profile.is_some().then(walls))
     }
 
     /// (y, z) of the ground across the channel, side walls included (m).

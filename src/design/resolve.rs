@@ -1,6 +1,6 @@
 //! From checked entries to the design, in SI.
 
-use crate::design::channel_entries::{height_of_barrier, height_of_sides, section, survey};
+use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve};
 use crate::design::net_rules::rope_heights;
@@ -43,6 +43,7 @@ fn channel(e: &Entries) -> Option<Channel> {
     Some(Channel {
         width: section(e)?.mean_width(height_of_barrier(e)?),
         survey: if value("width").is_some() { None } else { Some(survey(e)?) },
+        profile: profile(e),
         slope: value("slope")?,
         wall_height: height_of_sides(e)?,
         base_friction: value("base_friction").map_or(f64::NAN, libm::tan),

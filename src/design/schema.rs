@@ -1,7 +1,7 @@
 //! Every key of the design file: meaning, bounds, default. The bounds say what can be, not what is wise.
 
 use crate::design::factor_sets;
-use crate::design::key::{Key, Kind, quantity};
+use crate::design::key::{Bounded, Key, Kind, quantity};
 use crate::units::Dimension as D;
 
 /// Version of the table below; raised when a file that was good is read differently, or no more.
@@ -51,7 +51,12 @@ const CHANNEL: &[Key] = &[
         "width between vertical side walls; give this or the section",
     ),
     Key::optional("section", Kind::OneOf(CROSS_SECTION), "surveyed section across the gully; give this or the width"),
-    Key::required("slope", quantity(D::Angle, 0.0, STEEPEST), "slope of the bed against the horizontal"),
+    Key::required(
+        "slope",
+        quantity(D::Angle, 0.0, STEEPEST),
+        "slope of the bed against the horizontal, at the barrier",
+    ),
+    Key::optional("profile", Kind::Section(PROFILE), "reaches of the bed with other slopes than that at the barrier"),
     Key::optional(
         "wall_height",
         quantity(D::Length, 0.01, 500.0),
@@ -71,8 +76,32 @@ const CROSS_SECTION: &[Key] = &[
     Key::optional("trapezoid", Kind::Section(TRAPEZOID), "a level bed between two even banks"),
     Key::optional(
         "points",
-        Kind::Points { low: -1e3, high: 1e4 },
+        Kind::Pairs { first: SURVEYED, second: SURVEYED, example: "[[-3 m, 2 m], [0 m, 0 m], [3 m, 2 m]]" },
         "points of the ground, from the left to the right looking downstream: distance and height, both as surveyed (heights plumb)",
+    ),
+];
+
+/// What a surveyor reads.
+const SURVEYED: Bounded = Bounded { dimension: D::Length, low: -1e4, high: 1e4 };
+/// From where a reach begins, and its slope.
+const REACHES: Kind = Kind::Pairs {
+    first: Bounded { dimension: D::Length, low: 0.1, high: 1e4 },
+    second: Bounded { dimension: D::Angle, low: 0.0, high: STEEPEST },
+    example: "[[25 m, 14 deg], [60 m, 20 deg]]",
+};
+
+const PROFILE: &[Key] = &[
+    Key::optional("upstream", REACHES, "level distance upstream of the barrier from which the bed has another slope"),
+    Key::optional(
+        "downstream",
+        REACHES,
+        "level distance downstream of the barrier from which the bed has another slope",
+    ),
+    Key::default(
+        "rounded_over",
+        quantity(D::Length, 0.0, 100.0),
+        "0 m",
+        "level length over which a break of slope is rounded, half of it on either side",
     ),
 ];
 

@@ -1,53 +1,50 @@
 //! How high and how far a deposit stands behind the barrier, and how many surges fill it.
+//!
+//! On a bed of even slope α, behind a barrier that leans upstream by ε from the bed's normal, a deposit of height H whose plane surface falls at
+//! α' downstream holds V = S(H) (cot(α − α') + tan ε), S being the first moment of the section's area: ½ b H² in a rectangle. With reaches of
+//! other slopes the area under the surface is integrated along the bed. Derived here.
 
+use crate::profile::Profile;
 use crate::section::Section;
 
-/// Height normal to the bed, at the barrier, of a deposit of a volume per width V whose plane surface falls upstream at an angle
-/// ψ below the horizontal, on a bed of slope α behind a barrier that leans upstream by θ from the bed's normal:
-/// V = ½ H² (cot(α + ψ) + tan θ). ψ = 0 is the level surface of a fluid; a granular flow that is stopped while it runs up leaves a
-/// heap against the barrier, and ψ may be as much as its angle of repose. Infinite where surface and barrier do not meet the bed in a
-/// triangle.
-/// In a section the triangle's ½ H² per width is the first moment S(H) of its area, over its mean width.
-pub fn deposit_height(volume: &Spread, slope: f64, falls: f64, lean: f64) -> f64 {
-    let spread = libm::tan(slope + falls).recip() + libm::tan(lean);
-    if spread > 0.0 && slope + falls < std::f64::consts::FRAC_PI_2 + lean {
-        volume.height(spread)
-    } else {
-        f64::INFINITY
-    }
+/// Steps of a deposit's height in which the area is integrated along the bed.
+const STEPS: f64 = 40.0;
+/// Steps after which a surface is taken never to meet the bed.
+const MOST_STEPS: usize = 20_000;
+
+/// The surface of a deposit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// Of this slope, falling downstream (rad); negative where it falls upstream.
+    Plane(f64),
+    /// Of this share of the slope of the bed below it.
+    OfTheBed(f64),
 }
 
-/// A volume in a channel.
+/// The channel upstream of a barrier; lengths in m, angles in rad.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spread {
-    /// Volume over the width of a rectangle, or over the mean width of another section (m²).
-    pub per_width: f64,
-    /// m
-    pub width: f64,
+pub struct Reservoir {
     pub section: Section,
+    /// Of a rectangle, or the mean width on which volumes are told.
+    pub width: f64,
+    /// Of the bed at the barrier, α.
+    pub slope: f64,
+    /// By which the barrier leans upstream from the bed's normal, ε.
+    pub lean: f64,
+    /// The bed where it has several reaches.
+    pub profile: Option<Profile>,
 }
 
-impl Spread {
-    /// H of the first moment V/spread (m).
-    fn height(&self, spread: f64) -> f64 {
-        match &self.section {
-            Section::Rectangle { .. } => (2.0 * self.per_width / spread).sqrt(),
-            section @ Section::Surveyed(_) => section.height_of_moment(self.per_width * self.width / spread),
-        }
-    }
-}
-
-/// A deposit with a plane surface behind a barrier in a prismatic channel; lengths in m, angles in rad.
+/// A deposit behind a barrier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deposit {
-    pub width: f64,
-    /// Of the bed, θ.
+    /// Of the bed at the barrier, α.
     pub slope: f64,
     /// By which the barrier leans upstream from the bed's normal.
     pub lean: f64,
     /// At the barrier, normal to the bed, H.
     pub height: f64,
-    /// Slope of its surface, θ'.
+    /// Slope of its surface at the barrier, α'.
     pub surface: f64,
 }
 
@@ -63,18 +60,156 @@ pub struct Retention {
     pub surges: f64,
 }
 
-impl Deposit {
-    /// V = ½ b H² (cot(θ − θ') + tan lean); for a plumb barrier b h'²/(2 (tan θ − tan θ')) with h' = H/cos θ. Derived.
-    /// In a section V = S(H) (cot(θ − θ') + tan lean).
-    pub fn retention(self, section: &Section, flow_volume: f64) -> Retention {
-        let spread = libm::tan(self.slope - self.surface).recip() + libm::tan(self.lean);
-        let base = self.height * spread;
-        let volume = match section {
-            Section::Rectangle { .. } => 0.5 * self.width * self.height * base,
-            Section::Surveyed(_) => section.moment(self.height) * spread,
-        };
-        Retention { deposit: self, volume, length: base * libm::cos(self.slope), surges: volume / flow_volume }
+/// What a deposit comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stored {
+    /// m³
+    pub volume: f64,
+    /// Level length from the barrier's foot to where the surface meets the bed (m).
+    pub length: f64,
+    /// Volume times what slope less friction pulls it, ∫ A (tan α − tan φ) dX for a friction of the bed (m³).
+    pub pull: f64,
+}
+
+impl Surface {
+    /// Slope over a bed whose slope is tan α (tan).
+    fn falls(self, bed: f64) -> f64 {
+        match self {
+            Self::Plane(slope) => libm::tan(slope),
+            Self::OfTheBed(share) => libm::tan(share * libm::atan(bed)),
+        }
     }
+
+    /// Slope at a bed of this slope (rad).
+    pub fn slope(self, bed: f64) -> f64 {
+        match self {
+            Self::Plane(slope) => slope,
+            Self::OfTheBed(share) => share * bed,
+        }
+    }
+}
+
+impl Reservoir {
+    /// The deposit of a height at the barrier, normal to the bed (m), on a bed with friction tan φ; nothing where its surface does not meet
+    /// the bed.
+    pub fn stored(&self, height: f64, surface: Surface, friction: f64) -> Option<Stored> {
+        if let Some(profile) = &self.profile {
+            return self.along(profile, height, surface, friction);
+        }
+        let falls = surface.slope(self.slope);
+        let spread = libm::tan(self.slope - falls).recip() + libm::tan(self.lean);
+        let base = height * spread;
+        let volume = match &self.section {
+            Section::Rectangle { width } => 0.5 * width * height * base,
+            section @ Section::Surveyed(_) => section.moment(height) * spread,
+        };
+        let pull = volume * (libm::tan(self.slope) - friction);
+        (self.slope > falls).then(|| Stored { volume, length: base * libm::cos(self.slope), pull })
+    }
+
+    /// Columns along the bed from the barrier upstream, their areas plumb.
+    fn along(&self, profile: &Profile, height: f64, surface: Surface, friction: f64) -> Option<Stored> {
+        let (sine, cosine) = libm::sincos(self.slope);
+        let area = |depth: f64| self.section.area(depth * cosine) / cosine;
+        // The top of the deposit at the barrier, level and plumb.
+        let top_along = -height * libm::tan(self.lean);
+        let (top_x, top_z) = (top_along * cosine + height * sine, height * cosine - top_along * sine);
+        let step = height / STEPS;
+        let mut stored = Stored { volume: 0.0, length: 0.0, pull: 0.0 };
+        let mut add = |x: f64, area: f64, over: f64| {
+            stored.volume += area * over;
+            stored.pull += area * over * (profile.falls(x) - friction);
+        };
+        // Between the foot and the top of the face: what is under the face is taken off, or added where it leans upstream.
+        let pieces = (top_x.abs() / step).ceil().max(1.0) as usize;
+        for piece in 0..pieces {
+            let x = top_x * (piece as f64 + 0.5) / pieces as f64;
+            let face = area(top_z * x / top_x - profile.elevation(x));
+            let over = top_x.abs() / pieces as f64;
+            if top_x < 0.0 {
+                add(x, face, over);
+            } else if top_x > 0.0 {
+                let under = top_z - surface.falls(profile.falls(0.0)) * (x - top_x) - profile.elevation(x);
+                add(x, area(under) - face, over);
+            }
+        }
+        let (mut x, mut z) = (top_x.min(0.0), top_z);
+        if top_x > 0.0 {
+            z += surface.falls(profile.falls(0.0)) * top_x;
+        }
+        for _ in 0..MOST_STEPS {
+            let falls = surface.falls(profile.falls(x - 0.5 * step));
+            let next = z + falls * step;
+            let [near, far] = [z - profile.elevation(x), next - profile.elevation(x - step)];
+            if far <= 0.0 {
+                let share = (near / (near - far)).clamp(0.0, 1.0);
+                let area = third(&area, near, 0.0);
+                add(x - 0.5 * share * step, area, share * step);
+                stored.length = share.mul_add(step, -x);
+                return Some(stored);
+            }
+            add(x - 0.5 * step, third(&area, near, far), step);
+            (x, z) = (x - step, next);
+        }
+        None
+    }
+
+    /// Height at the barrier, normal to the bed, of a deposit of a volume over the width (m²) whose surface falls upstream at an angle ψ below
+    /// the horizontal. ψ = 0 is the level surface of a fluid; a granular flow that is stopped while it runs up leaves a heap against the
+    /// barrier, and ψ may be as much as its angle of repose. Infinite where surface and barrier do not meet the bed.
+    pub fn height(&self, per_width: f64, falls: f64) -> f64 {
+        let spread = libm::tan(self.slope + falls).recip() + libm::tan(self.lean);
+        if self.profile.is_some() {
+            return self.height_by_search(per_width * self.width, Surface::Plane(-falls));
+        }
+        if !(spread > 0.0 && self.slope + falls < std::f64::consts::FRAC_PI_2 + self.lean) {
+            return f64::INFINITY;
+        }
+        match &self.section {
+            Section::Rectangle { .. } => (2.0 * per_width / spread).sqrt(),
+            section @ Section::Surveyed(_) => section.height_of_moment(per_width * self.width / spread),
+        }
+    }
+
+    fn height_by_search(&self, volume: f64, surface: Surface) -> f64 {
+        let holds = |height: f64| self.stored(height, surface, 0.0).map(|stored| stored.volume);
+        if volume <= 0.0 {
+            return 0.0;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        loop {
+            match holds(high) {
+                // A surface that never meets the bed holds any volume: no deposit is higher than that.
+                None => break,
+                Some(held) if held >= volume => break,
+                Some(_) => (low, high) = (high, 2.0 * high),
+            }
+            if high > 1e4 {
+                return f64::INFINITY;
+            }
+        }
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            match holds(middle) {
+                Some(held) if held < volume => low = middle,
+                _ => high = middle,
+            }
+        }
+        high
+    }
+
+    /// What the barrier holds up to a height, nothing where the surface does not meet the bed.
+    pub fn retention(&self, height: f64, surface: Surface, flow_volume: f64) -> Option<Retention> {
+        let stored = self.stored(height, surface, 0.0)?;
+        let deposit = Deposit { slope: self.slope, lean: self.lean, height, surface: surface.slope(self.slope) };
+        let surges = stored.volume / flow_volume;
+        Some(Retention { deposit, volume: stored.volume, length: stored.length, surges })
+    }
+}
+
+/// Mean area over a step between two depths, by Simpson's rule.
+fn third(area: &impl Fn(f64) -> f64, near: f64, far: f64) -> f64 {
+    (area(near) + 4.0 * area(0.5 * (near + far)) + area(far)) / 6.0
 }
 
 #[cfg(test)]
@@ -82,50 +217,85 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Of a rectangle of any width.
-    fn even(per_width: f64) -> Spread {
-        Spread { per_width, width: 3.0, section: Section::Rectangle { width: 3.0 } }
+    /// A rectangle on an even bed.
+    fn even(width: f64, slope: f64, lean: f64) -> Reservoir {
+        Reservoir { section: Section::Rectangle { width }, width, slope, lean, profile: None }
+    }
+
+    /// Height of a volume over the width, with a surface that falls upstream.
+    fn deposit_height(per_width: f64, slope: f64, falls: f64, lean: f64) -> f64 {
+        even(3.0, slope, lean).height(per_width, falls)
+    }
+
+    /// An even bed told as a profile is the same bed, whatever the lean of the barrier and the slope of the surface.
+    #[test]
+    fn the_sum_along_an_even_bed_is_the_closed_form() {
+        let trapezoid =
+            Section::Surveyed(crate::section::Survey::new(&[[-9.0, 8.0], [-1.0, 0.0], [1.0, 0.0], [9.0, 8.0]], 0.1));
+        for section in [Section::Rectangle { width: 4.0 }, trapezoid] {
+            for (slope, lean) in [(20.0_f64, 20.0_f64), (20.0, 0.0), (12.0, 30.0), (25.0, -10.0)] {
+                let [slope, lean] = [slope, lean].map(f64::to_radians);
+                let closed = Reservoir { section: section.clone(), width: 4.0, slope, lean, profile: None };
+                let summed = Reservoir { profile: Some(Profile::new(slope, &[], &[], 0.0)), ..closed.clone() };
+                for surface in [Surface::Plane(0.0), Surface::OfTheBed(2.0 / 3.0), Surface::Plane(-0.3)] {
+                    let [a, b] = [&closed, &summed].map(|one| one.stored(2.0, surface, 0.2).expect("a deposit"));
+                    assert_relative_eq!(a.volume, b.volume, max_relative = 3e-3);
+                    assert_relative_eq!(a.pull, b.pull, max_relative = 3e-3);
+                }
+                assert_relative_eq!(closed.height(3.0, 0.4), summed.height(3.0, 0.4), max_relative = 3e-3);
+            }
+        }
+    }
+
+    /// 4 m wide and plumb, on 20° with 5° from 4 m upstream on. A level surface 3 m high: over the first 4 m the bed rises by 1.456 m; the
+    /// other 1.544 m it rises over 17.65 m. (3 + 1.544)/2 · 4 + 1.544 · 17.65/2 = 22.71 m² of section along the bed.
+    #[test]
+    fn a_flatter_reach_upstream_holds_more() {
+        let slope = 20_f64.to_radians();
+        let profile = Profile::new(slope, &[[4.0, 5_f64.to_radians()]], &[], 0.0);
+        let reach = Reservoir { profile: Some(profile), ..even(4.0, slope, slope) };
+        let stored = reach.stored(3.0 * libm::cos(slope), Surface::Plane(0.0), 0.0).expect("a deposit");
+        assert_relative_eq!(stored.volume, 4.0 * 22.713, max_relative = 2e-3);
+        assert_relative_eq!(stored.length, 21.65, max_relative = 2e-3);
+        // Weight pulls with the slope of the bed below it.
+        let pull = 4.0 * (9.088 * libm::tan(slope) + 13.625 * libm::tan(5_f64.to_radians()));
+        assert_relative_eq!(stored.pull, pull, max_relative = 5e-3);
+        assert_relative_eq!(reach.height(22.713, 0.0), 3.0 * libm::cos(slope), max_relative = 2e-3);
+        // A level reach is never filled; no deposit is higher than where its surface no longer meets the bed.
+        let level = Reservoir { profile: Some(Profile::new(slope, &[[4.0, 0.0]], &[], 0.0)), ..reach };
+        assert_eq!(level.stored(3.0, Surface::Plane(0.0), 0.0), None);
+        assert!(level.height(1e6, 0.0) < 1.46 * libm::cos(slope) * 1.01);
     }
 
     #[test]
     fn a_level_deposit_fills_the_triangle_behind_the_barrier() {
-        let height = deposit_height(&even(10.0), 0.5, 0.0, 0.3);
+        let height = deposit_height(10.0, 0.5, 0.0, 0.3);
         assert_relative_eq!(
             0.5 * height * height * (1.0 / libm::tan(0.5_f64) + libm::tan(0.3_f64)),
             10.0,
             max_relative = 1e-12
         );
-        assert_eq!(deposit_height(&even(10.0), 0.0, 0.0, 0.0), 0.0);
+        assert_eq!(deposit_height(10.0, 0.0, 0.0, 0.0), 0.0);
     }
 
     #[test]
     fn a_heap_at_the_angle_of_repose_stands_higher_than_a_level_deposit() {
         // A triangle of 12.5 m² on a level bed with a surface at 45°: 5 m by 5 m.
-        assert_relative_eq!(
-            deposit_height(&even(12.5), 0.0, std::f64::consts::FRAC_PI_4, 0.0),
-            5.0,
-            max_relative = 1e-12
-        );
+        assert_relative_eq!(deposit_height(12.5, 0.0, std::f64::consts::FRAC_PI_4, 0.0), 5.0, max_relative = 1e-12);
         let slope = 5_f64.to_radians();
-        let [level, heap] = [0.0, 35_f64.to_radians()].map(|falls| deposit_height(&even(12.5), slope, falls, 0.0));
+        let [level, heap] = [0.0, 35_f64.to_radians()].map(|falls| deposit_height(12.5, slope, falls, 0.0));
         assert_relative_eq!(level, 1.479, max_relative = 1e-3);
         assert_relative_eq!(heap, 4.580, max_relative = 1e-3);
         // Too steep to end at the bed.
-        assert_eq!(deposit_height(&even(1.0), 1.0, 1.0, 0.0), f64::INFINITY);
+        assert_eq!(deposit_height(1.0, 1.0, 1.0, 0.0), f64::INFINITY);
     }
 
     #[test]
     fn matches_the_derived_volume() {
         // Plumb, H_b 5 m filled to 3/4, θ 20°, θ' 13.33°, b 12 m: 664.5 m³ over 29.5 m.
         let slope = 20_f64.to_radians();
-        let shape = Deposit {
-            width: 12.0,
-            slope,
-            lean: slope,
-            height: 3.75 * libm::cos(slope),
-            surface: 13.333_f64.to_radians(),
-        };
-        let held = shape.retention(&Section::Rectangle { width: 12.0 }, 332.25);
+        let surface = Surface::Plane(13.333_f64.to_radians());
+        let held = even(12.0, slope, slope).retention(3.75 * libm::cos(slope), surface, 332.25).expect("a deposit");
         assert_relative_eq!(held.volume, 664.5, max_relative = 1e-3);
         assert_relative_eq!(held.length, 29.5, max_relative = 2e-3);
         assert_relative_eq!(held.surges, 2.0, max_relative = 1e-3);
@@ -134,17 +304,13 @@ mod tests {
     /// A surface that falls by 60° and a bed of 20° meet behind a face that leans by 30°, not behind one that leans downstream by 15°.
     #[test]
     fn a_heap_needs_a_face_that_leans_less_than_its_surface_is_steep() {
-        let height =
-            |lean: f64| deposit_height(&even(2.0), 20_f64.to_radians(), 60_f64.to_radians(), lean.to_radians());
+        let height = |lean: f64| deposit_height(2.0, 20_f64.to_radians(), 60_f64.to_radians(), lean.to_radians());
         let by_hand = (4.0 / (1.0 / 5.671_282 + 0.577_350_f64)).sqrt();
         assert_relative_eq!(height(30.0), by_hand, max_relative = 1e-6);
         assert_eq!(height(-15.0), f64::INFINITY);
         // Beyond the plumb of the bed's normal the surface overhangs.
-        let steep = deposit_height(&even(2.0), 40_f64.to_radians(), 60_f64.to_radians(), 20_f64.to_radians());
+        let steep = deposit_height(2.0, 40_f64.to_radians(), 60_f64.to_radians(), 20_f64.to_radians());
         assert_relative_eq!(steep, (4.0 / (-0.176_327 + 0.363_970_f64)).sqrt(), max_relative = 1e-5);
-        assert_eq!(
-            deposit_height(&even(2.0), 40_f64.to_radians(), 60_f64.to_radians(), 5_f64.to_radians()),
-            f64::INFINITY
-        );
+        assert_eq!(deposit_height(2.0, 40_f64.to_radians(), 60_f64.to_radians(), 5_f64.to_radians()), f64::INFINITY);
     }
 }

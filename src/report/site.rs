@@ -1,9 +1,10 @@
 //! The site: the barrier in its section, what lies behind it along the channel, and how much that is.
 
 use crate::design::{BarrierDesign, Bottom, Design};
-use crate::guideline::{Guideline, event_fill};
-use crate::loads::fill::Deposit;
+use crate::guideline::{Guideline, event_fill, reservoir};
+use crate::loads::fill::Surface as Slope;
 use crate::pipeline::Run;
+use crate::profile::Profile;
 use crate::report::numbers::with_unit;
 use crate::report::pictures::Chart;
 use crate::report::plots::cross_section::{CrossSection, Member, cross_section};
@@ -127,21 +128,32 @@ fn outline(drawing: &Drawing, low: f64, top: f64) -> Vec<[f64; 2]> {
 fn along(run: &Run) -> Option<Chart> {
     let (design, guideline) = (&run.file.design, &run.guideline);
     let held = guideline.retention?;
-    let surface = |name: &str, slope: f64| {
-        let deposit = Deposit { surface: slope, ..held.deposit };
-        let held = deposit.retention(&guideline.section, design.flow.volume());
-        let name = format!("{name}: {}, {} long", with_unit(held.volume, "m³"), with_unit(held.length, "m"));
-        Surface { name, height: deposit.height, slope }
+    let reservoir = reservoir(design);
+    let surface = |name: &str, slope: Slope| {
+        let stored = reservoir.stored(held.deposit.height, slope, 0.0)?;
+        let name = format!("{name}: {}, {} long", with_unit(stored.volume, "m³"), with_unit(stored.length, "m"));
+        Some(Surface { name, height: held.deposit.height, slope, length: stored.length })
     };
-    let mut surfaces = vec![surface("at the design slope", held.deposit.surface)];
+    let mut surfaces: Vec<Surface> =
+        surface("at the design slope", Slope::OfTheBed(design.loads.deposit_slope)).into_iter().collect();
     if held.deposit.surface > 0.0 {
-        surfaces.push(surface("level", 0.0));
+        surfaces.extend(surface("level", Slope::Plane(0.0)));
     }
     let top = guideline.input.barrier_height;
-    let drawn = LongProfile { slope: design.channel.slope, top: [-top * libm::tan(guideline.lean), top], surfaces };
+    let drawn = LongProfile {
+        slope: design.channel.slope,
+        profile: design.channel.profile.clone().unwrap_or_else(|| Profile::new(design.channel.slope, &[], &[], 0.0)),
+        top: [-top * libm::tan(guideline.lean), top],
+        surfaces,
+    };
     let note = format!(
-        "To scale, plumb. What the filled barrier holds below a plane surface that starts {} above the bed (normal to it) at the barrier.",
-        with_unit(held.deposit.height, "m")
+        "To scale, plumb. What the filled barrier holds below a surface that starts {} above the bed (normal to it) at the barrier.{}",
+        with_unit(held.deposit.height, "m"),
+        if design.channel.profile.is_some() {
+            " Volumes are summed along the bed, reach by reach; at the design slope the surface has its share of the slope of each reach."
+        } else {
+            ""
+        }
     );
     Some(Chart::of("Bed, barrier and deposit along the channel", long_profile(&drawn), note))
 }
@@ -152,14 +164,19 @@ fn storage(run: &Run) -> Option<Chart> {
     let held = guideline.retention?;
     let top = guideline.input.barrier_height;
     let heights: Vec<f64> = (0..=HEIGHTS).map(|index| top * index as f64 / HEIGHTS as f64).collect();
-    let volumes = |surface: f64| -> Vec<f64> {
+    let reservoir = reservoir(design);
+    let volumes = |surface: Slope| -> Vec<f64> {
         let of = |height: &f64| {
-            let deposit = Deposit { height: *height, surface, ..held.deposit };
-            deposit.retention(&guideline.section, design.flow.volume()).volume
+            // No deposit is as much as none of a height.
+            if *height == 0.0 {
+                0.0
+            } else {
+                reservoir.stored(*height, surface, 0.0).map_or(f64::NAN, |stored| stored.volume)
+            }
         };
         heights.iter().map(of).collect()
     };
-    let (sloping, level) = (volumes(held.deposit.surface), volumes(0.0));
+    let (sloping, level) = (volumes(Slope::OfTheBed(design.loads.deposit_slope)), volumes(Slope::Plane(0.0)));
     let mut series = vec![Series { label: "design slope".into(), values: &sloping, colour: 0 }];
     if held.deposit.surface > 0.0 {
         series.push(Series { label: "level".into(), values: &level, colour: 1 });
@@ -180,7 +197,7 @@ fn storage(run: &Run) -> Option<Chart> {
     };
     let event = event_fill(design, &guideline.input);
     let note = format!(
-        "Design slope: the deposit's surface falls at {:.1}°, the bed at {:.1}°. The filled barrier keeps {} of its {} (loads.filled_height). The event stands {} high with a level surface.{}",
+        "Design slope: at the barrier the deposit's surface falls at {:.1}°, the bed at {:.1}°. The filled barrier keeps {} of its {} (loads.filled_height). The event stands {} high with a level surface.{}",
         held.deposit.surface.to_degrees(),
         held.deposit.slope.to_degrees(),
         with_unit(held.deposit.height, "m"),

@@ -8,7 +8,7 @@ use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, packed_block, shape};
-use crate::scene::ground;
+use crate::scene::ground::{self, bed_at};
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
 use crate::section::Survey;
@@ -154,7 +154,7 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
         shape: shape(flow),
         grains,
         surfaces: surfaces(design, block),
-        terrain: design.channel.survey.as_ref().map(|survey| terrain_of(design, survey, block)),
+        terrain: design.channel.ground().map(|survey| terrain_of(design, &survey, block)),
         barrier: None,
         material: Material {
             modulus: flow.modulus,
@@ -258,7 +258,8 @@ const MARGIN: f64 = 20.0;
 fn terrain_of(design: &Design, survey: &Survey, block: &Block) -> Terrain {
     let channel = &design.channel;
     let along = [block.front - block.length - MARGIN, outlet(design) + MARGIN];
-    ground::terrain(survey, along, |is_bed| if is_bed { channel.base_friction } else { channel.side_friction })
+    let friction = |is_bed: bool| if is_bed { channel.base_friction } else { channel.side_friction };
+    ground::ground_of(channel, survey, along, friction)
 }
 
 /// Base, side walls, back wall and gate, and the rigid wall if that is the barrier.
@@ -269,8 +270,7 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     let across = Span::unbounded(y);
     let along = Span::unbounded(x);
     let walls = up_to(channel.wall_height);
-    let back = x * (block.front - block.length);
-    let mut all = match channel.survey {
+    let mut all = match channel.ground() {
         Some(_) => Vec::new(),
         None => vec![
             Surface::new(SurfaceRole::Base, Vec3::zeros(), z, [along, across], channel.base_friction),
@@ -279,14 +279,13 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
         ],
     };
     if matches!(design.flow.arrival, Arrival::DamBreak(_)) {
-        all.push(Surface::new(SurfaceRole::Side, back, x, [Span::unbounded(z), across], channel.side_friction));
-        all.push(Surface::new(
-            SurfaceRole::Gate,
-            x * block.front,
-            -x,
-            [Span::unbounded(z), across],
-            channel.side_friction,
-        ));
+        // Across the bed where they stand.
+        let ends = [(SurfaceRole::Side, block.front - block.length, 1.0), (SurfaceRole::Gate, block.front, -1.0)];
+        for (role, place, inwards) in ends {
+            let (origin, [downstream, up]) = bed_at(channel, place);
+            let spans = [Span::unbounded(up), across];
+            all.push(Surface::new(role, origin, downstream * inwards, spans, channel.side_friction));
+        }
     }
     if let BarrierDesign::RigidWall(wall) = &design.barrier {
         let (sine, cosine) = libm::sincos(wall.lean);
@@ -312,10 +311,11 @@ fn ground_of(design: &Design, barrier: &Barrier) -> Ground {
         friction: friction.min(channel.barrier_friction),
     };
     let moduli = [design.flow.modulus, barrier.contact_modulus];
-    if let Some(survey) = &channel.survey {
+    if let Some(survey) = &channel.ground() {
         let along = [-MARGIN - reach_of(barrier), outlet(design) + MARGIN];
         let friction = |is_bed: bool| if is_bed { channel.base_friction } else { channel.side_friction };
-        let terrain = ground::terrain(survey, along, |is_bed| friction(is_bed).min(channel.barrier_friction));
+        let terrain =
+            ground::ground_of(channel, survey, along, |is_bed| friction(is_bed).min(channel.barrier_friction));
         return Ground::over(&barrier.nodes, terrain, moduli);
     }
     let (y, walls) = (Vec3::y(), channel.wall_height);

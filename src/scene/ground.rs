@@ -2,24 +2,69 @@
 
 use crate::design::Channel;
 use crate::section::{Section, Survey};
+use dem::Vec3;
 use dem::recorders::across::{Across, GroundLine};
 use dem::tables::surfaces::SurfaceRole;
-use dem::tables::terrain::{Terrain, strips};
+use dem::tables::terrain::{Patch, Terrain, strips};
 
 /// By which a vertical bank leans outwards in the model, over its height: facets have an extent seen from above.
 const LEAN: f64 = 1e-4;
+/// How far the first and the last reach of a bed are told (m).
+const FAR: f64 = 1e4;
 /// Rows of the table of areas.
 const AREAS: usize = 1000;
 /// How far the table goes, over the height of the higher end.
 const BEYOND: f64 = 1.5;
 
-/// Facets of the section from one place along the channel to another (m), friction (tan φ) by whether they are bed.
+/// Facets of the section from one place along an even bed to another (m), friction (tan φ) by whether they are bed.
 pub fn terrain(survey: &Survey, along: [f64; 2], friction: impl Fn(bool) -> f64) -> Terrain {
-    let kinds: Vec<(SurfaceRole, f64)> = survey
-        .strips()
-        .map(|strip| (if strip.is_bed { SurfaceRole::Base } else { SurfaceRole::Side }, friction(strip.is_bed)))
+    strips(&leaning(survey.points()), along, &kinds(survey, friction))
+}
+
+fn kinds(survey: &Survey, friction: impl Fn(bool) -> f64) -> Vec<(SurfaceRole, f64)> {
+    let kind = |is_bed: bool| (if is_bed { SurfaceRole::Base } else { SurfaceRole::Side }, friction(is_bed));
+    survey.strips().map(|strip| kind(strip.is_bed)).collect()
+}
+
+/// The ground of a channel from one place along it to another (m, in its frame).
+pub fn ground_of(channel: &Channel, survey: &Survey, along: [f64; 2], friction: impl Fn(bool) -> f64) -> Terrain {
+    let Some(profile) = &channel.profile else { return terrain(survey, along, friction) };
+    let corners = profile.corners().iter().map(|corner| corner[0]).filter(|x| *x > along[0] && *x < along[1]);
+    let mut stations = vec![along[0]];
+    stations.extend(corners);
+    stations.push(along[1]);
+    let points = leaning(survey.points());
+    let plumb = libm::cos(channel.slope);
+    let corner = |x: f64, [y, z]: [f64; 2]| frame_of(channel.slope, x, y, profile.elevation(x) + z / plumb);
+    let places = stations.iter().flat_map(|x| points.iter().map(|point| corner(*x, *point))).collect();
+    let kinds = kinds(survey, friction);
+    let patch = |station: usize, strip: usize| {
+        let first = (station * points.len() + strip) as u32;
+        let next = first + points.len() as u32;
+        let (role, friction) = kinds[strip];
+        Patch { corners: vec![first, next, next + 1, first + 1], role, friction }
+    };
+    let patches: Vec<Patch> = (1..stations.len())
+        .flat_map(|station| (0..kinds.len()).map(move |strip| (station - 1, strip)))
+        .map(|(station, strip)| patch(station, strip))
         .collect();
-    strips(&leaning(survey.points()), along, &kinds)
+    Terrain::new(places, &patches)
+}
+
+/// The place of the bed at a distance along it from the foot (m), and the directions down the bed and out of it there.
+pub fn bed_at(channel: &Channel, along: f64) -> (Vec3, [Vec3; 2]) {
+    let Some(profile) = &channel.profile else { return (Vec3::x() * along, [Vec3::x(), Vec3::z()]) };
+    let there = profile.at(along);
+    // Steeper than at the barrier, it goes down in the frame.
+    let (sine, cosine) = libm::sincos(there.slope - channel.slope);
+    let directions = [Vec3::new(cosine, 0.0, -sine), Vec3::new(sine, 0.0, cosine)];
+    (frame_of(channel.slope, there.x, 0.0, there.z), directions)
+}
+
+/// A place of the channel frame: from the level distance downstream of the foot, that across, and the plumb height over the foot (m).
+pub fn frame_of(slope: f64, level: f64, across: f64, plumb: f64) -> Vec3 {
+    let (sine, cosine) = libm::sincos(slope);
+    Vec3::new(level * cosine - plumb * sine, across, level * sine + plumb * cosine)
 }
 
 /// The points with every vertical bank leaning outwards a little.
@@ -45,18 +90,22 @@ fn leaning(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// What recorders know of the section.
 pub fn across(channel: &Channel) -> Across {
-    let Some(survey) = &channel.survey else { return Across::Even(channel.width) };
+    let Some(survey) = channel.ground() else { return Across::Even(channel.width) };
     let section = Section::Surveyed(survey.clone());
+    let bed = channel.profile.as_ref().map_or(Vec::new(), |profile| {
+        let corners = profile.corners();
+        let far = [corners[0][0] - FAR, corners[corners.len() - 1][0] + FAR].map(|x| [x, profile.elevation(x)]);
+        [&far[..1], corners, &far[1..]].concat()
+    });
     let highest = survey.points().iter().map(|point| point[1]).fold(0.0, f64::max);
     let height = |row: usize| BEYOND * highest * row as f64 / AREAS as f64;
     let areas = (0..=AREAS).map(|row| [height(row), section.area(height(row))]).collect();
-    Across::Ground(GroundLine { points: survey.points().to_vec(), areas })
+    Across::Ground(GroundLine { points: survey.points().to_vec(), areas, slope: channel.slope, bed })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dem::Vec3;
 
     #[test]
     fn vertical_banks_lean_outwards_and_the_rest_stays() {
@@ -77,12 +126,46 @@ mod tests {
         assert_eq!(ground.facet(1).normal, Vec3::z());
     }
 
+    /// 20° at the barrier and 10° from 5 m upstream on: the ground there is turned by 10° against the frame.
+    #[test]
+    fn a_bed_of_reaches_is_a_mesh_with_its_breaks() {
+        let slope = 20_f64.to_radians();
+        let survey = Survey::new(&[[-7.0, 5.0], [-2.0, 0.0], [2.0, 0.0], [7.0, 5.0]], 0.0);
+        let profile = crate::profile::Profile::new(slope, &[[5.0, 10_f64.to_radians()]], &[], 0.0);
+        let channel = Channel {
+            width: 6.0,
+            survey: Some(survey.clone()),
+            profile: Some(profile),
+            slope,
+            wall_height: 5.0,
+            base_friction: 0.4,
+            side_friction: 0.4,
+            barrier_friction: 0.4,
+        };
+        let ground = ground_of(&channel, &survey, [-30.0, 10.0], |_| 0.4);
+        // Three reaches of facets (the foot is a corner), three strips each.
+        assert_eq!(ground.facets().len(), 9);
+        let turned = 10_f64.to_radians();
+        let expected = Vec3::new(-libm::sin(turned), 0.0, libm::cos(turned));
+        assert!((ground.facet(1).normal - expected).norm() < 1e-9, "{}", ground.facet(1).normal);
+        assert!((ground.facet(4).normal - Vec3::z()).norm() < 1e-9);
+        let Across::Ground(line) = across(&channel) else { panic!("ground") };
+        // A metre over the bed 10 m upstream, level, and half a metre over the bank there.
+        let bed = 5.0 * libm::tan(slope) + 5.0 * libm::tan(turned);
+        for (y, over) in [(7.0, 1.0), (3.0, 0.5)] {
+            let bank = if y == 3.0 { 2.0 / libm::cos(slope) } else { 0.0 };
+            let (clear, _) = Across::Ground(line.clone()).clearance(&frame_of(slope, -10.0, y, bed + bank + over));
+            assert!((clear - over * libm::cos(slope)).abs() < 1e-9, "{y}: {clear}");
+        }
+    }
+
     #[test]
     fn the_table_of_areas_is_that_of_the_section() {
         let survey = Survey::new(&[[-7.0, 5.0], [-2.0, 0.0], [2.0, 0.0], [7.0, 5.0]], 0.0);
         let channel = Channel {
             width: 6.0,
             survey: Some(survey),
+            profile: None,
             slope: 0.3,
             wall_height: 5.0,
             base_friction: 0.4,

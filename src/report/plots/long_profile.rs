@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+use crate::loads::fill::Surface as Slope;
+use crate::profile::Profile;
+
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 12.0;
 /// Room below the bed for the scale, and above for names.
@@ -12,66 +15,93 @@ const DOWNSTREAM: f64 = 1.5;
 /// Least length drawn upstream of it, over the same.
 const UPSTREAM: f64 = 4.0;
 
-/// A plane surface of a deposit, from the barrier upstream.
+/// The surface of a deposit, from the barrier upstream.
 pub struct Surface {
     pub name: String,
-    /// Height at the barrier, normal to the bed (m), and slope below the horizontal downstream (rad).
+    /// Height at the barrier, normal to the bed (m).
     pub height: f64,
-    pub slope: f64,
+    pub slope: Slope,
+    /// Level, from the foot to where it meets the bed (m).
+    pub length: f64,
 }
 
 /// What is drawn.
 pub struct LongProfile {
-    /// Of the bed (rad).
+    /// Of the bed at the barrier (rad).
     pub slope: f64,
+    pub profile: Profile,
     /// Top of the barrier over its foot: along the bed, and normal to it (m).
     pub top: [f64; 2],
     pub surfaces: Vec<Surface>,
 }
 
+impl LongProfile {
+    /// Level and plumb, from what is along the bed and normal to it at the barrier.
+    fn turned(&self, [along, normal]: [f64; 2]) -> [f64; 2] {
+        let (sine, cosine) = libm::sincos(self.slope);
+        [along * cosine + normal * sine, normal * cosine - along * sine]
+    }
+
+    /// Places of the bed between two others, its corners included.
+    fn bed(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
+        let corners = self.profile.corners().iter().map(|corner| corner[0]).filter(|x| *x > from && *x < to);
+        let mut places: Vec<f64> = corners.collect();
+        places.insert(0, from);
+        places.push(to);
+        places.into_iter().map(|x| [x, self.profile.elevation(x)]).collect()
+    }
+
+    /// The surface from the barrier to where it meets the bed.
+    fn surface(&self, surface: &Surface) -> Vec<[f64; 2]> {
+        let lean = self.top[0] / self.top[1];
+        let [x, z] = self.turned([lean * surface.height, surface.height]);
+        let bed = self.bed(-surface.length, x.min(0.0));
+        let mut line = vec![[x, z]];
+        for pair in bed.windows(2).rev() {
+            let [last_x, last_z] = line[line.len() - 1];
+            let slope =
+                libm::tan(surface.slope.slope(libm::atan((pair[0][1] - pair[1][1]) / (pair[1][0] - pair[0][0]))));
+            line.push([pair[0][0], last_z + slope * (last_x - pair[0][0])]);
+        }
+        line
+    }
+}
+
 pub fn long_profile(drawn: &LongProfile) -> String {
-    let (sine, cosine) = libm::sincos(drawn.slope);
-    // Level and plumb, from what is along the bed and normal to it.
-    let turned = |[along, normal]: [f64; 2]| [along * cosine + normal * sine, normal * cosine - along * sine];
-    let [top_x, top_z] = turned(drawn.top);
-    let lean = drawn.top[0] / drawn.top[1];
-    let end_of = |surface: &Surface| {
-        let start = turned([lean * surface.height, surface.height]);
-        let falls = libm::tan(drawn.slope) - libm::tan(surface.slope);
-        // Heights over the bed fall by this much per level metre upstream.
-        let above = start[1] + start[0] * libm::tan(drawn.slope);
-        let length = above / falls;
-        (start, [start[0] - length, start[1] + length * libm::tan(surface.slope)])
-    };
-    let ends = drawn.surfaces.iter().map(|surface| end_of(surface).1[0]);
+    let [top_x, top_z] = drawn.turned(drawn.top);
     let tall = top_z.abs().max(drawn.top[1]);
-    let left = ends.fold(-UPSTREAM * tall, f64::min) * 1.05;
-    let right = DOWNSTREAM * tall;
+    let longest = drawn.surfaces.iter().map(|surface| surface.length).fold(UPSTREAM * tall, f64::max);
+    let (left, right) = (-1.05 * longest, DOWNSTREAM * tall);
     let scale = (WIDTH - 2.0 * MARGIN) / (right - left);
-    let bed = |x: f64| -x * libm::tan(drawn.slope);
-    let highest = bed(left).max(top_z);
-    let lowest = bed(right);
+    let bed = drawn.bed(left, right);
+    let highest = bed.iter().map(|point| point[1]).fold(top_z, f64::max);
+    let lowest = bed.iter().map(|point| point[1]).fold(0.0, f64::min);
     let place = |[x, z]: [f64; 2]| [MARGIN + (x - left) * scale, ABOVE + (highest - z) * scale];
     let height = ABOVE + (highest - lowest) * scale + BELOW;
+    let points = |line: &[[f64; 2]]| {
+        let place = |point: &[f64; 2]| {
+            let [x, y] = place(*point);
+            format!("{x:.1},{y:.1}")
+        };
+        line.iter().map(place).collect::<Vec<_>>().join(" ")
+    };
     let mut svg = format!(
         "<svg viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\" aria-label=\"bed, barrier and deposits along the channel\">"
     );
     for surface in &drawn.surfaces {
-        let (start, end) = end_of(surface);
-        let ([x1, y1], [x2, y2]) = (place(start), place(end));
-        let [x3, y3] = place([0.0, 0.0]);
-        let _ = write!(svg, "<polygon class=\"deposit\" points=\"{x1:.1},{y1:.1} {x2:.1},{y2:.1} {x3:.1},{y3:.1}\"/>");
+        let mut outline = drawn.surface(surface);
+        outline.extend(drawn.bed(-surface.length, 0.0).into_iter().skip(1));
+        let _ = write!(svg, "<polygon class=\"deposit\" points=\"{}\"/>", points(&outline));
     }
-    let line = |class: &str, from: [f64; 2], to: [f64; 2]| {
-        let ([x1, y1], [x2, y2]) = (place(from), place(to));
-        format!("<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>")
-    };
-    svg += &line("bed", [left, bed(left)], [right, bed(right)]);
-    svg += &line("wall", [0.0, 0.0], [top_x, top_z]);
-    // Names one below the other at the left, over the bed, each at the upstream end of its surface.
+    let _ = write!(svg, "<polyline class=\"bed\" fill=\"none\" points=\"{}\"/>", points(&bed));
+    let ([x1, y1], [x2, y2]) = (place([0.0, 0.0]), place([top_x, top_z]));
+    let _ = write!(svg, "<line class=\"wall\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>");
+    // Names one below the other above the barrier, each with a line to its surface.
     for (index, surface) in drawn.surfaces.iter().enumerate() {
-        let (start, end) = end_of(surface);
-        let [x, y] = place([0, 1].map(|axis| 0.4 * start[axis] + 0.6 * end[axis]));
+        let line = drawn.surface(surface);
+        let (start, end) = (line[0], line[line.len() - 1]);
+        let middle = if line.len() > 2 { line[1] } else { [0, 1].map(|axis| 0.4 * start[axis] + 0.6 * end[axis]) };
+        let [x, y] = place(middle);
         let _ = write!(
             svg,
             "<polyline class=\"leader\" points=\"{x:.1},{y:.1} {:.1},{:.1}\"/><text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
@@ -96,8 +126,14 @@ mod tests {
         let normal = 3.0 * libm::cos(slope);
         let drawn = LongProfile {
             slope,
+            profile: Profile::new(slope, &[], &[], 0.0),
             top: [-3.0 * libm::sin(slope), normal],
-            surfaces: vec![Surface { name: "level".into(), height: normal, slope: 0.0 }],
+            surfaces: vec![Surface {
+                name: "level".into(),
+                height: normal,
+                slope: Slope::Plane(0.0),
+                length: 3.0 / libm::tan(slope),
+            }],
         };
         let svg = long_profile(&drawn);
         let points = svg.split("class=\"deposit\" points=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();

@@ -14,6 +14,7 @@ use dem::simd::quad::Quad;
 use dem::simulation::{Simulation, Unstable};
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
+use dem::tables::terrain::Terrain;
 
 /// Largest overlap left, over the smaller radius.
 pub const OVERLAP_ALLOWED: f64 = 0.01;
@@ -139,17 +140,34 @@ fn pack_once(
     seed: u64,
     stop: &AtomicBool,
 ) -> Result<Vec<Grain>, PackingError> {
-    let model = Model {
+    let mut model = relaxing(scatter(bodies, room, seed), shape);
+    model.surfaces = walls(room);
+    model.terrain = room.ground.map(|survey| terrain(survey, [-room.size.x, 2.0 * room.size.x], |_| 0.0));
+    relax(model, bodies, stop, |simulation| hold_inside(simulation, room))
+}
+
+/// Grains without friction or weight.
+fn relaxing(grains: Vec<Grain>, shape: GrainShape) -> Model {
+    Model {
         shape,
-        grains: scatter(bodies, room, seed),
-        surfaces: walls(room),
-        terrain: room.ground.map(|survey| terrain(survey, [-room.size.x, 2.0 * room.size.x], |_| 0.0)),
+        grains,
+        surfaces: Vec::new(),
+        terrain: None,
         barrier: None,
         material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
         gravity: Vec3::zeros(),
         wall_levels: Vec::new(),
         outlet: f64::INFINITY,
-    };
+    }
+}
+
+/// Lets grains push each other apart until they overlap by no more than is allowed; `hold` puts right what goes astray.
+fn relax(
+    model: Model,
+    bodies: &[GrainBody],
+    stop: &AtomicBool,
+    mut hold: impl FnMut(&mut Simulation),
+) -> Result<Vec<Grain>, PackingError> {
     let (step, skin) = relaxation_scales(bodies);
     let mut simulation = Simulation::new(model, step, skin, f64::INFINITY);
     simulation.drag = RELAXATION_DRAG / step;
@@ -158,12 +176,28 @@ fn pack_once(
             return Err(PackingError::Interrupted);
         }
         simulation.step()?;
-        hold_inside(&mut simulation, room);
+        hold(&mut simulation);
         if simulation.sums.contacts.overlap_ratio < OVERLAP_ALLOWED {
             return Ok(at_rest(simulation.snapshot()));
         }
     }
     Err(PackingError::DoesNotFit { steps: MOST_STEPS, overlap: simulation.sums.contacts.overlap_ratio })
+}
+
+/// Pushes grains apart that overlap a little over a ground, without a lid; they keep their velocities.
+pub fn push_apart(
+    grains: Vec<Grain>,
+    shape: GrainShape,
+    ground: Terrain,
+    stop: &AtomicBool,
+) -> Result<Vec<Grain>, PackingError> {
+    let bodies: Vec<GrainBody> = grains.iter().map(|grain| grain.body).collect();
+    let swollen = grains.iter().map(|grain| Grain { body: grain.body.scaled(1.0 + SWELLING), ..grain.clone() });
+    let mut model = relaxing(at_rest(swollen.collect()), shape);
+    model.terrain = Some(ground);
+    let apart = relax(model, &bodies, stop, |_| ())?;
+    let placed = apart.into_iter().zip(grains);
+    Ok(placed.map(|(apart, before)| Grain { position: apart.position, axis: apart.axis, ..before }).collect())
 }
 
 /// Puts grains that were flung through a wall back inside: walls push to the side a grain is on.

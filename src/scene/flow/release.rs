@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
-use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched};
+use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched, push_apart};
+use crate::scene::ground::{bed_at, ground_of};
 use crate::section::Section;
 use crate::units::GRAVITY;
 use dem::Vec3;
@@ -51,10 +52,14 @@ impl Block {
             }
             Arrival::Surge(Surge { length, depth, velocity, front_angle, run_in }) => {
                 let nose = (depth / libm::tan(front_angle)).clamp(0.0, 2.0 * LONGEST_NOSE * length);
-                let gain = 2.0
-                    * GRAVITY
-                    * (libm::sin(channel.slope) - channel.base_friction * libm::cos(channel.slope))
-                    * run_in;
+                let gain = match &channel.profile {
+                    None => {
+                        2.0 * GRAVITY
+                            * (libm::sin(channel.slope) - channel.base_friction * libm::cos(channel.slope))
+                            * run_in
+                    }
+                    Some(profile) => 2.0 * GRAVITY * profile.gain(run_in, channel.base_friction),
+                };
                 let velocity = (velocity * velocity - gain).max(0.25 * velocity * velocity).sqrt();
                 let thin = thin.min(depth);
                 let (lack, tip, even) = match section {
@@ -109,20 +114,38 @@ pub fn packed_block(
     seed: u64,
     attempts: Attempts,
 ) -> Result<(Vec<Grain>, Block), PackingError> {
+    let ground = channel.ground();
+    let breadth = channel.section().breadth();
     let room = PackingRoom {
-        size: Vec3::new(block.length, channel.section().breadth(), block.height),
+        size: Vec3::new(block.length, breadth, block.height),
         nose: block.nose,
         apart: block.moves(),
-        ground: channel.survey.as_ref(),
+        ground: ground.as_ref(),
     };
+    let stop = attempts.stop;
     let (mut grains, length) = pack_watched(&bodies(flow), shape(flow), room, seed, attempts)?;
-    let corner = Vec3::new(block.front - length, 0.0, 0.0);
+    let block = Block { length, ..*block };
+    let start = block.front - length;
     for grain in &mut grains {
-        grain.position += corner;
-        grain.velocity = Vec3::new(block.velocity, 0.0, 0.0);
+        // As far along the bed, and as high over it, as in the room.
+        let place = grain.position;
+        let (origin, [downstream, up]) = bed_at(channel, start + place.x);
+        grain.position = origin + Vec3::y() * place.y + up * place.z;
+        grain.velocity = downstream * block.velocity;
+        let axis = grain.axis;
+        grain.axis = downstream * axis.x + Vec3::y() * axis.y + up * axis.z;
     }
-    Ok((grains, Block { length, ..*block }))
+    if let (Some(survey), Some(_)) = (&ground, &channel.profile) {
+        // Where the bed breaks, what was straight is bent.
+        let along = [start - FOLDED, block.front + FOLDED];
+        let terrain = ground_of(channel, survey, along, |_| 0.0);
+        grains = push_apart(grains, shape(flow), terrain, stop)?;
+    }
+    Ok((grains, block))
 }
+
+/// How far the ground goes on beyond a flow that is laid over the breaks of its bed (m).
+const FOLDED: f64 = 10.0;
 
 impl Block {
     /// Whether it moves when it is let go. Grains that move freely must not press on each other then: what their contacts store would be

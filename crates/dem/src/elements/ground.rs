@@ -32,7 +32,7 @@ pub const PLANES: usize = 3;
 pub struct Ground {
     shape: Shape,
     /// Moduli of ground and rope in contact (Pa).
-    moduli: [f64; 2],
+    pub moduli: [f64; 2],
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Vec3;
+
 /// What lies across the channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Across {
@@ -15,6 +17,9 @@ pub enum Across {
 pub struct GroundLine {
     /// (y, z) of the ground, y never falling (m).
     pub points: Vec<[f64; 2]>,
+    /// Slope of the bed at the barrier (rad), and (X, Z) of the bed's corners, level and plumb (m), where it has several reaches.
+    pub slope: f64,
+    pub bed: Vec<[f64; 2]>,
     /// Area under a level surface (m²) by its height (m), both rising from 0; between two heights in proportion.
     pub areas: Vec<[f64; 2]>,
 }
@@ -44,11 +49,22 @@ impl Across {
         }
     }
 
-    /// Height of the ground (m), and the cosine of its slope across the channel.
-    pub fn ground(&self, y: f64) -> (f64, f64) {
+    /// Height over the ground, normal to the bed at the barrier (m), and the cosine of the slope of the ground across the channel.
+    pub fn clearance(&self, place: &Vec3) -> (f64, f64) {
         match self {
-            Self::Even(_) => (0.0, 1.0),
-            Self::Ground(ground) => ground.at(y),
+            Self::Even(_) => (place.z, 1.0),
+            Self::Ground(ground) => {
+                let (height, cosine) = ground.at(place.y);
+                (ground.over_the_bed(place) - height, cosine)
+            }
+        }
+    }
+
+    /// Height over the lowest ground across the channel (m).
+    pub fn over_the_bed(&self, place: &Vec3) -> f64 {
+        match self {
+            Self::Even(_) => place.z,
+            Self::Ground(ground) => ground.over_the_bed(place),
         }
     }
 }
@@ -64,6 +80,15 @@ impl GroundLine {
             (Some(end), None) | (None, Some(&end)) => (end[1], 1.0),
             (None, None) => (0.0, 1.0),
         }
+    }
+
+    fn over_the_bed(&self, place: &Vec3) -> f64 {
+        if self.bed.is_empty() {
+            return place.z;
+        }
+        let (sine, cosine) = libm::sincos(self.slope);
+        let (level, plumb) = (place.x * cosine + place.z * sine, place.z * cosine - place.x * sine);
+        (plumb - along(&self.bed, level, 0, 1)) * cosine
     }
 
     fn height_of(&self, area: f64) -> f64 {
@@ -91,7 +116,8 @@ mod tests {
     /// A bed of 2 m between banks of 45°, A = 2 z + z².
     fn trapezoid() -> Across {
         let areas = (0..=400).map(|step| 0.01 * f64::from(step)).map(|z| [z, 2.0 * z + z * z]).collect();
-        Across::Ground(GroundLine { points: vec![[0.0, 4.0], [4.0, 0.0], [6.0, 0.0], [10.0, 4.0]], areas })
+        let points = vec![[0.0, 4.0], [4.0, 0.0], [6.0, 0.0], [10.0, 4.0]];
+        Across::Ground(GroundLine { points, areas, ..GroundLine::default() })
     }
 
     #[test]
@@ -106,14 +132,14 @@ mod tests {
     }
 
     #[test]
-    fn the_ground_is_that_of_its_points() {
-        let (height, cosine) = trapezoid().ground(1.0);
-        assert_relative_eq!(height, 3.0, max_relative = 1e-12);
+    fn heights_count_from_the_ground_below() {
+        let at = |y: f64, z: f64| Vec3::new(-3.0, y, z);
+        let (clear, cosine) = trapezoid().clearance(&at(1.0, 3.5));
+        assert_relative_eq!(clear, 0.5, max_relative = 1e-12);
         assert_relative_eq!(cosine, std::f64::consts::FRAC_1_SQRT_2, max_relative = 1e-12);
-        assert_eq!(
-            (trapezoid().ground(5.0), trapezoid().ground(11.0).0, trapezoid().breadth()),
-            ((0.0, 1.0), 4.0, 10.0)
-        );
-        assert_eq!((Across::Even(3.0).ground(9.0), Across::Even(3.0).breadth()), ((0.0, 1.0), 3.0));
+        assert_eq!(trapezoid().clearance(&at(5.0, 1.0)), (1.0, 1.0));
+        assert_eq!((trapezoid().clearance(&at(11.0, 5.0)).0, trapezoid().breadth()), (1.0, 10.0));
+        assert_eq!((Across::Even(3.0).clearance(&at(9.0, 2.0)), Across::Even(3.0).breadth()), ((2.0, 1.0), 3.0));
+        assert_eq!(trapezoid().over_the_bed(&at(1.0, 3.5)), 3.5);
     }
 }

@@ -61,7 +61,7 @@ impl GaugeWindow {
         let mut heights = Vec::new();
         let (mut velocity, mut mass, mut momentum_flux, mut at_rest) = (0.0, 0.0, 0.0, 0.0);
         for (grain, slow) in inside {
-            heights.push(grain.position.z);
+            heights.push(self.across.over_the_bed(&grain.position));
             at_rest += if *slow { grain.body.mass } else { 0.0 };
             velocity += grain.velocity.x;
             mass += grain.body.mass;

@@ -229,8 +229,8 @@ impl Recorder {
             let reach = grain.body.radius + grain.body.offset;
             let (y, z) = (grain.position.y, grain.position.z);
             let across = &self.setup.incoming.across;
-            let (ground, cosine) = across.ground(y);
-            let below = z < ground - reach / cosine;
+            let (clear, cosine) = across.clearance(&grain.position);
+            let below = clear < -reach / cosine;
             let beyond = y < -reach || y > across.breadth() + reach;
             if !(below || beyond) {
                 continue;
