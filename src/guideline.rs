@@ -4,7 +4,8 @@ use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNe
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
-use crate::loads::fill::{Reservoir, Retention, Surface};
+pub use crate::loads::fill::Surface;
+use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::loads::run_up;

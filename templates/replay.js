@@ -91,13 +91,18 @@
   const h = head.wall[1] || 0.08 * head.extent;
   const quad = (a, b, c, d) => [...a, ...b, ...c, ...a, ...c, ...d];
   const bed = quad([back, 0, 0], [front, 0, 0], [front, w, 0], [back, w, 0]);
-  const ground = head.ground.slice(1).map(([y, z], i) => [head.ground[i], [y, z]]);
-  const strips = ground.flatMap(([a, b]) => quad([back, ...a], [front, ...a], [front, ...b], [back, ...b]));
+  // Flat pieces of the ground, each as triangles about its first corner, with how level it is.
+  const ground = head.ground.map(piece => {
+    const [a, b, c] = piece, u = b.map((p, i) => p - a[i]), v = c.map((p, i) => p - a[i]);
+    const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    return { corners: piece.slice(2).flatMap((p, i) => [...a, ...piece[i + 1], ...p]), level: Math.abs(n[2]) / Math.hypot(...n) };
+  });
+  const groundFirst = 24, groundCount = ground.reduce((sum, piece) => sum + piece.corners.length / 3, 0);
   const top = head.wall[0];
   const wall = quad([0, 0, 0], [0, w, 0], [top, w, h], [top, 0, h]);
   const sides = [0, w].flatMap(y => quad([back, y, 0], [front, y, 0], [front, y, h], [back, y, h]));
   const planeArray = attach(planes, 3, [["corner", 3]], 0);
-  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([...bed, ...sides, ...wall, ...strips]), gl.STATIC_DRAW);
+  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([...bed, ...sides, ...wall, ...ground.flatMap(piece => piece.corners)]), gl.STATIC_DRAW);
 
   // ---- the moment shown ----
   const colourBy = box.querySelector("select"), slider = box.querySelector("input"), clock = box.querySelector("output");
@@ -171,12 +176,13 @@
     if (!ground.length) gl.drawArrays(gl.TRIANGLES, 0, 6);
     // Seen from below, the ground is but a veil: it would hide the flow.
     gl.enable(gl.CULL_FACE);
-    ground.forEach(([a, b], i) => {
-      // The steeper a strip, the darker.
-      const level = Math.abs(b[0] - a[0]) / Math.hypot(b[0] - a[0], b[1] - a[1]), shade = 0.7 + 0.3 * level;
+    ground.reduce((first, { corners, level }) => {
+      // The steeper a piece, the darker.
+      const shade = 0.7 + 0.3 * level;
       gl.uniform4f(planes.place("paint"), 0.82 * shade, 0.80 * shade, 0.76 * shade, 1);
-      gl.drawArrays(gl.TRIANGLES, 24 + 6 * i, 6);
-    });
+      gl.drawArrays(gl.TRIANGLES, first, corners.length / 3);
+      return first + corners.length / 3;
+    }, groundFirst);
     gl.disable(gl.CULL_FACE);
     if (head.wall[1]) { gl.uniform4f(planes.place("paint"), 0.55, 0.57, 0.6, 1); gl.drawArrays(gl.TRIANGLES, 18, 6); }
     use(balls);
@@ -197,7 +203,7 @@
     gl.bindVertexArray(planeArray.array);
     gl.enable(gl.BLEND); gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA); gl.depthMask(false);
     gl.uniform4f(planes.place("paint"), 0.4, 0.45, 0.5, 0.12);
-    if (ground.length) gl.drawArrays(gl.TRIANGLES, 24, 6 * ground.length);
+    if (ground.length) gl.drawArrays(gl.TRIANGLES, groundFirst, groundCount);
     else gl.drawArrays(gl.TRIANGLES, 6, 12);
     gl.depthMask(true); gl.disable(gl.BLEND);
   };

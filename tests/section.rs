@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use barrier_check::design::Design;
 use barrier_check::design::read::read_design;
 use barrier_check::fidelity::choose;
-use barrier_check::guideline::{guideline, held_below};
+use barrier_check::guideline::{Surface, guideline, held_below};
 use barrier_check::pipeline::{Verdict, run};
 use barrier_check::scene::build::build;
 use barrier_check::scene::event::Watch;
@@ -72,7 +72,7 @@ fn the_storage_is_that_of_fine_sums() {
         let barrier_check::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.tilt = tilt.to_radians();
         design.loads.filled_height = height / barrier_check::guideline::height_over_bed(&design);
-        held_below(&design, surface.to_radians()).expect("a deposit").volume
+        held_below(&design, Surface::Plane(surface.to_radians())).expect("a deposit").volume
     };
     let trapezoid = points(&[[0.0, 4.0], [4.0, 0.0], [10.0, 0.0], [16.0, 4.0]]);
     assert_relative_eq!(held(&trapezoid, 20.0, 0.0, 3.0, 13.0), 325.443, max_relative = 5e-3);
@@ -121,6 +121,48 @@ fn the_gully_is_judged_from_end_to_end() {
     assert_eq!(seen.numerics.escaped, 0);
     let lost: f64 = seen.histories.lost.last().copied().unwrap_or([1.0; 4]).iter().sum();
     assert!(lost < 0.05, "{lost}");
+    let start = seen.histories.at_release;
+    assert!(start.stored_contacts < 0.01 * start.kinetic, "{} of {}", start.stored_contacts, start.kinetic);
+}
+
+/// The gully with other reaches upstream, one break of which lies under the flow as it starts.
+fn with_reaches() -> String {
+    GULLY.replacen(
+        "  section:",
+        "  profile: {upstream: [[4 m, 22 deg], [6 m, 28 deg]], rounded_over: 1 m}\n  section:",
+        1,
+    )
+}
+
+/// A flow that starts over the breaks of its bed lies on it, moves along it, and no two grains press on each other.
+#[test]
+fn the_flow_follows_its_bed() {
+    let design = design(&with_reaches());
+    let scene = build(&design, &choose(&design), 1).expect("a scene");
+    assert!(scene.packed_share > 0.97, "{}", scene.packed_share);
+    let (profile, survey) =
+        (design.channel.profile.as_ref().expect("reaches"), design.channel.survey.as_ref().expect("a survey"));
+    let (sine, cosine) = libm::sincos(design.channel.slope);
+    let [mut lowest, mut steepest] = [f64::INFINITY, 0.0_f64];
+    for grain in scene.simulation.snapshot() {
+        let place = grain.position;
+        let (level, plumb) = (place.x * cosine + place.z * sine, place.z * cosine - place.x * sine);
+        let over = (plumb - profile.elevation(level)) * cosine - survey.ground(place.y);
+        lowest = lowest.min(over / grain.body.radius);
+        // Down the reach on which it is, but for a bend of the bed.
+        let falls = (grain.velocity.x * sine - grain.velocity.z * cosine)
+            / (grain.velocity.x * cosine + grain.velocity.z * sine);
+        assert!((falls - profile.falls(level)).abs() < 0.1, "{falls} at {level}");
+        steepest = steepest.max(falls);
+    }
+    assert!(lowest > 0.9, "{lowest}");
+    assert!(steepest > libm::tan(27.9_f64.to_radians()), "{steepest}");
+    let file = read_design("gully.yaml", with_reaches().as_bytes()).unwrap_or_else(|problems| panic!("{problems}"));
+    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let run = run(file, 1, &watch).expect("a run");
+    assert!(run.doubts.is_empty(), "{:?}", run.doubts);
+    let seen = run.simulated.as_ref().expect("a simulation");
+    assert_eq!(seen.numerics.escaped, 0);
     let start = seen.histories.at_release;
     assert!(start.stored_contacts < 0.01 * start.kinetic, "{} of {}", start.stored_contacts, start.kinetic);
 }

@@ -13,6 +13,7 @@ use crate::report::render::render;
 use crate::report::series;
 use crate::report::view::View;
 use crate::report::vtk;
+use crate::scene::ground::pieces;
 use crate::terminal;
 
 /// Time series of a simulation, in every report of one.
@@ -84,7 +85,9 @@ fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Fail
     }
     if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
         let named = |file: ReportFile| ReportFile { name: format!("{}/{}", vtk::FOLDER, file.name), ..file };
-        files.extend(vtk::files(&seen.histories.film, &run.file.design.channel.ground_line()).into_iter().map(named));
+        let film = &seen.histories.film;
+        let ground = pieces(&run.file.design.channel, film.stretch());
+        files.extend(vtk::files(film, &ground).into_iter().map(named));
     }
     files.push(ReportFile::new("design.yaml", run.file.text.clone()));
     files.push(ReportFile::new(recording::FILE, recording::encode(run)?));

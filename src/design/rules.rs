@@ -1,7 +1,7 @@
 //! Contradictions between values, each rule one function. A rule whose values are missing or wrong keeps
 //! silent: that was already reported.
 
-use crate::design::channel_entries::{height_of_sides, section};
+use crate::design::channel_entries::{height_of_sides, profile, section};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, quantiles, size_curve};
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
@@ -299,6 +299,20 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
         return None;
     }
     let (slope, friction) = (e.number("channel.slope")?, e.number("channel.base_friction")?);
+    if let Some(bed) = profile(e) {
+        let value = |key: &str| e.number(&format!("flow.arrival.dam_break.{key}"));
+        let stops = bed.gain(value("distance")? + 0.5 * value("length")?, libm::tan(friction)) <= 0.0;
+        return stops.then(|| {
+            let found =
+                format!("reaches on which a base friction of {} stops the block", Dimension::Angle.show(friction));
+            Problem::new(
+                "channel.profile",
+                found,
+                "a bed that is on the whole steeper than the base friction from the block to the barrier",
+            )
+            .hint("give the flow as a surge with its velocity instead of a dam break")
+        });
+    }
     (slope <= friction).then(|| {
         let found = format!(
             "a slope of {} and a base friction of {}",

@@ -145,7 +145,7 @@ impl Reservoir {
                 let share = (near / (near - far)).clamp(0.0, 1.0);
                 let area = third(&area, near, 0.0);
                 add(x - 0.5 * share * step, area, share * step);
-                stored.length = share.mul_add(step, -x);
+                stored.length = share * step - x;
                 return Some(stored);
             }
             add(x - 0.5 * step, third(&area, near, far), step);

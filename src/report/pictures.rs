@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::design::{BarrierDesign, Bottom};
+use crate::design::{BarrierDesign, Bottom, Channel};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::quantities::{mass, total_force};
@@ -16,6 +16,7 @@ use crate::report::plots::side_view::{Setting, side_view};
 use crate::report::plots::utilisation::{Bar, utilisation};
 use crate::report::replay::{Replay, Stage, pack};
 use crate::report::row::{is_share, worst_first};
+use crate::scene::ground::{frame_of, pieces};
 use crate::simulated::Simulated;
 use dem::elements::segment::SegmentKind;
 use dem::ledger::Ledger;
@@ -206,12 +207,28 @@ fn energy_chart(seen: &Simulated) -> Chart {
     Chart::of("Energy account", chart.svg(), note)
 }
 
+/// Half of the length of bed that is drawn at the most (m).
+const FAR: f64 = 1e3;
+
+/// The lowest line of the bed in the channel's frame, (x, z) (m).
+fn bed_line(channel: &Channel) -> Vec<[f64; 2]> {
+    let Some(profile) = &channel.profile else { return vec![[-FAR, 0.0], [FAR, 0.0]] };
+    let corners = profile.corners().iter().map(|corner| corner[0]);
+    let places: Vec<f64> = [-FAR].into_iter().chain(corners).chain([FAR]).collect();
+    let place = |x: f64| {
+        let there = frame_of(channel.slope, x, 0.0, profile.elevation(x));
+        [there.x, there.z]
+    };
+    places.into_iter().map(place).collect()
+}
+
 /// The slice along the middle at every moment kept.
 pub fn views(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let design = &run.file.design;
     let bed = run.guideline.section.bed_ends();
     let setting = Setting {
         slope: design.channel.slope,
+        bed: bed_line(&design.channel),
         middle: 0.5 * (bed[0] + bed[1]),
         width: run.guideline.section.width(run.guideline.input.barrier_height),
         height: run.guideline.input.barrier_height,
@@ -318,8 +335,9 @@ pub fn replay(run: &Run, seen: &Simulated) -> Option<Replay> {
         }
         BarrierDesign::FlexibleNet(_) => None,
     };
-    let ground = channel.survey.as_ref().map_or(Vec::new(), |survey| survey.points().to_vec());
-    pack(&seen.histories.film, &Stage { width: channel.width, ground, slope: channel.slope, wall })
+    let film = &seen.histories.film;
+    let ground = channel.ground().map_or(Vec::new(), |_| pieces(channel, film.stretch()));
+    pack(film, &Stage { width: channel.width, ground, slope: channel.slope, wall })
 }
 
 fn split_chart(seen: &Simulated) -> Chart {

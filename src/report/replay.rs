@@ -13,6 +13,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
+use dem::Vec3;
 use dem::elements::segment::SegmentKind;
 use dem::recorders::film::{Film, Frame, Pose};
 
@@ -51,8 +52,8 @@ struct Head {
     speed: f32,
     force: f32,
     tension: f32,
-    /// (y, z) of the ground across the channel (m); empty for a level bed between vertical walls.
-    ground: Vec<[f64; 2]>,
+    /// Corners of the flat pieces of the ground (m); empty for a level bed between vertical walls.
+    ground: Vec<Vec<[f32; 3]>>,
     /// Of the channel (m), its slope (rad), and the top of a rigid wall over its foot (m along the channel, m normal to the bed), zeros for a net.
     width: f64,
     slope: f64,
@@ -62,8 +63,8 @@ struct Head {
 /// The channel that the film was taken in.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// (y, z) of the ground across the channel (m); empty for a level bed.
-    pub ground: Vec<[f64; 2]>,
+    /// Flat pieces of the ground; empty for a level bed between vertical walls.
+    pub ground: Vec<Vec<Vec3>>,
     /// m
     pub width: f64,
     /// rad
@@ -146,6 +147,8 @@ impl<'a> Packer<'a> {
             SegmentKind::Lateral => 2,
             SegmentKind::Ring => 3,
         };
+        // To the millimetre.
+        let corner = |place: &Vec3| [place.x, place.y, place.z].map(|length| (1e3 * length).round() as f32 / 1e3);
         let head = Head {
             times: self.frames.iter().map(|frame| (frame.time * 1e4).round() / 1e4).collect(),
             grains: looks.len(),
@@ -157,7 +160,7 @@ impl<'a> Packer<'a> {
             speed,
             force,
             tension,
-            ground: stage.ground.clone(),
+            ground: stage.ground.iter().map(|piece| piece.iter().map(corner).collect()).collect(),
             width: stage.width,
             slope: stage.slope,
             wall: stage.wall.unwrap_or_default(),

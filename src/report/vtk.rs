@@ -7,14 +7,15 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::report::folder::ReportFile;
+use dem::Vec3;
 use dem::elements::segment::SegmentKind;
 use dem::recorders::film::{Film, Frame};
 
 /// Folder of the files within the report's.
 pub const FOLDER: &str = "vtk";
 
-/// All files of a film, and of the ground it was taken on: (y, z) across the channel (m).
-pub fn files(film: &Film, ground: &[[f64; 2]]) -> Vec<ReportFile> {
+/// All files of a film, and of the ground it was taken on.
+pub fn files(film: &Film, ground: &[Vec<Vec3>]) -> Vec<ReportFile> {
     let mut files = Vec::new();
     let mut series = |name: &str, text: &dyn Fn(&Frame) -> String| {
         let names: Vec<String> = (0..film.frames.len()).map(|number| format!("{name}_{number:04}.vtp")).collect();
@@ -25,19 +26,22 @@ pub fn files(film: &Film, ground: &[[f64; 2]]) -> Vec<ReportFile> {
     if !film.ropes.is_empty() {
         series("barrier", &|frame| barrier(film, frame));
     }
-    files.push(ReportFile::new("ground.vtp".to_string(), ground_strips(film, ground)));
+    files.push(ReportFile::new("ground.vtp".to_string(), ground_pieces(ground)));
     files
 }
 
-/// The ground along the stretch in which there are grains.
-fn ground_strips(film: &Film, ground: &[[f64; 2]]) -> String {
-    let places = || film.frames.iter().flat_map(|frame| frame.grains.iter().flatten().map(|pose| pose.place[0]));
-    let (from, to) = (places().fold(0.0, f32::min), places().fold(0.0, f32::max));
+/// The ground in flat pieces.
+fn ground_pieces(ground: &[Vec<Vec3>]) -> String {
     let points: Vec<f32> =
-        ground.iter().flat_map(|[y, z]| [from, *y as f32, *z as f32, to, *y as f32, *z as f32]).collect();
-    let strips = ground.len().saturating_sub(1) as u32;
-    let corners: Vec<u32> = (0..strips).flat_map(|strip| [0, 1, 3, 2].map(|corner| 2 * strip + corner)).collect();
-    let ends: Vec<u32> = (1..=strips).map(|strip| 4 * strip).collect();
+        ground.iter().flatten().flat_map(|corner| [corner.x, corner.y, corner.z].map(|c| c as f32)).collect();
+    let corners: Vec<u32> = (0..points.len() as u32 / 3).collect();
+    let ends: Vec<u32> = ground
+        .iter()
+        .scan(0, |end, piece| {
+            *end += piece.len() as u32;
+            Some(*end)
+        })
+        .collect();
     poly_data(&points, "Polys", [&corners, &ends], "CellData", &[])
 }
 

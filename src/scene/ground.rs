@@ -51,6 +51,13 @@ pub fn ground_of(channel: &Channel, survey: &Survey, along: [f64; 2], friction: 
     Terrain::new(places, &patches)
 }
 
+/// The ground along a channel as flat pieces with three or four corners each, from one place to another (m).
+pub fn pieces(channel: &Channel, along: [f64; 2]) -> Vec<Vec<Vec3>> {
+    let survey = channel.ground().unwrap_or_else(|| Survey::between_walls(channel.width, channel.wall_height));
+    let terrain = ground_of(channel, &survey, along, |_| 0.0);
+    (0..terrain.facets().len() as u32).map(|facet| terrain.outline(facet).collect()).collect()
+}
+
 /// The place of the bed at a distance along it from the foot (m), and the directions down the bed and out of it there.
 pub fn bed_at(channel: &Channel, along: f64) -> (Vec3, [Vec3; 2]) {
     let Some(profile) = &channel.profile else { return (Vec3::x() * along, [Vec3::x(), Vec3::z()]) };

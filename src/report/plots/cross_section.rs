@@ -61,6 +61,9 @@ pub fn cross_section(drawn: &CrossSection) -> String {
         x(left),
         points(&drawn.outline)
     );
+    // A name stands over its line unless a member runs through it there.
+    let hidden =
+        |surface: f64| drawn.members.iter().any(|member| (-4.0..18.0).contains(&((member.height - surface) * scale)));
     for (name, surface) in &drawn.surfaces {
         let (from, to) = ends_at(&visible, *surface);
         let _ = write!(
@@ -70,7 +73,7 @@ pub fn cross_section(drawn: &CrossSection) -> String {
             x(to),
             x(0.5 * (drawn.bed[0] + drawn.bed[1])),
             y(*surface),
-            y(*surface) - 3.0
+            if hidden(*surface) { y(*surface) + 13.0 } else { y(*surface) - 3.0 }
         );
     }
     for member in &drawn.members {

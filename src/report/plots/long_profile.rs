@@ -99,9 +99,7 @@ pub fn long_profile(drawn: &LongProfile) -> String {
     // Names one below the other above the barrier, each with a line to its surface.
     for (index, surface) in drawn.surfaces.iter().enumerate() {
         let line = drawn.surface(surface);
-        let (start, end) = (line[0], line[line.len() - 1]);
-        let middle = if line.len() > 2 { line[1] } else { [0, 1].map(|axis| 0.4 * start[axis] + 0.6 * end[axis]) };
-        let [x, y] = place(middle);
+        let [x, y] = place(point_at(&line, -0.6 * surface.length));
         let _ = write!(
             svg,
             "<polyline class=\"leader\" points=\"{x:.1},{y:.1} {:.1},{:.1}\"/><text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
@@ -113,6 +111,13 @@ pub fn long_profile(drawn: &LongProfile) -> String {
         );
     }
     svg + &super::scale_bar(MARGIN, height - 10.0, scale, 0.25 * WIDTH) + "</svg>"
+}
+
+/// The point of a line that goes upstream at a level place.
+fn point_at(line: &[[f64; 2]], x: f64) -> [f64; 2] {
+    let pair = line.windows(2).find(|pair| pair[1][0] <= x);
+    let Some([from, to]) = pair.map(|pair| [pair[0], pair[1]]) else { return line[line.len() - 1] };
+    [x, from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0])]
 }
 
 #[cfg(test)]

@@ -20,6 +20,8 @@ const CLASSES: [f64; 4] = [0.05, 0.35, 0.75, f64::INFINITY];
 /// What is drawn around the snapshot, SI.
 pub struct Setting {
     pub slope: f64,
+    /// (x, z) of the bed along the channel (m).
+    pub bed: Vec<[f64; 2]>,
     /// Where the middle of the bed is across the channel, and the width of which the slice is a share.
     pub middle: f64,
     pub width: f64,
@@ -50,7 +52,15 @@ pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
         let ((x1, y1), (x2, y2)) = (screen(&from), screen(&to));
         let _ = write!(svg, "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>");
     };
-    line("bed", Vec3::new(2.0 * left / cosine, 0.0, 0.0), Vec3::new(2.0 * right / cosine, 0.0, 0.0));
+    for pair in setting.bed.windows(2) {
+        let ([from, to], reach) = ([pair[0], pair[1]], [2.0 * left / cosine, 2.0 * right / cosine]);
+        // As far as the picture goes.
+        let [near, far] = reach.map(|x| x.clamp(from[0], to[0]));
+        let at = |x: f64| Vec3::new(x, 0.0, from[1] + (to[1] - from[1]) * (x - from[0]) / (to[0] - from[0]));
+        if far > near {
+            line("bed", at(near), at(far));
+        }
+    }
     if let Some([x, z]) = setting.wall {
         line("wall", Vec3::zeros(), Vec3::new(x, 0.0, z));
     }

@@ -38,6 +38,15 @@ pub struct Film {
     seen: usize,
 }
 
+impl Film {
+    /// From where to where along the channel there is ever a grain, or the barrier's foot (m).
+    pub fn stretch(&self) -> [f64; 2] {
+        let places =
+            self.frames.iter().flat_map(|frame| frame.grains.iter().flatten().map(|pose| f64::from(pose.place[0])));
+        places.fold([0.0; 2], |[from, to], place| [from.min(place), to.max(place)])
+    }
+}
+
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
     /// s
