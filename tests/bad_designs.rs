@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use barrier_check::design::read::read_design;
+use barrier_check::design::entries::Purpose;
+use barrier_check::design::read::{read_design, read_design_for};
 
 #[test]
 fn every_bad_design_gets_its_message() {
@@ -11,7 +12,10 @@ fn every_bad_design_gets_its_message() {
         let bytes = std::fs::read(path).expect("fixture is readable");
         let name = path.file_name().expect("fixture has a name").to_string_lossy().into_owned();
         let started = Instant::now();
-        let problems = read_design(&name, &bytes).expect_err("fixture is wrong on purpose");
+        let folder = path.parent().expect("fixture has a folder");
+        let open = |other: &str| std::fs::read(folder.join(other)).map_err(|_| "there is no such file".to_string());
+        let problems =
+            read_design_for(Purpose::Simulation, &name, &bytes, &open).expect_err("fixture is wrong on purpose");
         assert!(started.elapsed() < Duration::from_secs(1), "{name} took {:?}", started.elapsed());
         insta::assert_snapshot!(problems.to_string());
     });

@@ -166,3 +166,37 @@ fn the_flow_follows_its_bed() {
     let start = seen.histories.at_release;
     assert!(start.stored_contacts < 0.01 * start.kinetic, "{} of {}", start.stored_contacts, start.kinetic);
 }
+
+/// A section from a table is that of the same points; the report keeps the table, and the design goes on from there.
+#[test]
+fn a_section_is_read_from_its_table() {
+    let folder = std::env::temp_dir().join(format!("barrier-check-{}-table", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let (before, rest) = GULLY.split_once("    trapezoid:").expect("a trapezoid");
+    let (_, after) = rest.split_once("  base_friction").expect("friction");
+    let text = format!("{before}    file: survey.csv\n  base_friction{after}");
+    std::fs::write(folder.join("gully.yaml"), text).expect("a design");
+    let table = "distance (m),height (m)\n-3.937,3.5\n-1,0\n1,0\n3.45,3.5\n";
+    std::fs::write(folder.join("survey.csv"), table).expect("a table");
+    let loads = |design: &str, out: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_barrier-check"));
+        command.arg("loads").arg(folder.join(design)).arg("--out").arg(folder.join(out));
+        command.output().expect("the program starts")
+    };
+    let told = loads("gully.yaml", "first");
+    assert_eq!(told.status.code(), Some(2), "{}", String::from_utf8_lossy(&told.stderr));
+    assert_eq!(std::fs::read_to_string(folder.join("first/attached/survey.csv")).expect("a copy"), table);
+    let report = std::fs::read_to_string(folder.join("first/report.md")).expect("a report");
+    assert!(report.contains("SHA-256 of attached files") && report.contains("4 points of survey.csv"), "{report}");
+    // From the copy of the design, with the table that lies beside it.
+    let again = loads("first/design.yaml", "second");
+    assert_eq!(again.status.code(), Some(2), "{}", String::from_utf8_lossy(&again.stderr));
+    let totals = |out: &str| {
+        let json: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(folder.join(out).join("result.json")).expect("a result"))
+                .expect("JSON");
+        json["guideline"].clone()
+    };
+    assert_eq!(totals("first"), totals("second"));
+    std::fs::remove_dir_all(folder).expect("the folder");
+}

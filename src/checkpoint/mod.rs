@@ -8,7 +8,7 @@
 
 pub(crate) mod file;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +32,8 @@ pub struct Request {
     /// Name of the design file without folder and extension, and its bytes.
     pub name: String,
     pub design: Vec<u8>,
+    /// Files that it names.
+    pub attached: BTreeMap<String, Vec<u8>>,
     /// What tells the design file from others of its name, as seen from the folder of the report.
     pub source: Option<String>,
     pub starts: u32,
@@ -42,7 +44,14 @@ pub struct Request {
 impl Request {
     /// What a file of a store must have been kept for: the design, and which of its simulations.
     fn print(&self, identity: &str) -> [u8; 32] {
-        sha2::Sha256::new().chain_update(&self.design).chain_update([0]).chain_update(identity).finalize().into()
+        let mut hash = sha2::Sha256::new_with_prefix(&self.design);
+        for (name, bytes) in &self.attached {
+            hash.update([0]);
+            hash.update(name);
+            hash.update([0]);
+            hash.update(bytes);
+        }
+        hash.chain_update([0]).chain_update(identity).finalize().into()
     }
 }
 

@@ -12,8 +12,9 @@ use crate::commands::output::{exit_code, hand_over, summarise, write_report};
 use crate::commands::progress::Progress;
 use crate::commands::signals::{listen, stop};
 use crate::design::FidelityWish;
+use crate::design::attached::within;
 use crate::design::entries::Purpose;
-use crate::design::read::{DesignFile, read_design, read_design_for};
+use crate::design::read::{DesignFile, read_design_for};
 use crate::fidelity::choose;
 use crate::load_cases::{cases, factored};
 use crate::pipeline::{Run, by_equations, climb, run, vary};
@@ -53,7 +54,15 @@ pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Dura
     tell_what_auto_leaves_out(&file, options);
     let Options { starts, vary, vtk, .. } = options;
     let source = folder.source().map(str::to_string);
-    let request = Request { name: file.name.clone(), design: file.text.clone(), source, starts, vary, vtk };
+    let request = Request {
+        name: file.name.clone(),
+        design: file.text.clone(),
+        attached: file.attached.clone(),
+        source,
+        starts,
+        vary,
+        vtk,
+    };
     let store = open_store(&place, request, &file, keep_every, true).watched(folder.watch());
     if let Ok(kept) = CheckpointStore::request_in(store.folder()) {
         if !store.is_of_the_same_file_as(&kept) {
@@ -109,7 +118,8 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
             return ExitCode::Undecided;
         }
     };
-    let file = match read_design(&format!("{}.yaml", request.name), &request.design) {
+    let name = format!("{}.yaml", request.name);
+    let file = match read_design_for(Purpose::Simulation, &name, &request.design, &within(&request.attached)) {
         Ok(file) => file,
         Err(problems) => {
             terminal::warn(problems.to_string().trim_end());
@@ -293,7 +303,7 @@ fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
     // A line break in the name would begin a line that the program seems to say.
     let name = path.display().to_string().replace(['\n', '\r'], "\u{fffd}");
     match input::read(path, LONGEST_TEXT, b"") {
-        Ok(bytes) => read_design_for(purpose, &name, &bytes),
+        Ok(bytes) => read_design_for(purpose, &name, &bytes, &|other| input::beside(path, other)),
         Err(error) => {
             let problem = Problem::new("", format!("a file that cannot be read: {error}"), "a design file in YAML")
                 .hint("the examples are in the folder `designs`");

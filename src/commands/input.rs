@@ -29,6 +29,23 @@ pub fn read(path: &Path, longest: u64, head: &[u8]) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Folder of a report in which the files lie that its design names.
+pub const ATTACHED: &str = "attached";
+/// Bytes of such a file at the most.
+const LONGEST_ATTACHED: u64 = 512 << 20;
+
+/// The content of a file that a design names, from the design's folder, or from where a report keeps it beside its copy of the design.
+pub fn beside(design: &Path, name: &str) -> Result<Vec<u8>, String> {
+    let folder = design.parent().unwrap_or(Path::new(""));
+    let kept = Path::new(name).file_name().map(|name| folder.join(ATTACHED).join(name));
+    let read = |path: &Path| read(path, LONGEST_ATTACHED, b"");
+    match (read(&folder.join(name)), kept) {
+        (Ok(bytes), _) => Ok(bytes),
+        (Err(error), Some(kept)) => read(&kept).map_err(|_| error.to_string()),
+        (Err(error), None) => Err(error.to_string()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

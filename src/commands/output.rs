@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::commands::ExitCode;
 use crate::commands::Failure;
+use crate::commands::input::ATTACHED;
 use crate::pipeline::{Run, Verdict};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;
@@ -90,6 +91,10 @@ fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Fail
         files.extend(vtk::files(film, &ground).into_iter().map(named));
     }
     files.push(ReportFile::new("design.yaml", run.file.text.clone()));
+    for (name, bytes) in &run.file.attached {
+        let name = Path::new(name).file_name().map(|name| format!("{ATTACHED}/{}", name.to_string_lossy()));
+        files.extend(name.map(|name| ReportFile::new(name, bytes.clone())));
+    }
     files.push(ReportFile::new(recording::FILE, recording::encode(run)?));
     files.push(ReportFile::new("result.json", serde_json::to_string_pretty(&ResultFile::of(run))? + "\n"));
     Ok(files)

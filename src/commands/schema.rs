@@ -112,6 +112,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::Number { low, high } => json!({ "type": "number", "minimum": low, "maximum": high }),
         Kind::Count { low, high } => json!({ "type": "integer", "minimum": low, "maximum": high }),
         Kind::Text => json!({ "type": ["string", "number", "boolean"] }),
+        Kind::File => json!({ "type": "string", "minLength": 1 }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Section(keys) => section(keys),
         Kind::OneOf(keys) => {

@@ -116,7 +116,8 @@ fn all_points(
         let task = &tasks[index];
         let scene = &scenes[task.scene];
         let turned = format!("{:?} {}", task.setting, task.seed);
-        let of = [&scene.text[..], turned.as_bytes()];
+        let attached = scene.attached.values().map(Vec::as_slice);
+        let of: Vec<&[u8]> = [&scene.text[..], turned.as_bytes()].into_iter().chain(attached).collect();
         if let Some(point) = kept.get(&of) {
             found.fetch_add(1, Ordering::Relaxed);
             bar.inc(1);

@@ -78,6 +78,13 @@ impl Entries {
         }
     }
 
+    /// Puts a value in, as if it had been typed.
+    pub fn put(&mut self, path: &str, entry: Entry) {
+        self.mentioned.push(path.to_string());
+        self.order.push(path.to_string());
+        self.values.insert(path.to_string(), entry);
+    }
+
     /// Whether the file or a named set gives the value, not a default.
     pub fn given(&self, path: &str) -> bool {
         self.values.get(path).is_some_and(|entry| entry.origin != Origin::Default)
@@ -353,6 +360,10 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
         Kind::Text => match node {
             Node::Map(_) | Node::List(_) | Node::Nothing => Err((node.describe(), None)),
             _ => Ok(Value::Text(typed(node))),
+        },
+        Kind::File => match node {
+            Node::Text(name) if !name.trim().is_empty() => Ok(Value::Text(name.clone())),
+            other => Err((other.describe(), None)),
         },
         Kind::Choice(words) => match node {
             Node::Text(text) if words.contains(&text.as_str()) => Ok(Value::Text(text.clone())),

@@ -72,6 +72,8 @@ pub enum Kind {
         high: u64,
     },
     Text,
+    /// The name of a file, from the folder of the design.
+    File,
     Choice(&'static [&'static str]),
     Section(&'static [Key]),
     /// A section that holds exactly one of several sections.
@@ -144,6 +146,7 @@ impl Kind {
             Self::Number { low, high } => format!("a number from {low} to {high}"),
             Self::Count { low, high } => format!("a whole number from {low} to {high}"),
             Self::Text => "a text".into(),
+            Self::File => "the name of a file, taken from the folder of the design".into(),
             Self::Choice(words) => format!("one of {}", words.join(", ")),
             Self::Section(keys) => format!("a group of keys: {}", names(keys)),
             Self::OneOf(keys) => format!("exactly one of {}", names(keys)),

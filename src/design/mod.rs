@@ -1,5 +1,6 @@
 //! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
 
+pub mod attached;
 pub(crate) mod channel_entries;
 pub(crate) mod channel_rules;
 pub(crate) mod document;
@@ -15,6 +16,7 @@ pub(crate) mod resolve;
 pub(crate) mod rope_rules;
 pub(crate) mod rules;
 pub(crate) mod schema;
+pub(crate) mod section_file;
 pub(crate) mod show;
 pub(crate) mod sizes;
 pub(crate) mod wall_rules;

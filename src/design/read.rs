@@ -1,6 +1,7 @@
 //! Reads a design file: text, then words, then values, then rules; every problem at once.
 
 use crate::design::Design;
+use crate::design::attached::{Attached, Open, read_attached};
 use crate::design::document::Document;
 use crate::design::entries::{Entries, Origin, Purpose, Value, read};
 use crate::design::factor_sets;
@@ -21,6 +22,8 @@ pub struct DesignFile {
     pub text: Vec<u8>,
     pub design: Design,
     pub entries: Entries,
+    /// Files that the design names, as they were read with it.
+    pub attached: Attached,
 }
 
 /// Reads the bytes of the file called `file`, to be simulated. On failure returns every problem that was found, with its place.
@@ -37,14 +40,14 @@ pub struct DesignFile {
 /// assert!(problems.to_string().contains("an empty file"));
 /// ```
 pub fn read_design(file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
-    read_design_for(Purpose::Simulation, file, bytes)
+    read_design_for(Purpose::Simulation, file, bytes, &|_| Err("the design is read alone".to_string()))
 }
 
 /// What a file has to be, as an error tells it.
 pub(super) const KEYS: &str = "a design with the sections project, channel, flow, barrier";
 
-/// The same for a purpose.
-pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<DesignFile, Problems> {
+/// The same for a purpose, with the files that the design names.
+pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -> Result<DesignFile, Problems> {
     let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
     let document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
@@ -52,6 +55,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
     take_remarks(&mut entries, &document, bytes);
     problems.extend(keep_texts_as_typed(&mut entries, &document));
     make_harmless(&mut entries);
+    let attached = read_attached(&mut entries, open, &mut problems);
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
@@ -60,7 +64,8 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8]) -> Result<Des
     }
     if problems.is_empty() {
         if let Some(design) = resolve(&entries) {
-            return Ok(DesignFile { name: stem(file), sha256: sha256(bytes), text: bytes.to_vec(), design, entries });
+            let (name, sha256, text) = (stem(file), sha256(bytes), bytes.to_vec());
+            return Ok(DesignFile { name, sha256, text, design, entries, attached });
         }
         problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
     }
@@ -160,7 +165,8 @@ fn stem(file: &str) -> String {
         .map_or_else(|| "design".to_string(), |stem| harmless(&stem.to_string_lossy()))
 }
 
-fn sha256(bytes: &[u8]) -> String {
+/// SHA-256 in hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
     use sha2::Digest;
     sha2::Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -79,6 +79,11 @@ const CROSS_SECTION: &[Key] = &[
         Kind::Pairs { first: SURVEYED, second: SURVEYED, example: "[[-3 m, 2 m], [0 m, 0 m], [3 m, 2 m]]" },
         "points of the ground, from the left to the right looking downstream: distance and height, both as surveyed (heights plumb)",
     ),
+    Key::optional(
+        "file",
+        Kind::File,
+        "the same points as a table with two columns, distance and height, whose head names their units: `distance (m),height (m)`",
+    ),
 ];
 
 /// What a surveyor reads.

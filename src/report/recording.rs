@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::container::{Broken, seal, unseal};
+use crate::design::attached::{Attached, within};
 use crate::design::entries::Purpose;
 use crate::design::read::read_design_for;
 use crate::fidelity::choose;
@@ -19,7 +20,7 @@ pub const FILE: &str = "recording.bin";
 
 pub const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever what is recorded beside quantities and channels changes, which are known by their names.
-pub const FORMAT: u32 = 10;
+pub const FORMAT: u32 = 11;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -43,6 +44,7 @@ pub enum RecordingError {
 struct Recording<Seen, Varied> {
     design_name: String,
     design: Vec<u8>,
+    attached: Attached,
     simulated: Option<Seen>,
     varied: Varied,
     climb: Vec<Step>,
@@ -53,6 +55,7 @@ pub fn encode(run: &Run) -> Result<Vec<u8>, postcard::Error> {
     let body = postcard::to_stdvec(&Recording {
         design_name: run.file.name.clone(),
         design: run.file.text.clone(),
+        attached: run.file.attached.clone(),
         simulated: run.simulated.as_ref(),
         varied: run.varied.as_slice(),
         climb: run.climb.clone(),
@@ -71,7 +74,8 @@ pub fn decode(bytes: &[u8]) -> Result<Run, RecordingError> {
         postcard::from_bytes(body).map_err(|_| RecordingError::Damaged)?;
     let name = format!("{}.yaml", recording.design_name);
     let purpose = if recording.simulated.is_some() { Purpose::Simulation } else { Purpose::Equations };
-    let file = read_design_for(purpose, &name, &recording.design).map_err(RecordingError::Design)?;
+    let file = read_design_for(purpose, &name, &recording.design, &within(&recording.attached))
+        .map_err(RecordingError::Design)?;
     if recording.climb.iter().any(|step| step.rung >= RUNGS.len()) {
         return Err(RecordingError::Damaged);
     }

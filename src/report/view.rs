@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::entries::Origin;
+use crate::design::read::sha256;
 use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
@@ -211,6 +212,8 @@ fn title_block(run: &Run) -> Vec<Row> {
         let of = if seeds.len() == 1 { "seed" } else { "seeds" };
         format!("{} ({of} of the random packing: {})", seeds.len(), seeds.join(", "))
     });
+    let hashes = run.file.attached.iter().map(|(name, bytes)| format!("{name}: {}", sha256(bytes)));
+    let attached = hashes.collect::<Vec<_>>().join("; ");
     let simulated = seen.and_then(|seen| moment(seen.facts.began)).unwrap_or_default();
     // A report made again tells of both programs.
     let other = seen.map_or("", |seen| seen.facts.program.as_str());
@@ -225,6 +228,7 @@ fn title_block(run: &Run) -> Vec<Row> {
         row("Notes", &project.notes),
         row("Design file", &run.file.name),
         row("SHA-256 of the design file", &run.file.sha256),
+        row("SHA-256 of attached files", &attached),
         row("Simulated", &simulated),
         row("Runs", &seeds),
         row(if other.is_empty() { "Program" } else { "Program of this report" }, PROGRAM),
