@@ -80,6 +80,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "loads",
             "pipeline",
             "quantities",
+            "section",
             "scene",
             "simulated",
             "starts",

@@ -37,6 +37,7 @@ pub const CASES: &[&Case] = &[
     &contact::ground::SEAMS,
     &contact::ground::GROOVE,
     &contact::ground::FILLED,
+    &barrier::section::RECTANGLE,
     &bulk::packing::CASE,
     &bulk::collapse::COLUMN,
     &bulk::collapse::FLOORS,

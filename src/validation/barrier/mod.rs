@@ -7,5 +7,6 @@ pub(crate) mod full_scale;
 pub(crate) mod pieces;
 pub(crate) mod punching;
 pub(crate) mod ropes;
+pub(crate) mod section;
 pub mod stand;
 pub(crate) mod variations;
