@@ -119,7 +119,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         cases: all(&input, &extras),
         largest_force: stages.iter().map(|case| case.total_force(&section)).fold(0.0, larger_or_nan),
         lean: lean(design),
-        face_force: stages.iter().map(|case| case.face_force(width, lean(design))).fold(0.0, larger_or_nan),
+        face_force: stages.iter().map(|case| case.face_force(&section, lean(design))).fold(0.0, larger_or_nan),
         face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger_or_nan),
         metre_force: stages.iter().map(|case| case.metre_force(width, input.barrier_height)).fold(0.0, larger_or_nan),
         foot_moment: stages.iter().map(|case| case.foot_moment(width, lean(design))).fold(0.0, larger_or_nan),
@@ -210,7 +210,7 @@ pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
 /// Spaces between the bolts of the lowest rope, where their distance is known.
 fn bolt_spaces(design: &Design) -> Option<f64> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    Some(net.bed_bolts?.spaces(design.channel.section().bed_width()) as f64)
+    Some(net.bed_bolts?.spaces(design.channel.section().bed_length()) as f64)
 }
 
 fn extras(design: &Design) -> Extras {
@@ -243,25 +243,30 @@ pub fn held(design: &Design) -> Option<Retention> {
 
 /// The same below another surface; nothing where that does not meet the bed.
 pub fn held_below(design: &Design, surface: Surface) -> Option<Retention> {
+    reservoir(design).retention(filled_height(design), surface, design.flow.volume())
+}
+
+/// Height at the barrier of the deposit that it keeps when it is full, normal to the bed (m).
+fn filled_height(design: &Design) -> f64 {
     // A wall does not sag.
     let share = match &design.barrier {
         BarrierDesign::RigidWall(_) => 1.0,
         BarrierDesign::FlexibleNet(_) => design.loads.filled_height,
     };
-    reservoir(design).retention(share * height_over_bed(design), surface, design.flow.volume())
+    share * height_over_bed(design)
 }
 
 /// K of a deposit that fills the barrier and is held by it and by the friction of the bed alone: with its weight W, along the bed
 /// W (sin α − tan φ cos α) = K ρ g cos α S(H), S = ½ b H² in a rectangle. Nothing on a bed that the deposit does not rest on by a slope of its own.
 pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Option<f64> {
-    let held = guideline.retention?;
     let (slope, friction) = (design.channel.slope, design.channel.base_friction);
     let reservoir = reservoir(design);
     if reservoir.profile.is_some() {
-        let surface = Surface::OfTheBed(design.loads.deposit_slope);
-        let pull = reservoir.stored(held.deposit.height, surface, friction)?.pull.max(0.0);
-        return Some(pull / guideline.section.moment(held.deposit.height));
+        let height = filled_height(design);
+        let pull = reservoir.pull(height, Surface::OfTheBed(design.loads.deposit_slope), friction);
+        return Some(pull / guideline.section.moment(height));
     }
+    let held = guideline.retention?;
     let pulls = (libm::tan(slope) - friction).max(0.0);
     Some(match &guideline.section {
         Section::Rectangle { width } => 2.0 * (held.volume / width * pulls) / held.deposit.height.powi(2),
@@ -328,6 +333,9 @@ pub fn velocity_on_its_way(design: &Design) -> f64 {
 fn front_velocity(design: &Design, block: &DamBreak) -> f64 {
     let slope = design.channel.slope;
     let sliding = gain_of(design, block.distance + 0.5 * block.length);
+    // Of the flattest bed on its way: there a wave is fastest.
+    let slope =
+        design.channel.profile.as_ref().map_or(slope, |profile| profile.flattest(block.distance + block.length));
     let start = RITTER_FRONT.powi(2) * GRAVITY * libm::cos(slope) * block.height;
     sliding.max(start + gain_of(design, block.distance)).sqrt()
 }
@@ -338,7 +346,8 @@ fn gain_of(design: &Design, distance: f64) -> f64 {
     let (slope, friction) = (design.channel.slope, design.channel.base_friction);
     match &design.channel.profile {
         None => 2.0 * (GRAVITY * (libm::sin(slope) - friction * libm::cos(slope))).max(0.0) * distance,
-        Some(profile) => 2.0 * GRAVITY * profile.gain(distance, friction).max(0.0),
+        // From wherever on its way it gains most: what comes to rest before that moves again from there.
+        Some(profile) => 2.0 * GRAVITY * profile.largest_gain(distance, friction),
     }
 }
 
@@ -379,7 +388,8 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
             let spread_of = |case: &LoadCase| match &section {
                 Section::Rectangle { .. } => case.strip_force(low, high),
                 Section::Surveyed(survey) => {
-                    even_load(survey, [from, to], |ground| case.strip_force(low.max(ground), high))
+                    let loaded = high.min(case.diagram.top);
+                    even_load(survey, [from, to], loaded, |ground| case.strip_force(low.max(ground), high))
                 }
             };
             let on_rope = |case: &LoadCase| {
@@ -413,20 +423,32 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
         .collect()
 }
 
-/// Slices of a section over which the load of a rope is summed.
-const SLICES: usize = 200;
+/// Slices of a span over which the load of a rope is summed.
+const SLICES: f64 = 200.0;
 
 /// The even load over a span that bends a beam and pushes on its supports no less than what a section hands to it (N/m): `per_width` gives the
-/// force on a metre of width whose ground is at a height. What presses beside the span goes to its ends.
-fn even_load(survey: &Survey, [from, to]: [f64; 2], per_width: impl Fn(f64) -> f64) -> f64 {
+/// force on a metre of width whose ground is at a height, up to `top`, above which there is none. What presses beside the span goes to its ends.
+fn even_load(survey: &Survey, [from, to]: [f64; 2], top: f64, per_width: impl Fn(f64) -> f64) -> f64 {
     let span = to - from;
-    let points = survey.points();
-    let (first, last) = (points[0][0], points[points.len() - 1][0]);
-    let slice = (last - first) / SLICES as f64;
-    let loads: Vec<[f64; 2]> = (0..SLICES)
-        .map(|index| first + (index as f64 + 0.5) * slice)
-        .map(|y| [((y - from) / span).clamp(0.0, 1.0), per_width(survey.ground(y)) * slice])
-        .collect();
+    let mut loads: Vec<[f64; 2]> = Vec::new();
+    for pair in survey.points().windows(2) {
+        // As far as it is lower than the load.
+        let below = |height: f64| ((top - pair[0][1]) / (height - pair[0][1])).clamp(0.0, 1.0);
+        let shares = match (pair[0][1] < top, pair[1][1] < top) {
+            (true, true) => [0.0, 1.0],
+            (true, false) => [0.0, below(pair[1][1])],
+            (false, true) => [below(pair[1][1]), 1.0],
+            (false, false) => continue,
+        };
+        let point = |share: f64| [0, 1].map(|axis| pair[0][axis] + share * (pair[1][axis] - pair[0][axis]));
+        let [start, end] = shares.map(point);
+        let count = (SLICES * (end[0] - start[0]) / span).ceil();
+        for slice in 0..count as usize {
+            let share = (slice as f64 + 0.5) / count;
+            let [y, ground] = [0, 1].map(|axis| start[axis] + share * (end[axis] - start[axis]));
+            loads.push([((y - from) / span).clamp(0.0, 1.0), per_width(ground) * (end[0] - start[0]) / count]);
+        }
+    }
     let total: f64 = loads.iter().map(|[_, force]| force).sum();
     let at_the_end: f64 = loads.iter().map(|[place, force]| place * force).sum();
     let at_the_start = total - at_the_end;

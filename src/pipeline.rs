@@ -20,6 +20,7 @@ use crate::quantities::observed::Observed;
 use crate::quantities::{earth_pressure, incoming, total_force, wall};
 use crate::scene::estimate::estimate;
 use crate::scene::event::Watch;
+use crate::section::Section;
 use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
 use crate::simulated::{Detail, RunError, Simulated, simulate};
@@ -223,14 +224,16 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     let design = &file.design;
     let packings = simulated.as_ref().map_or(0, |simulated| simulated.starts.len());
     let rung = rung.unwrap_or_else(|| rung_of(design, packings));
-    let seen = simulated.as_ref().map(Simulated::seen).unwrap_or_default();
+    // What a run shows that broke down is no event: the checks are left to the equations.
+    let whole = simulated.as_ref().filter(|simulated| simulated.numerics.broke_down.is_none());
+    let seen = whole.map(Simulated::seen).unwrap_or_default();
     let demands = Demands::meet(&guideline, &seen, &design.factors);
-    let seen = simulated.as_ref().map(|simulated| first_surge(rung, design, &guideline, simulated));
+    let seen = whole.map(|simulated| first_surge(rung, design, &guideline, simulated));
     let judge = |design: &Design| {
         let mut outcomes = check_all(design, &demands);
         leave_open_not_covered(Known { design, guideline: &guideline, seen }, &mut outcomes);
         leave_open_outside_range(design, &guideline, &mut outcomes);
-        if simulated.is_some() {
+        if whole.is_some() {
             rung.leave_open_what_is_too_close(packings, &mut outcomes);
         }
         outcomes
@@ -238,7 +241,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     let mut outcomes = judge(design);
     leave_open_what_sockets_alone_hold(design, &mut outcomes, judge);
     let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
-    doubts.extend(simulated.as_ref().and_then(|simulated| slower_than_designed(design, simulated)));
+    doubts.extend(whole.and_then(|simulated| slower_than_designed(design, simulated)));
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
@@ -272,8 +275,7 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
         moment_sampled_over_smoothed: short_peaks(|seen| [seen.one(&wall::MOMENT_SAMPLED), seen.one(&wall::MOMENT)]),
         depth: simulated.spread(|seen| seen.incoming.depth).mean,
         velocity: simulated.spread(arrives).mean,
-        flux_share: given_flux(&design.flow.arrival)
-            .map_or(1.0, |given| simulated.spread(|seen| seen.incoming.flux).mean / given),
+        flux_share: given_flux(design).map_or(1.0, |given| simulated.spread(|seen| seen.incoming.flux).mean / given),
         earth_pressure: seen.into_iter().chain(by_weight).reduce(larger_or_nan),
         force_band: if on_a_wall { rung.on_a_wall } else { band.force },
         stroke_band: band.stroke,
@@ -294,7 +296,7 @@ fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String
         return Some("the velocity with which the simulated flow arrives is not a number".into());
     }
     let (depth, given) = given_arrival(&design.flow.arrival)?;
-    (!like_the_design(depth, given, velocity, flux)).then(|| {
+    (!like_the_design(given_flux(design), given, velocity, flux)).then(|| {
         let seen = simulated.first().incoming;
         format!(
             "the simulated flow arrives {:.2} m deep with {:.2} m/s where the design says {}{given:.2} m/s, so that its loads are not those of the design flow; release it so that it arrives as it should",
@@ -313,15 +315,20 @@ fn given_arrival(arrival: &Arrival) -> Option<(Option<f64>, f64)> {
     }
 }
 
-/// Momentum flux h v² (m³/s²) with which the design says that the flow arrives, where it gives depth and velocity.
-fn given_flux(arrival: &Arrival) -> Option<f64> {
-    let (depth, velocity) = given_arrival(arrival)?;
-    Some(depth? * velocity * velocity)
+/// Momentum flux (m³/s²) with which the design says that the flow arrives, where it gives depth and velocity: h v², or A v² over the mean width
+/// of the section.
+fn given_flux(design: &Design) -> Option<f64> {
+    let (depth, velocity) = given_arrival(&design.flow.arrival)?;
+    let depth = match design.channel.section() {
+        Section::Rectangle { .. } => depth?,
+        section @ Section::Surveyed(_) => section.area(depth?) / design.channel.width,
+    };
+    Some(depth * velocity * velocity)
 }
 
-/// Whether a flow with a velocity (m/s) and a momentum flux h v² (m³/s²) is the one of a given depth and velocity, or more than it.
-fn like_the_design(depth: Option<f64>, given: f64, velocity: f64, flux: f64) -> bool {
-    let wanted = depth.map_or(0.0, |depth| LEAST_FLUX * depth * given * given);
+/// Whether a flow with a velocity (m/s) and a momentum flux (m³/s²) is the one of a given flux and velocity, or more than it.
+fn like_the_design(given_flux: Option<f64>, given: f64, velocity: f64, flux: f64) -> bool {
+    let wanted = given_flux.map_or(0.0, |given_flux| LEAST_FLUX * given_flux);
     // Asked as "like", so that what is not a number is not.
     velocity >= SLOWEST * given && flux >= wanted
 }
@@ -359,13 +366,13 @@ mod tests {
 
     #[test]
     fn a_flow_that_arrives_slowly_or_thinly_is_not_the_one_of_the_design() {
-        // 1 m deep with 5 m/s: 25 m³/s² of momentum flux.
-        let like = |velocity: f64, flux: f64| like_the_design(Some(1.0), 5.0, velocity, flux);
+        // 25 m³/s² of momentum flux, as of a flow 1 m deep with 5 m/s.
+        let like = |velocity: f64, flux: f64| like_the_design(Some(25.0), 5.0, velocity, flux);
         assert!(like(5.0, 25.0) && like(7.0, 40.0) && like(4.1, 14.0));
         assert!(!like(3.9, 25.0), "slow");
         assert!(!like(5.0, 13.5), "thin");
         assert!(!like(f64::NAN, 25.0) && !like(5.0, f64::NAN));
-        // Where no depth is given the velocity alone tells.
+        // Where no flux is given the velocity alone tells.
         assert!(like_the_design(None, 5.0, 4.1, 0.0) && !like_the_design(None, 5.0, 3.9, 99.0));
     }
 

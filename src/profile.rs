@@ -125,6 +125,24 @@ impl Profile {
         let start = self.at(-upstream);
         start.z + friction * start.x
     }
+
+    /// The largest of these gains from any place between the foot and a distance, 0 at the foot itself (m).
+    pub fn largest_gain(&self, upstream: f64, friction: f64) -> f64 {
+        let start = self.at(-upstream);
+        let corners = self.corners.iter().filter(|corner| corner[0] > start.x && corner[0] <= 0.0);
+        corners.map(|[x, z]| z + friction * x).chain([start.z + friction * start.x]).fold(0.0, f64::max)
+    }
+
+    /// Slope of the flattest reach between the foot and a distance along the bed upstream (rad).
+    pub fn flattest(&self, upstream: f64) -> f64 {
+        let start = self.at(-upstream);
+        let mut places: Vec<f64> =
+            self.corners.iter().map(|corner| corner[0]).filter(|x| *x > start.x && *x < 0.0).collect();
+        places.extend([start.x, 0.0]);
+        places.sort_by(f64::total_cmp);
+        let falls = places.windows(2).map(|pair| self.falls(0.5 * (pair[0] + pair[1])));
+        libm::atan(falls.fold(f64::INFINITY, f64::min))
+    }
 }
 
 #[cfg(test)]
@@ -168,6 +186,19 @@ mod tests {
             assert_relative_eq!(there.x, x, epsilon = 1e-9);
             assert_relative_eq!(there.z, bed.elevation(x), epsilon = 1e-9);
         }
+    }
+
+    /// A flat reach before a steep one: what comes to rest on the flat gains what the steep one gives.
+    #[test]
+    fn the_largest_gain_is_from_where_nothing_stops_it() {
+        let bed = Profile::new(degrees(40.0), &[[8.0, degrees(5.0)]], &[], 0.0);
+        let friction = libm::tan(degrees(22.0));
+        let by_hand = 8.0 * (libm::tan(degrees(40.0)) - friction);
+        assert_relative_eq!(bed.largest_gain(40.0, friction), by_hand, max_relative = 1e-12);
+        assert!(bed.gain(40.0, friction) < 0.5 * by_hand);
+        assert_relative_eq!(bed.largest_gain(4.0, friction), bed.gain(4.0, friction), max_relative = 1e-12);
+        assert_relative_eq!(bed.flattest(40.0), degrees(5.0), max_relative = 1e-12);
+        assert_relative_eq!(bed.flattest(4.0), degrees(40.0), max_relative = 1e-12);
     }
 
     /// A parabola: beyond it the bed is where it would be with a sharp break.

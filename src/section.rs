@@ -48,9 +48,23 @@ impl Survey {
         let deepest = points.iter().position(|point| point[1] <= 0.0).unwrap_or(0);
         let flat =
             |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]).abs() <= libm::tan(steepest) * (pair[1][0] - pair[0][0]);
-        let first = (0..deepest).rev().take_while(|&index| flat(&points[index..index + 2])).last().unwrap_or(deepest);
-        let last = (deepest..points.len().saturating_sub(1)).take_while(|&index| flat(&points[index..index + 2]));
-        let last = last.last().map_or(deepest, |index| index + 1);
+        let outwards = |path: &[usize]| {
+            let mut end = 0;
+            while end + 1 < path.len() {
+                let pair = [path[end].min(path[end + 1]), path[end].max(path[end + 1])];
+                let level = points[path[end]][1];
+                let back = (end + 1..path.len()).find(|&next| points[path[next]][1] <= level);
+                end = match back {
+                    _ if flat(&points[pair[0]..=pair[1]]) => end + 1,
+                    // A step in the bed, beyond which it goes on.
+                    Some(back) => back,
+                    None => break,
+                };
+            }
+            path[end]
+        };
+        let first = outwards(&(0..=deepest).rev().collect::<Vec<_>>());
+        let last = outwards(&(deepest..points.len()).collect::<Vec<_>>());
         Self { points, bed: [first, last], datum }
     }
 
@@ -247,6 +261,17 @@ impl Section {
         left - right
     }
 
+    /// Length of the ground of the bed across the channel (m).
+    pub fn bed_length(&self) -> f64 {
+        match self {
+            Self::Rectangle { width } => *width,
+            Self::Surveyed(survey) => {
+                let length = |pair: &[[f64; 2]]| libm::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
+                survey.bed().windows(2).map(length).sum()
+            }
+        }
+    }
+
     /// Whether there is a bed between the banks, rather than a point where they meet.
     pub fn has_bed(&self) -> bool {
         self.bed_width() > NO_BED * self.breadth()
@@ -353,6 +378,22 @@ mod tests {
             assert_eq!(walls.banks(z), rectangle.banks(z));
         }
         assert_eq!((walls.banks(0.0), walls.bed_width()), ([0.0, 6.0], 6.0));
+    }
+
+    /// A block with steep sides on a level bed is part of the bed; a terrace above a bank is none.
+    #[test]
+    fn the_bed_goes_on_beyond_a_step() {
+        let bed = |points: &[[f64; 2]]| {
+            let section = surveyed(points);
+            let [right, left] = section.bed_ends();
+            let Section::Surveyed(survey) = section else { panic!("surveyed") };
+            [survey.surveyed(left), survey.surveyed(right)]
+        };
+        let block =
+            [[-6.0, 4.0], [-2.0, 0.0], [-0.35, 0.0], [-0.35, 0.14], [0.35, 0.14], [0.35, 0.0], [2.0, 0.0], [6.0, 4.0]];
+        assert_eq!(bed(&block), [-2.0, 2.0]);
+        let terrace = [[-6.0, 4.0], [-2.0, 0.0], [2.0, 0.0], [3.0, 1.0], [8.0, 1.1], [12.0, 6.0]];
+        assert_eq!(bed(&terrace), [-2.0, 2.0]);
     }
 
     /// A bar of 1 m in the middle of a bed 10 m wide, between vertical walls.

@@ -6,7 +6,7 @@ use approx::assert_relative_eq;
 use barrier_check::design::Design;
 use barrier_check::design::read::read_design;
 use barrier_check::fidelity::choose;
-use barrier_check::guideline::{Surface, guideline, held_below};
+use barrier_check::guideline::{Surface, earth_pressure_by_weight, guideline, held_below};
 use barrier_check::pipeline::{Verdict, run};
 use barrier_check::scene::build::build;
 use barrier_check::scene::event::Watch;
@@ -199,4 +199,54 @@ fn a_section_is_read_from_its_table() {
     };
     assert_eq!(totals("first"), totals("second"));
     std::fs::remove_dir_all(folder).expect("the folder");
+}
+
+/// Points far up the slopes change nothing of what hangs below them.
+#[test]
+fn a_wider_survey_gives_the_same_loads() {
+    let near = points(&[[-5.0, 4.0], [-1.0, 0.0], [1.0, 0.0], [5.0, 4.0]]);
+    let wide = points(&[[-550.0, 14.5], [-5.0, 4.0], [-1.0, 0.0], [1.0, 0.0], [5.0, 4.0], [550.0, 14.5]]);
+    let [near, wide] = [near, wide].map(|points| guideline(&with_points(&points)));
+    for (a, b) in near.ropes.iter().zip(&wide.ropes) {
+        assert!(a.load > 0.0);
+        assert_relative_eq!(a.load, b.load, max_relative = 1e-9);
+    }
+}
+
+/// Whatever the section, the ropes together carry no less than the pressures of the fullest stage.
+#[test]
+fn the_ropes_carry_all_of_the_force() {
+    let banks = [
+        points(&[[-5.0, 4.0], [-1.0, 0.0], [1.0, 0.0], [5.0, 4.0]]),
+        points(&[[-9.0, 4.0], [-1.0, 0.0], [1.0, 0.0], [9.0, 4.0]]),
+        points(&[[-6.0, 4.0], [-4.0, 1.4], [-2.0, 1.3], [-1.0, 0.0], [1.0, 0.0], [2.0, 1.1], [5.0, 1.2], [6.0, 4.0]]),
+    ];
+    for bank in banks {
+        for factors in ["", "to_the_top"] {
+            let mut design = with_points(&bank);
+            design.loads.to_the_top = !factors.is_empty();
+            let told = guideline(&design);
+            let carried: f64 = told.ropes.iter().map(|rope| rope.load * rope.span).sum();
+            assert!(carried > 0.999 * told.largest_force, "{bank}: {carried} of {}", told.largest_force);
+        }
+    }
+}
+
+/// A flat reach upstream does not hold back what lies on the steep one at the barrier.
+#[test]
+fn a_flat_reach_does_not_pull_the_deposit_back() {
+    let k = |reaches: &str| {
+        let text = GULLY.replacen("  section:", &format!("  {reaches}\n  section:"), 1).replacen(
+            "slope: 16 deg",
+            "slope: 40 deg",
+            1,
+        );
+        let design = design(&text);
+        earth_pressure_by_weight(&design, &guideline(&design)).expect("a K")
+    };
+    let even = k("# one slope");
+    let flat = k("profile: {upstream: [[3 m, 2 deg]]}");
+    let level = k("profile: {upstream: [[3 m, 0 deg]]}");
+    assert!(flat > 0.4 * even && flat < even, "{flat} of {even}");
+    assert_relative_eq!(flat, level, max_relative = 0.02);
 }

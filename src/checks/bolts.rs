@@ -30,7 +30,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         let wanted = "anchors.bed_bolt_spacing and anchors.bed_bolt_resistance";
         return vec![Outcome::without_resistance(name, demands.one(&bed::FORCE), wanted)];
     };
-    let width = design.channel.section().bed_width();
+    let width = design.channel.section().bed_length();
     let spacing = width / bolts.spaces(width) as f64;
     let axial = net.main_ropes.rope.axial_stiffness() * concentration(spacing / net.main_ropes.ring_spacing);
     let lateral = demands.one(&other_ropes::LATERAL).simulation.unwrap_or(0.0);

@@ -143,12 +143,16 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
     rules.push(Rule {
         bearing: Bearing::Pressures,
         ..most(
-            "Height of filling beside the side walls",
+            if design.channel.survey.is_some() { "Height of filling beside the lower bank" } else { "Height of filling beside the side walls" },
             input.fill_height,
             design.channel.wall_height,
             "m",
             "derived, normal to the bed",
-            "a deposit above the side walls goes round the barrier: raise channel.wall_height if the banks are higher",
+            if design.channel.survey.is_some() {
+                "a deposit above the lower bank goes round the barrier: survey the banks further up if they are higher"
+            } else {
+                "a deposit above the side walls goes round the barrier: raise channel.wall_height if the banks are higher"
+            },
         )
     });
     rules.push(Rule {

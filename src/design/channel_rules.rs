@@ -154,10 +154,15 @@ pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
     (width < least).then(|| {
         let (path, what, hint) = match opening {
             Some(_) => (at("bottom.opening"), "between the banks", "a higher opening has more width below its rope"),
+            None if e.mentions(POINTS) => (
+                POINTS.to_string(),
+                "of bed between the banks",
+                "the lowest rope is bolted to the bed; where the banks meet in a groove, give barrier.flexible_net.bottom.opening",
+            ),
             None => (
                 path_of_section(e, "bed_width"),
                 "of bed between the banks",
-                "the lowest rope is bolted to the bed; where the banks meet in a groove, give barrier.flexible_net.bottom.opening, or say with channel.bed_up_to up to which slope the ground counts as bed",
+                "the lowest rope is bolted to the bed: is the unit right? Over a narrow bed give barrier.flexible_net.bottom.opening",
             ),
         };
         let found = format!("{} {what} for the lowest rope", length(width));
@@ -165,26 +170,69 @@ pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
     })
 }
 
+/// Least height of the second rope over a bed to which the lowest is bolted, in diagonals of the mesh.
+const ABOVE_THE_BED: f64 = 0.5;
+
+/// Height over the bed, normal to it, of a place along the barrier (m).
+fn over_the_bed(e: &Entries, along: f64) -> Option<f64> {
+    let lean = e.number("channel.slope")? + e.number(&at("tilt"))?;
+    Some(along * libm::cos(lean) + e.number(&at("bottom.opening")).unwrap_or(0.0))
+}
+
+/// The second rope hangs above a bed that is not level.
+pub fn second_rope_above_the_bed(e: &Entries) -> Option<Problem> {
+    let (survey, heights, mesh) = (survey(e)?, rope_heights(e)?, e.number(&at("mesh_opening"))?);
+    let bed = survey.bed().iter().map(|point| point[1]).fold(0.0, f64::max);
+    let second = over_the_bed(e, *heights.get(1)?)?;
+    let least = bed + ABOVE_THE_BED * mesh * std::f64::consts::SQRT_2;
+    (e.number(&at("bottom.opening")).is_none() && bed > 0.0 && second < least).then(|| {
+        let found = format!("main rope 2, {} above the lowest point, over a bed that rises by {}", length(second), length(bed));
+        let allowed = format!("at least {} (normal to the bed)", length(least));
+        Problem::new(at("main_ropes"), found, allowed).hint(
+            "give heights with a higher second rope, or a smaller channel.bed_up_to: the ground that is steeper is bank, and the lowest rope ends there",
+        )
+    })
+}
+
 /// A rope that is free to move hangs from bank to bank, with no ground between.
 pub fn ropes_hang_clear_of_the_ground(e: &Entries) -> Option<Problem> {
     let (survey, heights) = (survey(e)?, rope_heights(e).filter(|_| e.has_section(NET))?);
-    let lean = e.number("channel.slope")? + e.number(&at("tilt"))?;
+    if second_rope_above_the_bed(e).is_some() {
+        return None;
+    }
     let opening = e.number(&at("bottom.opening"));
     let section = Section::Surveyed(survey.clone());
-    let free = heights.iter().enumerate().skip(usize::from(opening.is_none()));
-    let highest_bed = survey.bed().iter().map(|point| point[1]).fold(0.0, f64::max);
+    let mut free = heights.iter().enumerate().skip(usize::from(opening.is_none()));
     let caught = |height: f64| {
-        let z = height * libm::cos(lean) + opening.unwrap_or(0.0);
+        let z = over_the_bed(e, height)?;
         let [right, left] = survey.banks(z);
-        // It meets the ground between its ends, or the bed before it comes to a bank.
-        section.width(z) > (left - right) * (1.0 + 1e-9) || (opening.is_none() && z <= highest_bed)
+        (section.width(z) > (left - right) * (1.0 + 1e-9)).then_some(z)
     };
-    let (index, height) = free.into_iter().find(|(_, height)| caught(**height))?;
-    let found = format!("main rope {} at {} with ground between its ends", index + 1, length(*height));
-    Some(
-        Problem::new(at("main_ropes"), found, "ropes that hang clear of the ground from bank to bank")
-            .hint("a bar in the bed must be lower than the second rope: change the heights of the ropes"),
-    )
+    let (index, z) = free.find_map(|(index, height)| Some((index, caught(*height)?)))?;
+    let [right, left] = survey.banks(z);
+    // The ground that rises through the rope: beside the part of the section in which the lowest point is.
+    let beyond =
+        survey.points().iter().filter(|point| point[1] > z && (point[0] > left - 1e-9 || point[0] < right + 1e-9));
+    let highest = beyond.filter(|point| {
+        survey
+            .points()
+            .iter()
+            .any(|other| other[1] < z && (other[0] - point[0]).signum() == (point[0] - 0.5 * (right + left)).signum())
+    });
+    let bar = highest.map(|point| point[1]).fold(z, f64::max);
+    let found = format!("main rope {}, {} above the lowest point, with ground between its ends", index + 1, length(z));
+    let hint = if index == 0 {
+        format!(
+            "the ground rises to {} there: a higher barrier.flexible_net.bottom.opening lifts the lowest rope over it; or is a point of the survey wrong?",
+            length(bar)
+        )
+    } else {
+        format!(
+            "the ground rises to {} there: give main_ropes.heights with this rope above it; or is a point of the survey wrong?",
+            length(bar)
+        )
+    };
+    Some(Problem::new(at("main_ropes"), found, "ropes that hang clear of the ground from bank to bank").hint(hint))
 }
 
 pub fn flow_within_the_section(e: &Entries) -> Option<Problem> {

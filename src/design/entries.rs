@@ -237,6 +237,11 @@ impl Reader<'_> {
             Kind::OneOf(keys) => return self.one_of(node, keys, path),
             _ => {}
         }
+        if let (Kind::Pairs { first, second, example }, Node::List(items)) = (key.kind, node)
+            && self.pairs_are_wrong(items, [first, second], example, path)
+        {
+            return;
+        }
         match understand(node, &key.kind) {
             Ok(value) => {
                 let entry = Entry { value, typed: typed(node), origin, meaning: key.meaning, remark: String::new() };
@@ -252,6 +257,20 @@ impl Reader<'_> {
                 self.problems.push(problem);
             }
         }
+    }
+
+    /// Tells every pair of a list that is not understood, at its own place.
+    fn pairs_are_wrong(&mut self, items: &[Node], kinds: [Bounded; 2], example: &str, path: &str) -> bool {
+        let before = self.problems.len();
+        for (index, item) in items.iter().enumerate() {
+            if let Err((found, hint)) = pair(item, kinds, example) {
+                let [one, other] = kinds.map(|value| value.kind().allowed());
+                let mut problem = Problem::new(join(path, &index.to_string()), found, format!("{one}, and {other}"));
+                problem.hint = hint.map(String::into_boxed_str);
+                self.problems.push(problem);
+            }
+        }
+        self.problems.len() > before
     }
 
     fn one_of(&mut self, node: &Node, keys: &'static [Key], path: &str) {
@@ -306,7 +325,11 @@ fn typed(node: &Node) -> String {
         Node::Text(text) => text.clone(),
         Node::Number(number) => number.to_string(),
         Node::Flag(flag) => flag.to_string(),
-        Node::List(items) => items.iter().map(typed).collect::<Vec<_>>().join(", "),
+        Node::List(items) => {
+            let one =
+                |item: &Node| if matches!(item, Node::List(_)) { format!("[{}]", typed(item)) } else { typed(item) };
+            items.iter().map(one).collect::<Vec<_>>().join(", ")
+        }
         Node::Map(_) | Node::Nothing => String::new(),
     }
 }
@@ -389,7 +412,18 @@ fn pair(node: &Node, kinds: [Bounded; 2], example: &str) -> Result<[f64; 2], Mis
             };
             Ok([value(0)?, value(1)?])
         }
-        Node::List(items) => Err((format!("{} value(s) in brackets, `{}`", items.len(), typed(node)), hint())),
+        Node::List(items) => {
+            let parted = items.len() > 2
+                && items
+                    .iter()
+                    .any(|item| matches!(item, Node::Number(_)) || typed(item).trim().parse::<f64>().is_ok());
+            let comma =
+                "between brackets a comma parts values: write numbers with a decimal point, as `1.8 m`".to_string();
+            Err((
+                format!("{} value(s) in brackets, `{}`", items.len(), typed(node)),
+                if parted { Some(comma) } else { hint() },
+            ))
+        }
         other => Err((other.describe(), hint())),
     }
 }
@@ -399,7 +433,13 @@ fn steepness(node: &Node, low: f64, high: f64) -> Result<f64, Misunderstood> {
     let text = typed(node);
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| *number > 0.0 && number.is_finite());
     let ratio = text.split_once(':').and_then(|(rise, run)| Some([number(rise)?, number(run)?]));
-    let Some([rise, run]) = ratio else { return quantity(node, Dimension::Angle, low, high) };
+    let Some([rise, run]) = ratio else {
+        return quantity(node, Dimension::Angle, low, high).map_err(|(found, hint)| {
+            let bare = text.trim().parse::<f64>().is_ok() || text.contains(':');
+            let ratio = "write a ratio of rise to run, as `1:1.5`, or an angle, as `34 deg`".to_string();
+            (found, if bare { Some(ratio) } else { hint })
+        });
+    };
     let angle = libm::atan2(rise, run);
     if !(low..=high).contains(&angle) {
         return Err((format!("`{}`, an angle of {}", text.trim(), Dimension::Angle.show(angle)), None));

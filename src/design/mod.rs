@@ -83,6 +83,11 @@ impl Channel {
         self.survey.clone().or_else(|| self.profile.is_some().then(walls))
     }
 
+    /// What is beside its bed, in words.
+    pub fn sides(&self) -> &'static str {
+        if self.survey.is_some() { "bank" } else { "side wall" }
+    }
+
     /// (y, z) of the ground across the channel, side walls included (m).
     pub fn ground_line(&self) -> Vec<[f64; 2]> {
         let (width, high) = (self.width, self.wall_height);

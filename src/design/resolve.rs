@@ -213,7 +213,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
 fn bed_bolts(e: &Entries) -> Option<BedBolts> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.anchors.{key}"));
     let bolts = BedBolts { spacing: value("bed_bolt_spacing")?, resistance: value("bed_bolt_resistance") };
-    let number = bolts.spaces(section(e)?.bed_width()) + 1;
+    let number = bolts.spaces(section(e)?.bed_length()) + 1;
     let share = value("bed_resistance").map(|of_all| of_all / number as f64);
     Some(BedBolts { resistance: bolts.resistance.or(share), ..bolts })
 }

@@ -29,6 +29,7 @@ pub const RULES: &[Rule] = &[
     channel_rules::strips_lie_on_vertical_walls,
     channel_rules::ropes_of_cylinders_are_straight,
     channel_rules::lowest_rope_has_a_length,
+    channel_rules::second_rope_above_the_bed,
     channel_rules::ropes_hang_clear_of_the_ground,
     channel_rules::flow_within_the_section,
     channel_rules::profile_has_a_reach,

@@ -25,7 +25,7 @@ pub const DESIGN: &[Key] = &[
         "version of this table of keys that the file was written for",
     ),
     Key::required("project", Kind::Section(PROJECT), "what the report is about"),
-    Key::required("channel", Kind::Section(CHANNEL), "a straight channel"),
+    Key::required("channel", Kind::Section(CHANNEL), "a straight channel: what lies across it, and how it falls"),
     Key::required("flow", Kind::Section(FLOW), "the design flow"),
     Key::required("barrier", Kind::OneOf(BARRIER), "the barrier"),
     Key::default("limits", Kind::Section(LIMITS), "", "what the design must keep"),
@@ -96,11 +96,15 @@ const REACHES: Kind = Kind::Pairs {
 };
 
 const PROFILE: &[Key] = &[
-    Key::optional("upstream", REACHES, "level distance upstream of the barrier from which the bed has another slope"),
+    Key::optional(
+        "upstream",
+        REACHES,
+        "level distance upstream of the barrier from which the bed has another slope, up to the next entry: [[25 m, 14 deg]]",
+    ),
     Key::optional(
         "downstream",
         REACHES,
-        "level distance downstream of the barrier from which the bed has another slope",
+        "level distance downstream of the barrier from which the bed has another slope, up to the next entry",
     ),
     Key::default(
         "rounded_over",

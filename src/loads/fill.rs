@@ -67,7 +67,8 @@ pub struct Stored {
     pub volume: f64,
     /// Level length from the barrier's foot to where the surface meets the bed (m).
     pub length: f64,
-    /// Volume times what slope less friction pulls it, ∫ A (tan α − tan φ) dX for a friction of the bed (m³).
+    /// Volume times what slope less friction pulls it, ∫ A (tan α − tan φ) dX for a friction of the bed (m³); over several reaches from the
+    /// upstream end on, and never less than 0.
     pub pull: f64,
 }
 
@@ -107,51 +108,64 @@ impl Reservoir {
         (self.slope > falls).then(|| Stored { volume, length: base * libm::cos(self.slope), pull })
     }
 
-    /// Columns along the bed from the barrier upstream, their areas plumb.
+    /// The deposit over reaches of several slopes; nothing where its surface does not meet the bed.
     fn along(&self, profile: &Profile, height: f64, surface: Surface, friction: f64) -> Option<Stored> {
+        let (columns, end) = self.columns(profile, height, surface);
+        let volume = columns.iter().map(|column| column.area * column.over).sum();
+        Some(Stored { volume, length: -end?, pull: pull_of(&columns, friction) })
+    }
+
+    /// Volume times what slope less friction pulls a deposit with, where it does not end as well (m³). What friction holds back upstream does
+    /// not pull on what is downstream of it.
+    pub fn pull(&self, height: f64, surface: Surface, friction: f64) -> f64 {
+        match &self.profile {
+            Some(profile) => pull_of(&self.columns(profile, height, surface).0, friction),
+            None => self.stored(height, surface, friction).map_or(0.0, |stored| stored.pull.max(0.0)),
+        }
+    }
+
+    /// Columns along the bed from the barrier upstream, their areas plumb, and where the surface meets the bed (m).
+    fn columns(&self, profile: &Profile, height: f64, surface: Surface) -> (Vec<Column>, Option<f64>) {
         let (sine, cosine) = libm::sincos(self.slope);
         let area = |depth: f64| self.section.area(depth * cosine) / cosine;
         // The top of the deposit at the barrier, level and plumb.
         let top_along = -height * libm::tan(self.lean);
         let (top_x, top_z) = (top_along * cosine + height * sine, height * cosine - top_along * sine);
         let step = height / STEPS;
-        let mut stored = Stored { volume: 0.0, length: 0.0, pull: 0.0 };
-        let mut add = |x: f64, area: f64, over: f64| {
-            stored.volume += area * over;
-            stored.pull += area * over * (profile.falls(x) - friction);
-        };
+        let at_the_foot = profile.falls(-0.5 * step);
+        let mut columns = Vec::new();
         // Between the foot and the top of the face: what is under the face is taken off, or added where it leans upstream.
         let pieces = (top_x.abs() / step).ceil().max(1.0) as usize;
         for piece in 0..pieces {
             let x = top_x * (piece as f64 + 0.5) / pieces as f64;
-            let face = area(top_z * x / top_x - profile.elevation(x));
             let over = top_x.abs() / pieces as f64;
-            if top_x < 0.0 {
-                add(x, face, over);
-            } else if top_x > 0.0 {
-                let under = top_z - surface.falls(profile.falls(0.0)) * (x - top_x) - profile.elevation(x);
-                add(x, area(under) - face, over);
+            if top_x != 0.0 {
+                let face = area(top_z * x / top_x - profile.elevation(x));
+                let under = top_z - surface.falls(at_the_foot) * (x - top_x) - profile.elevation(x);
+                let area = if top_x < 0.0 { face } else { area(under) - face };
+                columns.push(Column { falls: profile.falls(x), area, over });
             }
         }
         let (mut x, mut z) = (top_x.min(0.0), top_z);
         if top_x > 0.0 {
-            z += surface.falls(profile.falls(0.0)) * top_x;
+            z += surface.falls(at_the_foot) * top_x;
         }
         for _ in 0..MOST_STEPS {
-            let falls = surface.falls(profile.falls(x - 0.5 * step));
-            let next = z + falls * step;
-            let [near, far] = [z - profile.elevation(x), next - profile.elevation(x - step)];
+            // No step goes over a break of the bed.
+            let corner = profile.corners().iter().map(|corner| corner[0]).rfind(|corner| *corner < x - 1e-9 * step);
+            let to = corner.map_or(x - step, |corner| corner.max(x - step));
+            let bed = profile.falls(0.5 * (x + to));
+            let next = z + surface.falls(bed) * (x - to);
+            let [near, far] = [z - profile.elevation(x), next - profile.elevation(to)];
             if far <= 0.0 {
                 let share = (near / (near - far)).clamp(0.0, 1.0);
-                let area = third(&area, near, 0.0);
-                add(x - 0.5 * share * step, area, share * step);
-                stored.length = share * step - x;
-                return Some(stored);
+                columns.push(Column { falls: bed, area: third(&area, near, 0.0), over: share * (x - to) });
+                return (columns, Some(x - share * (x - to)));
             }
-            add(x - 0.5 * step, third(&area, near, far), step);
-            (x, z) = (x - step, next);
+            columns.push(Column { falls: bed, area: third(&area, near, far), over: x - to });
+            (x, z) = (to, next);
         }
-        None
+        (columns, None)
     }
 
     /// Height at the barrier, normal to the bed, of a deposit of a volume over the width (m²) whose surface falls upstream at an angle ψ below
@@ -205,6 +219,19 @@ impl Reservoir {
         let surges = stored.volume / flow_volume;
         Some(Retention { deposit, volume: stored.volume, length: stored.length, surges })
     }
+}
+
+/// A column of a deposit: tan of the bed's slope below it, its area across the channel (m²), and its length along it (m).
+struct Column {
+    falls: f64,
+    area: f64,
+    over: f64,
+}
+
+/// What the columns pull with, from the one furthest upstream on (m³); it is never negative, since a deposit bears no tension.
+fn pull_of(columns: &[Column], friction: f64) -> f64 {
+    let pulls = |column: &Column| column.area * column.over * (column.falls - friction);
+    columns.iter().rev().fold(0.0, |pull: f64, column| (pull + pulls(column)).max(0.0))
 }
 
 /// Mean area over a step between two depths, by Simpson's rule.
@@ -261,6 +288,9 @@ mod tests {
         let pull = 4.0 * (9.088 * libm::tan(slope) + 13.625 * libm::tan(5_f64.to_radians()));
         assert_relative_eq!(stored.pull, pull, max_relative = 5e-3);
         assert_relative_eq!(reach.height(22.713, 0.0), 3.0 * libm::cos(slope), max_relative = 2e-3);
+        // What a flat reach holds back does not pull on the steep one below it.
+        let steep = reach.stored(3.0 * libm::cos(slope), Surface::Plane(0.0), 0.2).expect("a deposit").pull;
+        assert_relative_eq!(steep, 4.0 * 9.088 * (libm::tan(slope) - 0.2), max_relative = 2e-3);
         // A level reach is never filled; no deposit is higher than where its surface no longer meets the bed.
         let level = Reservoir { profile: Some(Profile::new(slope, &[[4.0, 0.0]], &[], 0.0)), ..reach };
         assert_eq!(level.stored(3.0, Surface::Plane(0.0), 0.0), None);

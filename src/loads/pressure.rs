@@ -100,6 +100,9 @@ impl Diagram {
         triangle: impl Fn(f64, f64) -> f64,
     ) -> f64 {
         let (low, high) = (low.clamp(0.0, self.top), high.clamp(0.0, self.top));
+        if low >= high {
+            return 0.0;
+        }
         let (from, to) = (low.max(self.block_from), high.min(self.block_to).min(self.top));
         let blocks = if to > from { self.block * block(from, to) } else { 0.0 };
         blocks + self.unit * triangle(low, high)
@@ -149,6 +152,13 @@ mod tests {
         assert_relative_eq!(strips, force, max_relative = 1e-12);
         let even = Section::Rectangle { width: 2.5 };
         assert_eq!(diagram.force_over(&even, 0.5, 3.0), 2.5 * diagram.force(0.5, 3.0));
+    }
+
+    /// A strip whose lower end is above its upper one is none.
+    #[test]
+    fn a_strip_upside_down_carries_nothing() {
+        let diagram = Diagram { unit: 7.0, surface: 3.6, top: 3.0, block: 4.0, block_from: 2.2, block_to: 3.6 };
+        assert_eq!((diagram.force(1.5, 1.0), diagram.moment(1.5, 1.0)), (0.0, 0.0));
     }
 
     /// A groove of 45° filled to its top, at rest: ½ ∫ (z' − z) 2 z dz = ρ g h³/3 of a fluid.

@@ -106,8 +106,8 @@ fn lambda(run: &Reading) -> Option<f64> {
                 (run.push / width - fixed) / (run.guideline.input.density * run.largest_flux)
             }
             section @ Section::Surveyed(_) => {
-                // The flux is the depth by the square of the velocity: on the mean width of the flow.
-                let width = section.mean_width(run.incoming.depth);
+                // The flux is told on the width of the channel, which is its mean width up to the barrier's top.
+                let width = run.guideline.width;
                 let fixed = unit * section.moment(standing);
                 (run.push - fixed) / (run.guideline.input.density * run.largest_flux * width)
             }

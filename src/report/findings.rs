@@ -37,7 +37,11 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
         row(
             "Mass of the flow",
             with_unit(design.flow.mass, "kg"),
-            format!("weight {}, its component along the bed {downhill}", with_unit(weight, "N")),
+            format!(
+                "weight {}, its component along the bed {downhill}{}",
+                with_unit(weight, "N"),
+                if design.channel.profile.is_some() { " on the slope at the barrier" } else { "" }
+            ),
         ),
         row("Highest mean velocity of all grains", with_unit(seen.one(&mass::VELOCITY), "m/s"), fastest),
         row(

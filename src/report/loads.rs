@@ -215,7 +215,7 @@ pub fn bolted_rope(run: &Run) -> String {
     let (BarrierDesign::FlexibleNet(net), Some(load)) = (&run.file.design.barrier, run.guideline.bolt_force) else {
         return String::new();
     };
-    let bed = run.guideline.section.bed_width();
+    let bed = run.guideline.section.bed_length();
     let spaces = net.bed_bolts.map_or(1, |bolts| bolts.spaces(bed));
     let spacing = bed / spaces as f64;
     let more = concentration(spacing / net.main_ropes.ring_spacing);
@@ -250,10 +250,18 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     // What the pressure alone does not make of q, on this rope and in this case.
     let leans = libm::cos(run.guideline.lean);
     let pressure = design.factors.load * diagram.force(rope.strip[0], rope.strip[1]) / leans;
-    let more = if (rope.load - pressure).abs() > 1e-9 * rope.load {
-        ", with point load, drag or weight on this rope"
-    } else {
-        ""
+    let beside_pressure = rope.point > 0.0
+        || (case.shear > 0.0 && case.shear_certainty.decides() && rope.strip[1] >= case.diagram.top)
+        || (design.loads.self_weight.is_some() && rope.strip[1].is_infinite());
+    let differs = (rope.load - pressure).abs() > 1e-9 * rope.load;
+    let more = match (&design.channel.survey, differs) {
+        (_, false) => String::new(),
+        (None, true) => ", with point load, drag or weight on this rope".to_string(),
+        (Some(_), true) => format!(
+            ", over the section taken with {:.3} (the even load on the span that bends and pushes as much{})",
+            rope.load / pressure,
+            if beside_pressure { "; with point load, drag or weight on this rope" } else { "" }
+        ),
     };
     let span = rope.span;
     let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
@@ -354,11 +362,19 @@ pub fn holding(run: &Run) -> Vec<Row> {
     let design = &run.file.design;
     let mut rows = Vec::new();
     if let Some(held) = run.guideline.retention {
+        let formula = match (&design.channel.survey, &design.channel.profile) {
+            (None, None) => format!("V = ½ b H² (cot(α − α') + tan ε), b = {} the width", with_unit(design.channel.width, "m")),
+            (Some(_), None) => format!(
+                "V = S (cot(α − α') + tan ε), S = {} the first moment of the section's area up to H about its surface",
+                with_unit(run.guideline.section.moment(held.deposit.height), "m³")
+            ),
+            (_, Some(_)) => "summed along the bed, the area of the section under the deposit's surface at every place, reach by reach".to_string(),
+        };
         rows.push(row(
             "Volume held behind the barrier",
             with_unit(held.volume, "m³"),
             format!(
-                "V = ½ b H² (cot(α − α') + tan ε), H = {} the height of the sagged net when full (loads.filled_height), α = {:.1}° the slope of the bed, α' = {:.1}° that of the deposit's surface (loads.deposit_slope), ε = {:.1}° the lean of the barrier from the bed's normal; over {} of channel. Defaults are from practice, not verified",
+                "{formula}, H = {} the height of the sagged net when full (loads.filled_height), α = {:.1}° the slope of the bed, α' = {:.1}° that of the deposit's surface (loads.deposit_slope), ε = {:.1}° the lean of the barrier from the bed's normal; over {} of channel. Defaults are from practice, not verified",
                 with_unit(held.deposit.height, "m"),
                 held.deposit.slope.to_degrees(),
                 held.deposit.surface.to_degrees(),

@@ -315,7 +315,7 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         file: file_name("Barrier from upstream"),
         svg: elevation(snapshot, run.guideline.section.banks(run.guideline.input.barrier_height), resistance),
         note: format!(
-            "At {:.2} s, as deformed then; colour by tension over design resistance at that instant. Main ropes are numbered from the bottom.{}",
+            "At {:.2} s, as deformed then, seen normal to the bed; colour by tension over design resistance at that instant, the partial factor on loads included. Main ropes are numbered from the bottom.{}",
             snapshot.time,
             if net.bottom == Bottom::Fixed {
                 " The lowest one is held at every knot here; the check of it between its bolts follows from the load of the worst bolt and is not in the picture."

@@ -60,7 +60,7 @@ fn limit_rows(run: &Simulated) -> Vec<Row> {
             "Grains outside the channel",
             numerics.escaped.to_string(),
             format!(
-                "through the bed or a side wall, {:.3} % of the mass, counted as lost; at most {} %",
+                "through the bed or a side of the channel, {:.3} % of the mass, counted as lost; at most {} %",
                 100.0 * numerics.escaped_share,
                 100.0 * ESCAPED_LIMIT
             ),

@@ -10,6 +10,8 @@ use crate::report::pictures::Chart;
 use crate::report::plots::cross_section::{CrossSection, Member, cross_section};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::plots::long_profile::{LongProfile, Surface, long_profile};
+use crate::report::row::{Row, row};
+use crate::scene::flow::release::Block;
 use crate::section::Section;
 
 /// Points of the storage curve.
@@ -21,6 +23,55 @@ pub fn charts(run: &Run) -> Vec<Chart> {
     charts.extend(along(run));
     charts.extend(storage(run));
     charts
+}
+
+/// Where ropes are anchored in a surveyed section, and where the flow starts.
+pub fn rows(run: &Run) -> Vec<Row> {
+    rope_rows(run).into_iter().chain(release_row(run)).collect()
+}
+
+fn rope_rows(run: &Run) -> Vec<Row> {
+    let (design, guideline) = (&run.file.design, &run.guideline);
+    let Section::Surveyed(_) = &guideline.section else { return Vec::new() };
+    let drawing = Drawing { design, section: &guideline.section, plumb: libm::cos(design.channel.slope) };
+    let heights = rope_heights(design, guideline);
+    let held = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed);
+    let ropes = heights.iter().enumerate().map(|(index, z)| {
+        let bolted = index == 0 && held;
+        let ends = if bolted { guideline.section.bed_ends() } else { guideline.section.banks(*z) };
+        let [left, right] = drawing.ends(ends);
+        let (what, value) = match bolted {
+            true => ("bolted to the bed", guideline.section.bed_length()),
+            false => ("anchored in the banks", right - left),
+        };
+        row(
+            format!("Main rope {}, {what}", index + 1),
+            with_unit(value, "m"),
+            format!(
+                "{:.2} m above the lowest point, plumb; from {left:.2} m to {right:.2} m across, as surveyed, to the right looking downstream; area below it {:.2} m², normal to the bed",
+                z / drawing.plumb,
+                guideline.section.area(*z)
+            ),
+        )
+    });
+    ropes.collect()
+}
+
+fn release_row(run: &Run) -> Option<Row> {
+    let (design, channel) = (&run.file.design, &run.file.design.channel);
+    let surveyed = channel.survey.is_some() || channel.profile.is_some();
+    run.simulated.as_ref().filter(|_| surveyed)?;
+    let reach = (run.guideline.input.barrier_height * libm::tan(run.guideline.lean)).max(0.0);
+    let block = Block::of(&design.flow, channel, reach);
+    let [near, far] = [-block.front, block.length - block.front];
+    let slopes = channel.profile.as_ref().map_or(String::new(), |profile| {
+        let slope = |along: f64| profile.at(-along).slope.to_degrees();
+        format!(", where the bed slopes at {:.1}° and {:.1}°", slope(near), slope(far))
+    });
+    let remark = format!(
+        "from {near:.1} m to {far:.1} m upstream of the barrier's foot, along the bed{slopes}; reaches beyond take no part in the simulation, only in what is stored"
+    );
+    Some(row("Flow at its release", with_unit(block.length, "m"), remark))
 }
 
 /// Distances to the right, as surveyed where the section was, and plumb heights.
@@ -41,6 +92,12 @@ impl Drawing<'_> {
     fn ends(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         // y runs to the left.
         [self.right(to), self.right(from)]
+    }
+
+    /// The bed, from the left to the right.
+    fn bed(&self) -> Vec<[f64; 2]> {
+        let Section::Surveyed(survey) = self.section else { return Vec::new() };
+        survey.bed().iter().rev().map(|[y, z]| [self.right(*y), z / self.plumb]).collect()
     }
 
     fn ground(&self) -> Vec<[f64; 2]> {
@@ -67,19 +124,27 @@ fn across(run: &Run) -> Chart {
     let ends = |index: usize, z: f64| if bolted(index) { section.bed_ends() } else { section.banks(z) };
     let member = |(index, z): (usize, &f64)| {
         let [from, to] = ends(index, *z);
+        let length = if bolted(index) { section.bed_length() } else { to - from };
         Member {
-            label: format!("rope {}, {:.2} m", index + 1, to - from),
+            label: format!("rope {}, {} {length:.2} m", index + 1, if bolted(index) { "bolted," } else { "span" }),
             height: z / plumb,
             ends: drawing.ends([from, to]),
             is_anchored: !bolted(index),
+            line: if bolted(index) { drawing.bed() } else { Vec::new() },
         }
     };
     let mut members: Vec<Member> = heights.iter().enumerate().map(member).collect();
     let top = guideline.input.barrier_height;
     if members.is_empty() {
         let [from, to] = section.banks(top);
-        let label = format!("top of the wall, {:.2} m", to - from);
-        members.push(Member { label, height: top / plumb, ends: drawing.ends([from, to]), is_anchored: false });
+        let label = format!("top, {:.2} m wide", to - from);
+        members.push(Member {
+            label,
+            height: top / plumb,
+            ends: drawing.ends([from, to]),
+            is_anchored: false,
+            line: Vec::new(),
+        });
     }
     let low = heights.first().copied().unwrap_or(0.0);
     let chart = CrossSection {
@@ -104,24 +169,21 @@ fn across(run: &Run) -> Chart {
     Chart::of("Barrier in its section", cross_section(&chart), note)
 }
 
-/// What closes the section between two heights, along its banks.
+/// What closes the section between two heights: from bank to bank, and down to the ground or to the lower edge.
 fn outline(drawing: &Drawing, low: f64, top: f64) -> Vec<[f64; 2]> {
-    let mut heights: Vec<f64> = drawing.section.kinks().into_iter().filter(|z| *z > low && *z < top).collect();
-    heights.insert(0, low);
-    heights.push(top);
-    let bank = |side: usize| {
-        let point = move |z: &f64| [drawing.right(drawing.section.banks(*z)[side]), z / drawing.plumb];
-        heights.iter().map(point).collect::<Vec<[f64; 2]>>()
-    };
-    let mut line = bank(0);
-    // Along the ground from the one bank to the other, where nothing is open below.
-    if let (Section::Surveyed(survey), true) = (drawing.section, low == 0.0) {
-        line.splice(0..0, survey.bed().iter().rev().map(|[y, z]| [drawing.right(*y), z / drawing.plumb]));
+    let [right, left] = drawing.section.banks(top);
+    let ground = drawing.design.channel.ground_line();
+    let mut line = vec![[right, top]];
+    line.extend(ground.iter().filter(|point| (right..=left).contains(&point[0])).map(|[y, z]| [*y, z.clamp(low, top)]));
+    // Where a bank goes through the lower edge.
+    for side in drawing.section.banks(low) {
+        if low > 0.0 {
+            line.push([side, low]);
+        }
     }
-    let mut left = bank(1);
-    left.reverse();
-    line.extend(left);
-    line
+    line.push([left, top]);
+    line.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    line.into_iter().map(|[y, z]| [drawing.right(y), z / drawing.plumb]).collect()
 }
 
 /// Bed, barrier and the deposit that the filled barrier keeps; nothing where none ends on the bed.

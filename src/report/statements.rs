@@ -38,6 +38,7 @@ type Statement = (bool, &'static str, &'static str);
 /// What the simulation rests on, and net and channel in it.
 fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let (rectangular, even) = (design.channel.survey.is_none(), design.channel.profile.is_none());
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     vec![
         (
@@ -47,8 +48,23 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
         ),
         (simulated, "The flow is dry: no water pressure, no cohesion, no breakage of grains.", UNSAFE),
         (
-            true,
+            rectangular && even,
             "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
+            EITHER,
+        ),
+        (
+            rectangular && !even,
+            "The channel is straight and of rectangular section, with the slopes of the reaches given; the last reach on either side goes on.",
+            EITHER,
+        ),
+        (
+            !rectangular,
+            "The channel is straight and has the surveyed section all along, plumb heights over a bed of the slopes given; the last slope on either side goes on. Beyond the ends of the survey there is no ground: what goes over them is lost.",
+            EITHER,
+        ),
+        (
+            !rectangular,
+            "In the guideline calculation the depth of the flow and of the deposit is that over the lowest point of the bed, under a surface that is level across the gully.",
             EITHER,
         ),
         (
@@ -129,8 +145,9 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
 fn of_gap(design: &Design) -> Option<String> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     Some(format!(
-        "The net ends {} from each side wall, 70 mm or half a mesh, whichever is less; its main ropes go on through that gap to their anchors.",
-        with_unit(net.side_gap(), "m")
+        "The net ends {} from each {}, 70 mm or half a mesh, whichever is less; its main ropes go on through that gap to their anchors.",
+        with_unit(net.side_gap(), "m"),
+        design.channel.sides()
     ))
 }
 

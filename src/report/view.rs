@@ -61,6 +61,8 @@ pub struct View {
     pub margin: String,
     /// The site, to scale.
     pub site: Vec<Chart>,
+    /// Where its ropes are anchored, and where the flow starts.
+    pub site_rows: Vec<Row>,
     /// What "per width" means where the section is no rectangle.
     pub per_width: String,
     pub varied: Vec<SwingRow>,
@@ -165,6 +167,7 @@ impl View {
                 .collect::<Vec<_>>()
                 .join(" "),
             site: site::charts(run),
+            site_rows: site::rows(run),
             per_width: loads::per_width(run),
             varied: loads::swing_rows(&run.varied),
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),

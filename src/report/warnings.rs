@@ -7,12 +7,14 @@ use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::checks::range::rope_outside;
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::rung_of;
+use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
 use crate::quantities::{incoming, mass, total_force, wear};
 use crate::report::numbers::{figures, with_unit};
 use crate::report::row::{in_a_line, is_share, lower_first};
 use crate::report::validation::Kept;
+use crate::section::Section;
 use dem::recorders::of_dissipators;
 
 type Warning = fn(&Run) -> Option<String>;
@@ -28,6 +30,8 @@ const WARNINGS: &[Warning] = &[
     grains_that_hide_losses,
     grains_scaled_to_the_mass,
     escaped,
+    run_up_over_the_banks,
+    storage_without_an_end,
     force_beyond_the_guideline,
     faster_flow_than_the_guideline_was_given,
     dissipators_used_up,
@@ -148,11 +152,39 @@ fn flow_that_stopped_upstream(run: &Run) -> Option<String> {
     })
 }
 
+/// The flow may run up higher than the survey tells of.
+fn run_up_over_the_banks(run: &Run) -> Option<String> {
+    let (channel, input) = (&run.file.design.channel, &run.guideline.input);
+    let higher = run_up::by_jump(input, &run.guideline.section);
+    (channel.survey.is_some() && higher > channel.wall_height).then(|| {
+        format!(
+            "By the momentum jump the flow runs up to {} in front of the barrier, and the lower end of the surveyed section is {} high (both normal to the bed): beyond it nothing is known of the ground, and nothing is modelled.",
+            with_unit(higher, "m"),
+            with_unit(channel.wall_height, "m")
+        )
+    })
+}
+
+/// A deposit whose surface never meets the bed has no volume that could be told.
+fn storage_without_an_end(run: &Run) -> Option<String> {
+    let design = &run.file.design;
+    let ends = run.guideline.retention.is_some();
+    let reaches = design.channel.profile.is_some();
+    (!ends && reaches).then(|| {
+        "The surface of the deposit (loads.deposit_slope) does not meet the bed upstream: the volume held behind the barrier is not told, and no check rests on it. A level reach has no end; give the slope that follows it.".to_string()
+    })
+}
+
 /// A surge on a bed that holds it back: its velocity is that of the release, not of the arrival.
 fn slows_on_its_way(run: &Run) -> Option<String> {
     let design = &run.file.design;
     let Arrival::Surge(surge) = design.flow.arrival else { return None };
     let (slope, friction) = (design.channel.slope, libm::atan(design.channel.base_friction));
+    // On the whole of its way to the barrier.
+    let slows = match &design.channel.profile {
+        Some(profile) => profile.gain(surge.run_in, design.channel.base_friction) < 0.0,
+        None => friction > slope,
+    };
     let seen = run.simulated.as_ref().map_or(String::new(), |seen| {
         let front = seen
             .first()
@@ -164,11 +196,12 @@ fn slows_on_its_way(run: &Run) -> Option<String> {
             with_unit(surge.velocity, "m/s")
         )
     });
-    (friction > slope).then(|| {
+    slows.then(|| {
         format!(
-            "The bed's friction of {:.1}° holds back a flow on a slope of {:.1}°: the surge slows on its way. Its front is released faster, to arrive with the velocity that was given{seen}; its tail arrives slower, or not at all.",
+            "The bed's friction of {:.1}° holds back a flow on a slope of {:.1}°{}: the surge slows on its way. Its front is released faster, so that a body which slides from there would arrive with the velocity that was given{seen}; the front of a surge that spreads may be faster, and its tail arrives slower, or not at all.",
             friction.to_degrees(),
-            slope.to_degrees()
+            slope.to_degrees(),
+            if design.channel.profile.is_some() { " at the barrier" } else { "" }
         )
     })
 }
@@ -244,9 +277,10 @@ fn escaped(run: &Run) -> Option<String> {
     let numerics = &run.simulated.as_ref()?.numerics;
     (numerics.escaped > 0).then(|| {
         format!(
-            "{} of the grains, {:.2} % of the mass, have gone through the bed or a side wall. They count as lost; up to {:.1} % of the mass this leaves the verdict alone.",
+            "{} of the grains, {:.2} % of the mass, have gone through the bed or a {}. They count as lost; up to {:.1} % of the mass this leaves the verdict alone.",
             numerics.escaped,
             100.0 * numerics.escaped_share,
+            run.file.design.channel.sides(),
             100.0 * ESCAPED_LIMIT
         )
     })
@@ -276,16 +310,22 @@ fn faster_flow_than_the_guideline_was_given(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref()?.first();
     let given = run.guideline.input.velocity;
     let velocity = seen.incoming.velocity;
+    // What is hit of the section.
+    let moves = |depth: f64| match &run.guideline.section {
+        Section::Rectangle { .. } => depth,
+        section @ Section::Surveyed(_) => section.area(depth),
+    };
     (given > 0.0 && seen.incoming.depth > 0.0 && velocity > 1.05 * given).then(|| {
         let front = seen.known(&incoming::FRONT).map_or(String::new(), |front| format!(" (its front with {})", with_unit(front, "m/s")));
         format!(
-            "The front of the simulated flow speeds up and thins on its way: just upstream of the barrier it has {}{front} and a depth of {}, while the guideline calculation uses {} and {}. With the simulated values the pressure λρv² would be {:.0} % higher and the thrust λρv²h {}.",
+            "The front of the simulated flow speeds up and thins on its way: just upstream of the barrier it has {}{front} and a depth of {}, while the guideline calculation uses {} and {}. With the simulated values the pressure λρv² would be {:.0} % higher and the thrust {} {}.",
             with_unit(velocity, "m/s"),
             with_unit(seen.incoming.depth, "m"),
             with_unit(given, "m/s"),
             with_unit(run.guideline.input.depth, "m"),
             100.0 * ((velocity / given).powi(2) - 1.0),
-            compared(seen.incoming.depth * velocity * velocity, run.guideline.input.depth * given * given)
+            if run.file.design.channel.survey.is_some() { "λρv²A" } else { "λρv²h" },
+            compared(moves(seen.incoming.depth) * velocity * velocity, moves(run.guideline.input.depth) * given * given)
         )
     })
 }

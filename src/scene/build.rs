@@ -367,7 +367,7 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
             BarrierDesign::FlexibleNet(_) => None,
         },
         bolt_spaces: match &design.barrier {
-            BarrierDesign::FlexibleNet(net) => net.bed_bolts.map_or(0, |bolts| bolts.spaces(section.bed_width())),
+            BarrierDesign::FlexibleNet(net) => net.bed_bolts.map_or(0, |bolts| bolts.spaces(section.bed_length())),
             BarrierDesign::RigidWall(_) => 0,
         },
         bolted: section.bed_ends(),

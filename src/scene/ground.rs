@@ -107,7 +107,13 @@ pub fn across(channel: &Channel) -> Across {
     let highest = survey.points().iter().map(|point| point[1]).fold(0.0, f64::max);
     let height = |row: usize| BEYOND * highest * row as f64 / AREAS as f64;
     let areas = (0..=AREAS).map(|row| [height(row), section.area(height(row))]).collect();
-    Across::Ground(GroundLine { points: survey.points().to_vec(), areas, slope: channel.slope, bed })
+    Across::Ground(GroundLine {
+        points: survey.points().to_vec(),
+        areas,
+        slope: channel.slope,
+        bed,
+        width: channel.width,
+    })
 }
 
 #[cfg(test)]

@@ -105,10 +105,10 @@ impl LoadCase {
         self.moment_per_width() + self.point.map_or(0.0, |point| point.force * point.height / width)
     }
 
-    /// Force normal to a face that leans by θ from the bed's normal, on a barrier of this width (N): what presses on it has R along the bed
+    /// Force normal to a face that leans by θ from the bed's normal, on a barrier across this section (N): what presses on it has R along the bed
     /// and R tan θ off it, R/cos θ in all. Drag and point load are taken likewise, which is on the safe side.
-    pub fn face_force(&self, width: f64, lean: f64) -> f64 {
-        self.total_force(&Section::Rectangle { width }) / libm::cos(lean)
+    pub fn face_force(&self, section: &Section, lean: f64) -> f64 {
+        self.total_force(section) / libm::cos(lean)
     }
 
     /// Moment of that force about the foot of the face, per width (N m/m): the pressures act at z/cos θ along it, so that theirs is the

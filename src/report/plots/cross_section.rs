@@ -11,6 +11,8 @@ const ABOVE: f64 = 30.0;
 const BELOW: f64 = 54.0;
 /// Ground drawn below the lowest point, over the height of the picture.
 const UNDER: f64 = 0.06;
+/// Room that the name of a surface takes.
+const NAME: f64 = 90.0;
 /// Least distance between two labels.
 const LABEL_STEP: f64 = 14.0;
 
@@ -21,6 +23,8 @@ pub struct Member {
     pub height: f64,
     pub ends: [f64; 2],
     pub is_anchored: bool,
+    /// Its line where it is not straight.
+    pub line: Vec<[f64; 2]>,
 }
 
 /// What is drawn; distances to the right and plumb heights (m).
@@ -66,20 +70,25 @@ pub fn cross_section(drawn: &CrossSection) -> String {
         |surface: f64| drawn.members.iter().any(|member| (-4.0..18.0).contains(&((member.height - surface) * scale)));
     for (name, surface) in &drawn.surfaces {
         let (from, to) = ends_at(&visible, *surface);
+        // In the ground beside it, where there is room.
+        let beside = x(from) - MARGIN > NAME;
         let _ = write!(
             svg,
-            "<line class=\"level\" x1=\"{:.1}\" x2=\"{:.1}\" y1=\"{3:.1}\" y2=\"{3:.1}\"/><text text-anchor=\"middle\" x=\"{2:.1}\" y=\"{4:.1}\">{name}</text>",
+            "<line class=\"level\" x1=\"{:.1}\" x2=\"{:.1}\" y1=\"{3:.1}\" y2=\"{3:.1}\"/><text text-anchor=\"{5}\" x=\"{2:.1}\" y=\"{4:.1}\">{name}</text>",
             x(from),
             x(to),
-            x(0.5 * (drawn.bed[0] + drawn.bed[1])),
+            if beside { x(from) - 5.0 } else { x(from) + 5.0 },
             y(*surface),
-            if hidden(*surface) { y(*surface) + 13.0 } else { y(*surface) - 3.0 }
+            if !beside && hidden(*surface) { y(*surface) + 13.0 } else { y(*surface) - 3.0 },
+            if beside { "end" } else { "start" }
         );
     }
     for member in &drawn.members {
         let [from, to] = member.ends.map(x);
         let up = y(member.height);
-        let _ = write!(svg, "<line class=\"rope\" x1=\"{from:.1}\" x2=\"{to:.1}\" y1=\"{up:.1}\" y2=\"{up:.1}\"/>");
+        let straight = member.ends.map(|end| [end, member.height]);
+        let line = if member.line.is_empty() { &straight[..] } else { &member.line };
+        let _ = write!(svg, "<polyline class=\"rope\" points=\"{}\"/>", points(line));
         if member.is_anchored {
             let _ = write!(
                 svg,
@@ -92,7 +101,10 @@ pub fn cross_section(drawn: &CrossSection) -> String {
     if let Some([from, to]) = widest {
         svg += &dimension([x(from), x(to)], 18.0, &format!("{:.2} m", to - from));
     }
-    svg += &dimension(drawn.bed.map(x), under + 20.0, &format!("bed {:.2} m", drawn.bed[1] - drawn.bed[0]));
+    let bed = drawn.bed[1] - drawn.bed[0];
+    if bed * scale > 4.0 {
+        svg += &dimension(drawn.bed.map(x), under + 20.0, &format!("bed {bed:.2} m"));
+    }
     svg + &super::scale_bar(MARGIN, under + BELOW - 10.0, scale, 0.2 * WIDTH) + "</svg>"
 }
 
@@ -175,8 +187,20 @@ mod tests {
         let drawn = CrossSection {
             ground: vec![[-6.0, 4.0], [-2.0, 0.0], [2.0, 0.0], [6.0, 4.0]],
             members: vec![
-                Member { label: "rope 1, 4.00 m".into(), height: 0.0, ends: [-2.0, 2.0], is_anchored: false },
-                Member { label: "rope 2, 8.00 m".into(), height: 2.0, ends: [-4.0, 4.0], is_anchored: true },
+                Member {
+                    label: "rope 1, 4.00 m".into(),
+                    height: 0.0,
+                    ends: [-2.0, 2.0],
+                    is_anchored: false,
+                    line: Vec::new(),
+                },
+                Member {
+                    label: "rope 2, 8.00 m".into(),
+                    height: 2.0,
+                    ends: [-4.0, 4.0],
+                    is_anchored: true,
+                    line: Vec::new(),
+                },
             ],
             outline: vec![[-2.0, 0.0], [2.0, 0.0], [4.0, 2.0], [-4.0, 2.0]],
             bed: [-2.0, 2.0],

@@ -7,6 +7,10 @@ use crate::profile::Profile;
 
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 12.0;
+/// Length of a reach in the picture from which its slope is written beside it.
+const SHORTEST_REACH: f64 = 40.0;
+/// Height of the picture at the most.
+const TALLEST: f64 = 420.0;
 /// Room below the bed for the scale, and above for names.
 const BELOW: f64 = 30.0;
 const ABOVE: f64 = 22.0;
@@ -72,10 +76,10 @@ pub fn long_profile(drawn: &LongProfile) -> String {
     let tall = top_z.abs().max(drawn.top[1]);
     let longest = drawn.surfaces.iter().map(|surface| surface.length).fold(UPSTREAM * tall, f64::max);
     let (left, right) = (-1.05 * longest, DOWNSTREAM * tall);
-    let scale = (WIDTH - 2.0 * MARGIN) / (right - left);
     let bed = drawn.bed(left, right);
     let highest = bed.iter().map(|point| point[1]).fold(top_z, f64::max);
     let lowest = bed.iter().map(|point| point[1]).fold(0.0, f64::min);
+    let scale = ((WIDTH - 2.0 * MARGIN) / (right - left)).min(TALLEST / (highest - lowest));
     let place = |[x, z]: [f64; 2]| [MARGIN + (x - left) * scale, ABOVE + (highest - z) * scale];
     let height = ABOVE + (highest - lowest) * scale + BELOW;
     let points = |line: &[[f64; 2]]| {
@@ -96,6 +100,7 @@ pub fn long_profile(drawn: &LongProfile) -> String {
     let _ = write!(svg, "<polyline class=\"bed\" fill=\"none\" points=\"{}\"/>", points(&bed));
     let ([x1, y1], [x2, y2]) = (place([0.0, 0.0]), place([top_x, top_z]));
     let _ = write!(svg, "<line class=\"wall\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>");
+    svg += &reaches(drawn, [left, right], &place);
     // Names one below the other above the barrier, each with a line to its surface.
     for (index, surface) in drawn.surfaces.iter().enumerate() {
         let line = drawn.surface(surface);
@@ -111,6 +116,22 @@ pub fn long_profile(drawn: &LongProfile) -> String {
         );
     }
     svg + &super::scale_bar(MARGIN, height - 10.0, scale, 0.25 * WIDTH) + "</svg>"
+}
+
+/// Slopes under the bed of its reaches, where they are long enough to be told apart.
+fn reaches(drawn: &LongProfile, [left, right]: [f64; 2], place: &dyn Fn([f64; 2]) -> [f64; 2]) -> String {
+    let bed = drawn.bed(left, right);
+    let mut svg = String::new();
+    for pair in bed.windows(2) {
+        let [from, to] = [place(pair[0]), place(pair[1])];
+        if to[0] - from[0] < SHORTEST_REACH {
+            continue;
+        }
+        let slope = libm::atan((pair[0][1] - pair[1][1]) / (pair[1][0] - pair[0][0])).to_degrees();
+        let [x, y] = [0, 1].map(|axis| 0.5 * (from[axis] + to[axis]));
+        let _ = write!(svg, "<text text-anchor=\"end\" x=\"{:.1}\" y=\"{:.1}\">{slope:.1}°</text>", x - 4.0, y + 15.0);
+    }
+    svg
 }
 
 /// The point of a line that goes upstream at a level place.

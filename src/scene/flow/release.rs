@@ -29,6 +29,9 @@ pub struct Block {
 /// Depth of the tip of a nose that holds no grains, over their mean diameter.
 const TIP: f64 = 0.75;
 
+/// Share of its v² at the barrier that a surge has at the least when it is let go, and on its way.
+const CROSSING: f64 = 0.25;
+
 /// What a nose between vertical walls lacks of a full body.
 const LACK: f64 = 0.5;
 
@@ -58,9 +61,14 @@ impl Block {
                             * (libm::sin(channel.slope) - channel.base_friction * libm::cos(channel.slope))
                             * run_in
                     }
-                    Some(profile) => 2.0 * GRAVITY * profile.gain(run_in, channel.base_friction),
+                    // Fast enough to cross what is flat on its way.
+                    Some(profile) => {
+                        let gain = profile.gain(run_in, channel.base_friction);
+                        let crosses = profile.largest_gain(run_in, channel.base_friction) - gain;
+                        2.0 * GRAVITY * gain.min(CROSSING * velocity * velocity / (2.0 * GRAVITY) - crosses)
+                    }
                 };
-                let velocity = (velocity * velocity - gain).max(0.25 * velocity * velocity).sqrt();
+                let velocity = (velocity * velocity - gain).max(CROSSING * velocity * velocity).sqrt();
                 let thin = thin.min(depth);
                 let (lack, tip, even) = match section {
                     Section::Rectangle { .. } => (LACK, 0.5 * thin * thin * nose / depth, length),
@@ -137,7 +145,14 @@ pub fn packed_block(
     }
     if let (Some(survey), Some(_)) = (&ground, &channel.profile) {
         // Where the bed breaks, what was straight is bent.
-        let along = [start - FOLDED, block.front + FOLDED];
+        // Level distances.
+        let level = |grain: &Grain| {
+            let (sine, cosine) = libm::sincos(channel.slope);
+            grain.position.x * cosine + grain.position.z * sine
+        };
+        let places = grains.iter().map(level);
+        let [from, to] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+        let along = [from - FOLDED, to + FOLDED];
         let terrain = ground_of(channel, survey, along, |_| 0.0);
         grains = push_apart(grains, shape(flow), terrain, stop)?;
     }

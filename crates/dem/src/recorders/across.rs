@@ -20,6 +20,8 @@ pub struct GroundLine {
     /// Slope of the bed at the barrier (rad), and (X, Z) of the bed's corners, level and plumb (m), where it has several reaches.
     pub slope: f64,
     pub bed: Vec<[f64; 2]>,
+    /// The width on which fluxes are told (m).
+    pub width: f64,
     /// Area under a level surface (m²) by its height (m), both rising from 0; between two heights in proportion.
     pub areas: Vec<[f64; 2]>,
 }
@@ -38,6 +40,14 @@ impl Across {
         match self {
             Self::Even(width) => depth * density * width * length,
             Self::Ground(ground) => ground.area_under(depth) * density * length,
+        }
+    }
+
+    /// The width on which fluxes are told (m).
+    pub fn width(&self) -> f64 {
+        match self {
+            Self::Even(width) => *width,
+            Self::Ground(ground) => ground.width,
         }
     }
 

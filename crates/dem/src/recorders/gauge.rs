@@ -16,7 +16,7 @@ pub struct Gauge {
     pub depth: f64,
     /// Share of the mass in the window that is at rest.
     pub at_rest: f64,
-    /// Depth times the mean of v² by mass: h v² of an even flow (m³/s²).
+    /// Σ m v² over the window's length, the bulk density and a width: h v² of an even flow, A v²/W in a section of another form (m³/s²).
     pub flux: f64,
 }
 
@@ -79,10 +79,7 @@ impl GaugeWindow {
             velocity: velocity / count as f64,
             at_rest: at_rest / mass,
             depth,
-            flux: match &self.across {
-                Across::Even(_) => self.across.depth_of(momentum_flux, self.bulk_density, self.far - self.near),
-                Across::Ground(_) => depth * momentum_flux / mass,
-            },
+            flux: momentum_flux / (self.bulk_density * self.across.width() * (self.far - self.near)),
         }
     }
 }
