@@ -233,6 +233,7 @@ pub fn reservoir(design: &Design) -> Reservoir {
         slope: channel.slope,
         lean: lean(design),
         profile: channel.profile.clone(),
+        relief: channel.relief.clone(),
     }
 }
 

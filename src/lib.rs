@@ -92,6 +92,8 @@ mod problem;
 pub mod profile;
 mod program;
 pub mod quantities;
+pub(crate) mod raster;
+pub mod relief;
 pub mod report;
 pub mod scene;
 pub mod section;

@@ -67,6 +67,16 @@ impl Profile {
         Self { corners, ends: [first, last] }
     }
 
+    /// Through corners (X, Z) that rise upstream, (0, 0) among them; the first and the last reach go on.
+    pub fn through(corners: &[[f64; 2]]) -> Self {
+        let falls = |pair: &[[f64; 2]]| (pair[0][1] - pair[1][1]) / (pair[1][0] - pair[0][0]);
+        let ends = match corners.len() {
+            0 | 1 => [0.0; 2],
+            count => [falls(&corners[..2]), falls(&corners[count - 2..])],
+        };
+        Self { corners: corners.to_vec(), ends }
+    }
+
     pub fn corners(&self) -> &[[f64; 2]] {
         &self.corners
     }

@@ -51,7 +51,7 @@ fn section(keys: &[Key]) -> Value {
     let here = |pair: &&Either| pair.keys.iter().all(|name| keys.iter().any(|key| key.name == *name));
     for pair in EITHER.iter().filter(here) {
         if pair.needed {
-            schema["oneOf"] = pair.keys.map(|key| json!({ "required": [key] })).into();
+            schema["oneOf"] = pair.keys.iter().map(|key| json!({ "required": [key] })).collect();
         } else {
             schema["not"] = json!({ "required": pair.keys });
         }
@@ -104,6 +104,10 @@ fn kind(kind: &Kind) -> Value {
         Kind::Pairs { first, second, .. } => {
             let both = [first, second].map(|value| self::kind(&value.kind()));
             json!({ "type": "array", "minItems": 1, "items": { "type": "array", "minItems": 2, "maxItems": 2, "items": both } })
+        }
+        Kind::Pair { first, second, .. } => {
+            let both = [first, second].map(|value| self::kind(&value.kind()));
+            json!({ "type": "array", "minItems": 2, "maxItems": 2, "items": both })
         }
         Kind::Steepness { .. } => {
             let angle = units(Dimension::Angle);

@@ -1,9 +1,10 @@
-//! Files that a design names beside itself: a surveyed section.
+//! Files that a design names beside itself: a surveyed section, a terrain raster.
 
 use std::collections::BTreeMap;
 
-use crate::design::entries::{Entries, Origin, Value};
+use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::section_file;
+use crate::design::terrain_file::{Asked, terrain};
 use crate::problem::Problem;
 
 /// Files by the name under which the design has them.
@@ -23,28 +24,77 @@ const SECTION: [&str; 2] = ["channel.section.file", "channel.section.points"];
 /// Reads the files that the entries name, and puts what they hold in their place.
 pub fn read_attached(entries: &mut Entries, open: Open, problems: &mut Vec<Problem>) -> Attached {
     let mut attached = Attached::new();
-    let [key, points] = SECTION;
-    let Some(name) = entries.text(key).map(str::to_string) else { return attached };
-    let problem = |found: String| Problem::new(key, found, "a text file of points beside the design file");
-    let read = open(&name).map_err(|why| {
-        problem(format!("`{name}`, which cannot be read: {why}"))
-            .hint("the name is taken from the folder of the design file")
-    });
-    let read = read.and_then(|bytes| match section_file::parse(&bytes) {
-        Ok(listed) => Ok((bytes, listed)),
-        Err((found, hint)) => Err(problem(format!("`{name}`, {found}")).hint(hint)),
-    });
-    match read {
-        Ok((bytes, listed)) => {
-            let entry = entries.values[key].clone();
-            let typed = format!("{} points of {name}", listed.len());
-            entries.put(
-                points,
-                crate::design::entries::Entry { value: Value::Points(listed), typed, origin: Origin::File, ..entry },
-            );
-            attached.insert(name, bytes);
+    for read in [read_section, read_terrain] {
+        if let Some(read) = read(entries, open) {
+            match read {
+                Ok((name, bytes)) => drop(attached.insert(name, bytes)),
+                Err(problem) => problems.push(problem),
+            }
         }
-        Err(problem) => problems.push(problem),
     }
     attached
+}
+
+type Read = Option<Result<(String, Vec<u8>), Problem>>;
+
+/// The file of a key, if the design names one.
+fn opened(entries: &Entries, key: &str, open: Open, wanted: &str) -> Option<Result<(String, Vec<u8>), Problem>> {
+    let name = entries.text(key)?.to_string();
+    Some(open(&name).map(|bytes| (name.clone(), bytes)).map_err(|why| {
+        Problem::new(key, format!("`{name}`, which cannot be read: {why}"), wanted)
+            .hint("the name is taken from the folder of the design file")
+    }))
+}
+
+fn read_section(entries: &mut Entries, open: Open) -> Read {
+    let [key, points] = SECTION;
+    let wanted = "a text file of points beside the design file";
+    let read = opened(entries, key, open, wanted)?;
+    Some(read.and_then(|(name, bytes)| {
+        let listed = section_file::parse(&bytes)
+            .map_err(|(found, hint)| Problem::new(key, format!("`{name}`, {found}"), wanted).hint(hint))?;
+        let typed = format!("{} points of {name}", listed.len());
+        put(entries, key, points, Value::Points(listed), typed);
+        Ok((name, bytes))
+    }))
+}
+
+fn read_terrain(entries: &mut Entries, open: Open) -> Read {
+    let key = |name: &str| format!("channel.terrain.{name}");
+    let wanted = "a raster of the ground beside the design file";
+    let read = opened(entries, &key("file"), open, wanted)?;
+    let place = |name: &str| entries.points(&key(name)).map(|points| points[0]);
+    let length = |name: &str| entries.number(&key(name));
+    let asked = Asked {
+        left: place("left_end")?,
+        right: place("right_end")?,
+        upstream: length("upstream")?,
+        downstream: length("downstream")?,
+    };
+    Some(read.and_then(|(name, bytes)| {
+        let terrain = terrain(&bytes, &asked).map_err(|(of, found, hint)| {
+            let found = if of == "file" { format!("`{name}`, {found}") } else { found };
+            let allowed = if of == "file" {
+                wanted
+            } else {
+                "a place in a bank, in the coordinates of the raster, east and north"
+            };
+            Problem::new(key(of), found, allowed).hint(hint)
+        })?;
+        let file = key("file");
+        let typed = format!("{} points across {name}", terrain.section.len());
+        put(entries, &file, SECTION[1], Value::Points(terrain.section), typed);
+        if !entries.mentions("channel.slope") {
+            let typed = format!("{:.2} deg, the mean of the lowest line in {name}", terrain.slope.to_degrees());
+            put(entries, &file, "channel.slope", Value::Number(terrain.slope), typed);
+        }
+        entries.relief = Some(terrain.relief);
+        Ok((name, bytes))
+    }))
+}
+
+/// Puts a value in that comes from the file of a key.
+fn put(entries: &mut Entries, file: &str, path: &str, value: Value, typed: String) {
+    let entry = Entry { value, typed, origin: Origin::File, remark: String::new(), ..entries.values[file].clone() };
+    entries.put(path, entry);
 }

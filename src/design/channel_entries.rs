@@ -75,6 +75,9 @@ pub fn reaches(e: &Entries, side: &str) -> Vec<[f64; 2]> {
 
 /// The bed where it has several reaches.
 pub fn profile(e: &Entries) -> Option<Profile> {
+    if let Some(relief) = &e.relief {
+        return Some(Profile::through(&relief.lowest_line()));
+    }
     let (upstream, downstream) = (reaches(e, "upstream"), reaches(e, "downstream"));
     let several = !(upstream.is_empty() && downstream.is_empty());
     let rounding = e.number("channel.profile.rounded_over").unwrap_or(0.0);

@@ -1,28 +1,98 @@
 //! Contradictions between values of a channel; listed in [`super::rules`].
 
-use crate::design::channel_entries::{height_of_barrier, reaches, survey};
+use crate::design::channel_entries::{height_of_barrier, reaches, section, survey};
 use crate::design::entries::Entries;
+use crate::design::flow_entries::flow_volume;
 use crate::design::net_rules::rope_heights;
+use crate::design::resolve::RUN_IN;
 use crate::design::show::{NET, at, length};
 use crate::problem::Problem;
 use crate::section::Section;
 
 const POINTS: &str = "channel.section.points";
 
-pub fn width_or_section(e: &Entries) -> Option<Problem> {
-    let found = match (e.mentions("channel.width"), e.mentions("channel.section")) {
-        (true, true) => "both width and section",
-        (false, false) if e.has_section("channel") => "neither width nor section",
-        _ => return None,
+pub fn width_section_or_terrain(e: &Entries) -> Option<Problem> {
+    let given: Vec<&str> = WAYS.into_iter().filter(|key| e.mentions(&format!("channel.{key}"))).collect();
+    let found = match given[..] {
+        [] if e.has_section("channel") => "none of width, section and terrain".to_string(),
+        [] | [_] => return None,
+        _ => given.join(" and "),
     };
-    Some(Problem::new("channel", found, "either width or section").hint(
-        "`width` is that of a channel of rectangular section; `section` is a surveyed one, as a trapezoid or as points",
+    Some(Problem::new("channel", found, "one of width, section and terrain").hint(
+        "`width` is that of a channel of rectangular section; `section` is a surveyed one, as a trapezoid or as points; `terrain` is a raster",
     ))
+}
+
+/// Ways to say what lies across the channel.
+const WAYS: [&str; 3] = ["width", "section", "terrain"];
+
+/// Whether the section is not a rectangle.
+fn is_surveyed(e: &Entries) -> bool {
+    e.mentions("channel.section") || e.mentions("channel.terrain")
+}
+
+pub fn slope_is_given(e: &Entries) -> Option<Problem> {
+    (e.has_section("channel") && !e.mentions("channel.slope") && !e.mentions("channel.terrain")).then(|| {
+        Problem::new("channel", "no key `slope`", "an angle with unit (deg, rad, gon), 0 deg to 80 deg")
+            .hint("`slope` is the slope of the bed against the horizontal, at the barrier")
+    })
+}
+
+pub fn terrain_tells_the_reaches(e: &Entries) -> Option<Problem> {
+    (e.mentions("channel.terrain") && e.has_section("channel.profile")).then(|| {
+        Problem::new("channel.profile", "a profile beside a terrain", "this group beside a width or a section")
+            .hint("the raster tells the bed along the channel: leave it out")
+    })
+}
+
+pub fn terrain_takes_a_plumb_net(e: &Entries) -> Option<Problem> {
+    let path = at("tilt");
+    (e.mentions("channel.terrain") && e.number(&path)? != 0.0).then(|| {
+        Problem::new(path, "a net that leans, in a terrain", "0 deg: the section is taken plumb between the two ends")
+    })
+}
+
+pub fn terrain_takes_a_surge(e: &Entries) -> Option<Problem> {
+    (e.mentions("channel.terrain") && e.has_section("flow.arrival.dam_break")).then(|| {
+        Problem::new("flow.arrival", "a dam break in a terrain", "a surge")
+            .hint("give the flow as a surge with its depth and velocity at the barrier")
+    })
+}
+
+/// How far downstream grains are followed, over the height of the barrier.
+const FOLLOWED: f64 = 3.0;
+
+pub fn terrain_goes_far_enough_downstream(e: &Entries) -> Option<Problem> {
+    let path = "channel.terrain.downstream";
+    let least = FOLLOWED * e.number(&at("height"))? + 1.0;
+    (e.number(path)? < least).then(|| {
+        Problem::new(
+            path,
+            length(e.number(path).unwrap_or(0.0)),
+            format!("at least {}, three heights of the barrier and a metre", length(least)),
+        )
+    })
+}
+
+/// The surge starts on the raster.
+pub fn terrain_goes_far_enough_upstream(e: &Entries) -> Option<Problem> {
+    let path = "channel.terrain.upstream";
+    let (upstream, section) = (e.number(path)?, section(e)?);
+    let depth = e.number("flow.arrival.surge.depth")?;
+    let run_in = e.number("flow.arrival.surge.run_in").unwrap_or(RUN_IN * depth);
+    let long = flow_volume(e)? / section.area(depth);
+    // With its nose, and room for the packing.
+    let least = run_in + 1.4 * long + 2.0 * depth + 2.0;
+    (upstream < least).then(|| {
+        let found = format!("{}, while the surge starts up to about {} upstream", length(upstream), length(least));
+        Problem::new(path, found, format!("at least {}", length(least)))
+            .hint("give more of the raster, or a smaller flow")
+    })
 }
 
 pub fn walls_belong_to_a_width(e: &Entries) -> Option<Problem> {
     let path = "channel.wall_height";
-    match (e.mentions("channel.width"), e.mentions("channel.section"), e.mentions(path)) {
+    match (e.mentions("channel.width"), is_surveyed(e), e.mentions(path)) {
         (true, false, false) => {
             let allowed = "the height of the side walls beside their distance";
             Some(
@@ -117,7 +187,7 @@ fn path_of_section(e: &Entries, of_trapezoid: &str) -> String {
 }
 
 pub fn walls_stand_in_a_rectangle(e: &Entries) -> Option<Problem> {
-    (e.has_section("barrier.rigid_wall") && e.mentions("channel.section")).then(|| {
+    (e.has_section("barrier.rigid_wall") && is_surveyed(e)).then(|| {
         Problem::new("channel.section", "a rigid wall across a surveyed section", "a net, or a channel with a `width`")
             .hint("a wall is modelled between vertical side walls only: give `width` and `wall_height` of the rectangle that it closes")
     })
@@ -125,7 +195,7 @@ pub fn walls_stand_in_a_rectangle(e: &Entries) -> Option<Problem> {
 
 pub fn strips_lie_on_vertical_walls(e: &Entries) -> Option<Problem> {
     let path = at("side_extension");
-    (e.has_section(&path) && e.mentions("channel.section")).then(|| {
+    (e.has_section(&path) && is_surveyed(e)).then(|| {
         Problem::new(path, "strips along the banks of a surveyed section", "this group beside a `width` only")
             .hint("strips are modelled on vertical side walls only: leave them out")
     })
@@ -133,7 +203,7 @@ pub fn strips_lie_on_vertical_walls(e: &Entries) -> Option<Problem> {
 
 pub fn ropes_of_cylinders_are_straight(e: &Entries) -> Option<Problem> {
     let path = "simulation.barrier_model";
-    (e.text(path) == Some("cylinders") && e.mentions("channel.section")).then(|| {
+    (e.text(path) == Some("cylinders") && is_surveyed(e)).then(|| {
         Problem::new(path, "cylinders in a surveyed section", "sliding_ropes or pinned_ropes")
             .hint("a net that is cut to its banks is modelled of ropes only")
     })

@@ -1,11 +1,13 @@
 //! From the tree of words to checked values, with every problem noted on the way.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::design::document::Node;
 use crate::design::grain_multiple;
 use crate::design::key::{Bounded, Key, Kind, Need, names};
 use crate::problem::{MOST_PROBLEMS, Problem, nearest};
+use crate::relief::Relief;
 use crate::units::{self, Dimension, separators};
 
 /// What a design is read for.
@@ -62,6 +64,8 @@ pub struct Entries {
     pub order: Vec<String>,
     /// Paths typed in the file, right or wrong.
     mentioned: Vec<String>,
+    /// The ground that a raster tells.
+    pub relief: Option<Arc<Relief>>,
     /// Paths of texts that the parser took for a number or a truth value, and may have rewritten.
     pub rewritten: Vec<String>,
 }
@@ -361,6 +365,9 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
             Node::List(_) => Err(("an empty list".into(), None)),
             other => Err((other.describe(), Some(format!("write a list of pairs: `{example}`")))),
         },
+        Kind::Pair { first, second, example } => {
+            pair(node, [first, second], example).map(|pair| Value::Points(vec![pair]))
+        }
         Kind::Steepness { low, high } => steepness(node, low, high).map(Value::Number),
         Kind::Number { low, high } => match *node {
             Node::Number(number) if (low..=high).contains(&number) => Ok(Value::Number(number)),

@@ -56,6 +56,12 @@ pub enum Kind {
         /// How such a list is written.
         example: &'static str,
     },
+    /// One such pair.
+    Pair {
+        first: Bounded,
+        second: Bounded,
+        example: &'static str,
+    },
     /// An angle, or a ratio of rise to run: `1:1.5`.
     Steepness {
         low: f64,
@@ -138,6 +144,10 @@ impl Kind {
             Self::Pairs { first, second, example } => {
                 let [one, other] = [first, second].map(|value| value.kind().allowed());
                 format!("a list of pairs, {example}: {one}, and {other}")
+            }
+            Self::Pair { first, second, example } => {
+                let [one, other] = [first, second].map(|value| value.kind().allowed());
+                format!("a pair, {example}: {one}, and {other}")
             }
             Self::Steepness { low, high } => {
                 let angle = Self::Quantity { dimension: Dimension::Angle, low, high }.allowed();

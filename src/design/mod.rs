@@ -19,11 +19,15 @@ pub(crate) mod schema;
 pub(crate) mod section_file;
 pub(crate) mod show;
 pub(crate) mod sizes;
+pub(crate) mod terrain_file;
 pub(crate) mod wall_rules;
 pub(crate) mod yaml_faults;
 
 use self::sizes::SizeCurve;
+use std::sync::Arc;
+
 use crate::profile::Profile;
+use crate::relief::Relief;
 use crate::section::{Section, Survey};
 
 /// A checked design. Lengths in m, masses in kg, forces in N, angles in rad, friction as tan φ.
@@ -60,6 +64,8 @@ pub struct Channel {
     pub survey: Option<Survey>,
     /// The bed where it has several reaches; its slope at the barrier is `slope`.
     pub profile: Option<Profile>,
+    /// The ground itself, where a raster tells it; section and profile are then those at the barrier and along the lowest line.
+    pub relief: Option<Arc<Relief>>,
     /// Slope of the bed against the horizontal (rad).
     pub slope: f64,
     /// Of the side walls, or of the lower end of a surveyed section, normal to the bed (m).

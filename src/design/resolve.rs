@@ -44,6 +44,7 @@ fn channel(e: &Entries) -> Option<Channel> {
         width: section(e)?.mean_width(height_of_barrier(e)?),
         survey: if value("width").is_some() { None } else { Some(survey(e)?) },
         profile: profile(e),
+        relief: e.relief.clone(),
         slope: value("slope")?,
         wall_height: height_of_sides(e)?,
         base_friction: value("base_friction").map_or(f64::NAN, libm::tan),

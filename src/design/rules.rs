@@ -16,7 +16,13 @@ type Rule = fn(&Entries) -> Option<Problem>;
 /// Rules that every design keeps, in the order of the file.
 pub const RULES: &[Rule] = &[
     schema_version_is_known,
-    channel_rules::width_or_section,
+    channel_rules::width_section_or_terrain,
+    channel_rules::slope_is_given,
+    channel_rules::terrain_tells_the_reaches,
+    channel_rules::terrain_takes_a_plumb_net,
+    channel_rules::terrain_takes_a_surge,
+    channel_rules::terrain_goes_far_enough_downstream,
+    channel_rules::terrain_goes_far_enough_upstream,
     channel_rules::walls_belong_to_a_width,
     channel_rules::bed_is_told_of_points,
     channel_rules::points_are_three,

@@ -50,11 +50,16 @@ const CHANNEL: &[Key] = &[
         quantity(D::Length, 0.01, 200.0),
         "width between vertical side walls; give this or the section",
     ),
-    Key::optional("section", Kind::OneOf(CROSS_SECTION), "surveyed section across the gully; give this or the width"),
-    Key::required(
+    Key::optional(
+        "section",
+        Kind::OneOf(CROSS_SECTION),
+        "surveyed section across the gully; give this, the width or a terrain",
+    ),
+    Key::optional("terrain", Kind::Section(TERRAIN), "raster of the ground; give this, the width or a section"),
+    Key::optional(
         "slope",
         quantity(D::Angle, 0.0, STEEPEST),
-        "slope of the bed against the horizontal, at the barrier",
+        "slope of the bed against the horizontal, at the barrier; a terrain tells it unless it is given",
     ),
     Key::optional("profile", Kind::Section(PROFILE), "reaches of the bed with other slopes than that at the barrier"),
     Key::optional(
@@ -94,6 +99,29 @@ const REACHES: Kind = Kind::Pairs {
     second: Bounded { dimension: D::Angle, low: 0.0, high: STEEPEST },
     example: "[[25 m, 14 deg], [60 m, 20 deg]]",
 };
+
+/// A place in the coordinates of a raster.
+const PLACE: Kind = Kind::Pair {
+    first: Bounded { dimension: D::Length, low: -1e8, high: 1e8 },
+    second: Bounded { dimension: D::Length, low: -1e8, high: 1e8 },
+    example: "[2601234.5 m, 1199876.0 m]",
+};
+
+const TERRAIN: &[Key] = &[
+    Key::required("file", Kind::File, "raster of heights in metres: an ESRI ASCII grid or a GeoTIFF"),
+    Key::required("left_end", PLACE, "end of the barrier in the left bank, looking downstream: east, north"),
+    Key::required("right_end", PLACE, "end of the barrier in the right bank, looking downstream: east, north"),
+    Key::required(
+        "upstream",
+        quantity(D::Length, 2.0, 1e3),
+        "level length of ground upstream of the barrier that is modelled",
+    ),
+    Key::required(
+        "downstream",
+        quantity(D::Length, 2.0, 1e3),
+        "level length of ground downstream of the barrier that is modelled",
+    ),
+];
 
 const PROFILE: &[Key] = &[
     Key::optional(
@@ -634,15 +662,15 @@ const SIMULATION: &[Key] = &[
 /// Two keys of a section of which one at the most may stand there.
 #[derive(Clone, Copy, Debug)]
 pub struct Either {
-    pub keys: [&'static str; 2],
+    pub keys: &'static [&'static str],
     /// Whether one of them must.
     pub needed: bool,
 }
 
 /// The JSON Schema tells these; [`super::rules`] words what it says of them.
 pub const EITHER: &[Either] = &[
-    Either { keys: ["width", "section"], needed: true },
-    Either { keys: ["mass", "volume"], needed: true },
-    Either { keys: ["count", "heights"], needed: true },
-    Either { keys: ["bed_resistance", "bed_bolt_resistance"], needed: false },
+    Either { keys: &["width", "section", "terrain"], needed: true },
+    Either { keys: &["mass", "volume"], needed: true },
+    Either { keys: &["count", "heights"], needed: true },
+    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false },
 ];

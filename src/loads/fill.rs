@@ -4,7 +4,10 @@
 //! α' downstream holds V = S(H) (cot(α − α') + tan ε), S being the first moment of the section's area: ½ b H² in a rectangle. With reaches of
 //! other slopes the area under the surface is integrated along the bed. Derived here.
 
+use std::sync::Arc;
+
 use crate::profile::Profile;
+use crate::relief::Relief;
 use crate::section::Section;
 
 /// Steps of a deposit's height in which the area is integrated along the bed.
@@ -33,6 +36,8 @@ pub struct Reservoir {
     pub lean: f64,
     /// The bed where it has several reaches.
     pub profile: Option<Profile>,
+    /// The ground itself, where a raster tells it.
+    pub relief: Option<Arc<Relief>>,
 }
 
 /// A deposit behind a barrier.
@@ -127,7 +132,18 @@ impl Reservoir {
     /// Columns along the bed from the barrier upstream, their areas plumb, and where the surface meets the bed (m).
     fn columns(&self, profile: &Profile, height: f64, surface: Surface) -> (Vec<Column>, Option<f64>) {
         let (sine, cosine) = libm::sincos(self.slope);
-        let area = |depth: f64| self.section.area(depth * cosine) / cosine;
+        // Plumb area under a level at a place, and whether it is known: a deposit that comes to an edge of the raster is not.
+        let known = std::cell::Cell::new(true);
+        let area = |x: f64, level: f64| match &self.relief {
+            Some(relief) => {
+                let (area, edge) = relief.area_under(x, level, relief.thalweg()[relief.nearest_row(x)]);
+                if edge || x < relief.stretch()[0] {
+                    known.set(false);
+                }
+                area
+            }
+            None => self.section.area((level - profile.elevation(x)) * cosine) / cosine,
+        };
         // The top of the deposit at the barrier, level and plumb.
         let top_along = -height * libm::tan(self.lean);
         let (top_x, top_z) = (top_along * cosine + height * sine, height * cosine - top_along * sine);
@@ -140,9 +156,9 @@ impl Reservoir {
             let x = top_x * (piece as f64 + 0.5) / pieces as f64;
             let over = top_x.abs() / pieces as f64;
             if top_x != 0.0 {
-                let face = area(top_z * x / top_x - profile.elevation(x));
-                let under = top_z - surface.falls(at_the_foot) * (x - top_x) - profile.elevation(x);
-                let area = if top_x < 0.0 { face } else { area(under) - face };
+                let face = area(x, top_z * x / top_x);
+                let under = top_z - surface.falls(at_the_foot) * (x - top_x);
+                let area = if top_x < 0.0 { face } else { area(x, under) - face };
                 columns.push(Column { falls: profile.falls(x), area, over });
             }
         }
@@ -159,10 +175,18 @@ impl Reservoir {
             let [near, far] = [z - profile.elevation(x), next - profile.elevation(to)];
             if far <= 0.0 {
                 let share = (near / (near - far)).clamp(0.0, 1.0);
-                columns.push(Column { falls: bed, area: third(&area, near, 0.0), over: share * (x - to) });
-                return (columns, Some(x - share * (x - to)));
+                let end = x - share * (x - to);
+                columns.push(Column {
+                    falls: bed,
+                    area: third(&area, [x, z], [end, profile.elevation(end)]),
+                    over: x - end,
+                });
+                return (columns, known.get().then_some(end));
             }
-            columns.push(Column { falls: bed, area: third(&area, near, far), over: x - to });
+            columns.push(Column { falls: bed, area: third(&area, [x, z], [to, next]), over: x - to });
+            if !known.get() {
+                return (columns, None);
+            }
             (x, z) = (to, next);
         }
         (columns, None)
@@ -234,9 +258,10 @@ fn pull_of(columns: &[Column], friction: f64) -> f64 {
     columns.iter().rev().fold(0.0, |pull: f64, column| (pull + pulls(column)).max(0.0))
 }
 
-/// Mean area over a step between two depths, by Simpson's rule.
-fn third(area: &impl Fn(f64) -> f64, near: f64, far: f64) -> f64 {
-    (area(near) + 4.0 * area(0.5 * (near + far)) + area(far)) / 6.0
+/// Mean area over a step between two places with their levels, by Simpson's rule.
+fn third(area: &impl Fn(f64, f64) -> f64, near: [f64; 2], far: [f64; 2]) -> f64 {
+    let middle = area(0.5 * (near[0] + far[0]), 0.5 * (near[1] + far[1]));
+    (area(near[0], near[1]) + 4.0 * middle + area(far[0], far[1])) / 6.0
 }
 
 #[cfg(test)]
@@ -246,7 +271,7 @@ mod tests {
 
     /// A rectangle on an even bed.
     fn even(width: f64, slope: f64, lean: f64) -> Reservoir {
-        Reservoir { section: Section::Rectangle { width }, width, slope, lean, profile: None }
+        Reservoir { section: Section::Rectangle { width }, width, slope, lean, profile: None, relief: None }
     }
 
     /// Height of a volume over the width, with a surface that falls upstream.
@@ -262,7 +287,8 @@ mod tests {
         for section in [Section::Rectangle { width: 4.0 }, trapezoid] {
             for (slope, lean) in [(20.0_f64, 20.0_f64), (20.0, 0.0), (12.0, 30.0), (25.0, -10.0)] {
                 let [slope, lean] = [slope, lean].map(f64::to_radians);
-                let closed = Reservoir { section: section.clone(), width: 4.0, slope, lean, profile: None };
+                let closed =
+                    Reservoir { section: section.clone(), width: 4.0, slope, lean, profile: None, relief: None };
                 let summed = Reservoir { profile: Some(Profile::new(slope, &[], &[], 0.0)), ..closed.clone() };
                 for surface in [Surface::Plane(0.0), Surface::OfTheBed(2.0 / 3.0), Surface::Plane(-0.3)] {
                     let [a, b] = [&closed, &summed].map(|one| one.stored(2.0, surface, 0.2).expect("a deposit"));

@@ -1,9 +1,11 @@
 //! The ground of a surveyed section, as the engine and its recorders take it.
 
 use crate::design::Channel;
+use crate::design::channel_entries::STEEPEST_BED;
+use crate::relief::Relief;
 use crate::section::{Section, Survey};
 use dem::Vec3;
-use dem::recorders::across::{Across, GroundLine};
+use dem::recorders::across::{Across, GroundLine, HeightGrid};
 use dem::tables::surfaces::SurfaceRole;
 use dem::tables::terrain::{Patch, Terrain, strips};
 
@@ -28,6 +30,9 @@ fn kinds(survey: &Survey, friction: impl Fn(bool) -> f64) -> Vec<(SurfaceRole, f
 
 /// The ground of a channel from one place along it to another (m, in its frame).
 pub fn ground_of(channel: &Channel, survey: &Survey, along: [f64; 2], friction: impl Fn(bool) -> f64) -> Terrain {
+    if let Some(relief) = &channel.relief {
+        return of_relief(channel, relief, along, friction);
+    }
     let Some(profile) = &channel.profile else { return terrain(survey, along, friction) };
     let corners = profile.corners().iter().map(|corner| corner[0]).filter(|x| *x > along[0] && *x < along[1]);
     let mut stations = vec![along[0]];
@@ -49,6 +54,60 @@ pub fn ground_of(channel: &Channel, survey: &Survey, along: [f64; 2], friction: 
         .map(|(station, strip)| patch(station, strip))
         .collect();
     Terrain::new(places, &patches)
+}
+
+/// Slope across the gully up to which a piece of a raster is bed, the rest being bank (tan).
+const BED: f64 = 0.466;
+
+/// Two triangles to each cell of a raster, as far as it goes.
+fn of_relief(channel: &Channel, relief: &Relief, along: [f64; 2], friction: impl Fn(bool) -> f64) -> Terrain {
+    let rows: Vec<usize> = (0..relief.rows()).filter(|row| (along[0]..=along[1]).contains(&relief.x(*row))).collect();
+    let columns = relief.columns();
+    let corner = |row: usize, column: usize| {
+        frame_of(channel.slope, relief.x(row), relief.y(column), relief.corner(row, column))
+    };
+    let places = rows.iter().flat_map(|row| (0..columns).map(|column| corner(*row, column))).collect();
+    let mut patches = Vec::new();
+    for (index, pair) in rows.windows(2).enumerate() {
+        for column in 0..columns - 1 {
+            let rise = |row: usize| relief.corner(row, column + 1) - relief.corner(row, column);
+            let across = 0.5 * (rise(pair[0]) + rise(pair[1])) / (relief.y(column + 1) - relief.y(column));
+            let is_bed = across.abs() <= BED;
+            let role = if is_bed { SurfaceRole::Base } else { SurfaceRole::Side };
+            let first = (index * columns + column) as u32;
+            let next = first + columns as u32;
+            for corners in [[first, next, next + 1], [first, next + 1, first + 1]] {
+                patches.push(Patch { corners: corners.to_vec(), role, friction: friction(is_bed) });
+            }
+        }
+    }
+    Terrain::new(places, &patches)
+}
+
+/// The section of the ground at a distance along the bed from the foot (m), normal to the bed there, and the y of its lowest point.
+pub fn survey_at(channel: &Channel, along: f64) -> Option<(Survey, f64)> {
+    let (relief, profile) = (channel.relief.as_ref()?, channel.profile.as_ref()?);
+    let there = profile.at(along);
+    let upright = libm::cos(there.slope);
+    let heights = relief.across(there.x);
+    let width = relief.y(relief.columns() - 1);
+    // As it is listed: from the left to the right.
+    let listed: Vec<[f64; 2]> =
+        heights.iter().enumerate().rev().map(|(column, z)| [width - relief.y(column), z * upright]).collect();
+    let lowest = heights.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(column, _)| column);
+    Some((Survey::new(&listed, STEEPEST_BED), relief.y(lowest)))
+}
+
+/// Where the lowest ground is across the channel at a distance along the bed (m).
+pub fn lowest_at(channel: &Channel, along: f64) -> Option<f64> {
+    let (relief, profile) = (channel.relief.as_ref()?, channel.profile.as_ref()?);
+    let line = relief.thalweg();
+    let [from, _] = relief.stretch();
+    let step = relief.x(1) - relief.x(0);
+    let place = ((profile.at(along).x - from) / step).clamp(0.0, (relief.rows() - 1) as f64);
+    let row = (place as usize).min(relief.rows() - 2);
+    let [a, b] = [row, row + 1].map(|row| relief.y(line[row]));
+    Some(a + (b - a) * (place - row as f64))
 }
 
 /// The ground along a channel as flat pieces with three or four corners each, from one place to another (m).
@@ -107,7 +166,16 @@ pub fn across(channel: &Channel) -> Across {
     let highest = survey.points().iter().map(|point| point[1]).fold(0.0, f64::max);
     let height = |row: usize| BEYOND * highest * row as f64 / AREAS as f64;
     let areas = (0..=AREAS).map(|row| [height(row), section.area(height(row))]).collect();
+    let grid = channel.relief.as_ref().map(|relief| HeightGrid {
+        first: [relief.x(0), relief.y(0)],
+        step: relief.x(1) - relief.x(0),
+        columns: relief.columns(),
+        heights: (0..relief.rows())
+            .flat_map(|row| (0..relief.columns()).map(move |column| relief.corner(row, column)))
+            .collect(),
+    });
     Across::Ground(GroundLine {
+        grid,
         points: survey.points().to_vec(),
         areas,
         slope: channel.slope,
@@ -149,6 +217,7 @@ mod tests {
             width: 6.0,
             survey: Some(survey.clone()),
             profile: Some(profile),
+            relief: None,
             slope,
             wall_height: 5.0,
             base_friction: 0.4,
@@ -179,6 +248,7 @@ mod tests {
             width: 6.0,
             survey: Some(survey),
             profile: None,
+            relief: None,
             slope: 0.3,
             wall_height: 5.0,
             base_friction: 0.4,

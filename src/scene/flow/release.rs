@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
 use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched, push_apart};
-use crate::scene::ground::{bed_at, ground_of};
+use crate::scene::ground::{across, bed_at, ground_of, lowest_at, survey_at};
 use crate::section::Section;
 use crate::units::GRAVITY;
 use dem::Vec3;
@@ -43,7 +43,7 @@ impl Block {
     /// The velocity of a surge is that of its arrival: what slope and friction of the bed give or take on the run-in s is left out or
     /// added at the release, v₀² = v² − 2 g (sin α − tan φ cos α) s, but no less than half the velocity.
     pub fn of(flow: &Flow, channel: &Channel, upstream_reach: f64) -> Self {
-        let section = channel.section();
+        let section = section_of(flow, channel, upstream_reach);
         let thin = TIP * flow.sizes.quantile(0.5);
         match flow.arrival {
             Arrival::DamBreak(DamBreak { length, height, distance, .. }) => {
@@ -54,6 +54,8 @@ impl Block {
                 Self { front: -distance, length, height, nose: 0.0, lack: LACK, tip: 0.0, velocity: 0.0 }
             }
             Arrival::Surge(Surge { length, depth, velocity, front_angle, run_in }) => {
+                // On a raster the section where the surge starts is another one than that at the barrier.
+                let length = if channel.relief.is_some() { flow.volume() / section.area(depth) } else { length };
                 let nose = (depth / libm::tan(front_angle)).clamp(0.0, 2.0 * LONGEST_NOSE * length);
                 let gain = match &channel.profile {
                     None => {
@@ -92,6 +94,16 @@ impl Block {
     }
 }
 
+/// The section in which the flow starts.
+fn section_of(flow: &Flow, channel: &Channel, upstream_reach: f64) -> Section {
+    let surveyed = |along: f64| survey_at(channel, along).map(|(survey, _)| Section::Surveyed(survey));
+    match flow.arrival {
+        Arrival::Surge(surge) => surveyed(-(upstream_reach + surge.run_in + 0.5 * surge.length)),
+        Arrival::DamBreak(_) => None,
+    }
+    .unwrap_or_else(|| channel.section())
+}
+
 /// Height of a block that holds what one of a given height would, if there were grains in the thin wedges along its banks (m).
 fn higher(section: &Section, height: f64, thin: f64) -> f64 {
     let area = section.area(height);
@@ -122,8 +134,10 @@ pub fn packed_block(
     seed: u64,
     attempts: Attempts,
 ) -> Result<(Vec<Grain>, Block), PackingError> {
-    let ground = channel.ground();
-    let breadth = channel.section().breadth();
+    let middle = block.front - 0.5 * block.length;
+    let on_a_raster = survey_at(channel, middle);
+    let ground = on_a_raster.as_ref().map(|(survey, _)| survey.clone()).or_else(|| channel.ground());
+    let breadth = ground.as_ref().map_or(channel.width, |survey| Section::Surveyed(survey.clone()).breadth());
     let room = PackingRoom {
         size: Vec3::new(block.length, breadth, block.height),
         nose: block.nose,
@@ -138,7 +152,9 @@ pub fn packed_block(
         // As far along the bed, and as high over it, as in the room.
         let place = grain.position;
         let (origin, [downstream, up]) = bed_at(channel, start + place.x);
-        grain.position = origin + Vec3::y() * place.y + up * place.z;
+        // On a raster the lowest ground winds.
+        let aside = on_a_raster.as_ref().and_then(|(_, lowest)| Some(lowest_at(channel, start + place.x)? - lowest));
+        grain.position = origin + Vec3::y() * (place.y + aside.unwrap_or(0.0)) + up * place.z;
         grain.velocity = downstream * block.velocity;
         let axis = grain.axis;
         grain.axis = downstream * axis.x + Vec3::y() * axis.y + up * axis.z;
@@ -154,6 +170,12 @@ pub fn packed_block(
         let [from, to] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
         let along = [from - FOLDED, to + FOLDED];
         let terrain = ground_of(channel, survey, along, |_| 0.0);
+        // What is under the ground of another section than that of the room comes to lie on it.
+        let across = across(channel);
+        for grain in &mut grains {
+            let (clear, _) = across.clearance(&grain.position);
+            grain.position.z += (grain.body.radius - clear).max(0.0);
+        }
         grains = push_apart(grains, shape(flow), terrain, stop)?;
     }
     Ok((grains, block))

@@ -22,8 +22,37 @@ pub struct GroundLine {
     pub bed: Vec<[f64; 2]>,
     /// The width on which fluxes are told (m).
     pub width: f64,
+    /// Plumb heights of the ground, where they are told on a grid.
+    pub grid: Option<HeightGrid>,
     /// Area under a level surface (m²) by its height (m), both rising from 0; between two heights in proportion.
     pub areas: Vec<[f64; 2]>,
+}
+
+/// Plumb heights over the barrier's foot on a grid of level distances along and across the channel (m), row by row along it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HeightGrid {
+    pub first: [f64; 2],
+    pub step: f64,
+    pub columns: usize,
+    pub heights: Vec<f64>,
+}
+
+impl HeightGrid {
+    /// Height (m) and the cosine of the slope across, at the nearest place of the grid.
+    fn at(&self, level: f64, across: f64) -> (f64, f64) {
+        let rows = self.heights.len() / self.columns.max(1);
+        let split = |place: f64, count: usize| {
+            let place = (place / self.step).clamp(0.0, count.saturating_sub(1) as f64);
+            let before = (place as usize).min(count.saturating_sub(2));
+            (before, place - before as f64)
+        };
+        let (row, along) = split(level - self.first[0], rows);
+        let (column, side) = split(across - self.first[1], self.columns);
+        let corner = |row: usize, column: usize| self.heights[row * self.columns + column];
+        let mix = |column: usize| corner(row, column) + along * (corner(row + 1, column) - corner(row, column));
+        let [right, left] = [mix(column), mix(column + 1)];
+        (right + side * (left - right), self.step / libm::hypot(self.step, left - right))
+    }
 }
 
 impl Across {
@@ -63,6 +92,12 @@ impl Across {
     pub fn clearance(&self, place: &Vec3) -> (f64, f64) {
         match self {
             Self::Even(_) => (place.z, 1.0),
+            Self::Ground(GroundLine { grid: Some(grid), slope, .. }) => {
+                let (sine, upright) = libm::sincos(*slope);
+                let (level, plumb) = (place.x * upright + place.z * sine, place.z * upright - place.x * sine);
+                let (height, cosine) = grid.at(level, place.y);
+                ((plumb - height) * upright, cosine)
+            }
             Self::Ground(ground) => {
                 let (height, cosine) = ground.at(place.y);
                 (ground.over_the_bed(place) - height, cosine)
@@ -139,6 +174,19 @@ mod tests {
         assert_relative_eq!(Across::Even(4.0).mass_at(2.0, 1000.0, 2.0), 16e3);
         assert_eq!(trapezoid().depth_of(0.0, 1000.0, 2.0), 0.0);
         assert!(trapezoid().depth_of(1e6, 1000.0, 2.0) > 4.0);
+    }
+
+    /// A plane that rises by a tenth across and by two tenths upstream, on a bed of that slope.
+    #[test]
+    fn a_grid_tells_the_ground_below() {
+        let heights =
+            (0..5).flat_map(|row| (0..4).map(move |column| 0.2 * (2.0 - f64::from(row)) + 0.1 * f64::from(column)));
+        let grid = HeightGrid { first: [-2.0, 0.0], step: 1.0, columns: 4, heights: heights.collect() };
+        let slope = libm::atan(0.2);
+        let across = Across::Ground(GroundLine { grid: Some(grid), slope, ..GroundLine::default() });
+        let (clear, cosine) = across.clearance(&Vec3::new(1.0, 1.5, 0.9));
+        assert_relative_eq!(clear, 0.9 - 0.15 * libm::cos(slope), max_relative = 1e-12);
+        assert_relative_eq!(cosine, 1.0 / libm::hypot(1.0, 0.1), max_relative = 1e-12);
     }
 
     #[test]
