@@ -407,8 +407,10 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
                 ..later_surge::case(input, deposit.clamp(0.0, room))
             };
             let own = [low, high.min(top) - input.depth].map(surge);
-            let governing = stages.iter().chain(&own).max_by(|a, b| on_rope(a).total_cmp(&on_rope(b)));
-            let load = design.factors.load * governing.map_or(0.0, on_rope);
+            let governing =
+                stages.iter().chain(&own).map(|case| (on_rope(case), case)).max_by(|a, b| a.0.total_cmp(&b.0));
+            let load = design.factors.load * governing.map_or(0.0, |(load, _)| load);
+            let governing = governing.map(|(_, case)| case);
             let spread = governing.map_or(0.0, |case| point_on_rope(case, &heights, index, span.span));
             let spread = spread / libm::cos(lean(design));
             let point = 0.5 * design.factors.load * spread * span.span;
@@ -425,7 +427,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
 }
 
 /// Slices of a span over which the load of a rope is summed.
-const SLICES: f64 = 200.0;
+const SLICES: f64 = 100.0;
 
 /// The even load over a span that bends a beam and pushes on its supports no less than what a section hands to it (N/m): `per_width` gives the
 /// force on a metre of width whose ground is at a height, up to `top`, above which there is none. What presses beside the span goes to its ends.

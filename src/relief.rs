@@ -40,6 +40,17 @@ impl Relief {
         Ok(relief)
     }
 
+    /// The same with one in so many points along either side.
+    pub fn every(&self, count: usize) -> Self {
+        let [rows, columns] = [self.rows, self.columns].map(|points| (points - 1) / count + 1);
+        let heights =
+            (0..rows).flat_map(|row| (0..columns).map(move |column| self.corner(row * count, column * count)));
+        let (first, step) = (self.first, self.step * count as f64);
+        let mut relief = Self { first, step, rows, columns, heights: heights.collect(), thalweg: Vec::new() };
+        relief.thalweg = relief.followed();
+        relief
+    }
+
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -203,6 +214,14 @@ mod tests {
         // Between two rows.
         let (area, _) = gully.area_under(-0.5, 3.1, 10);
         assert!((area - 9.0).abs() < 0.15, "{area}");
+    }
+
+    #[test]
+    fn one_in_so_many_points_is_the_same_ground() {
+        let (gully, coarse) = (gully(), gully().every(2));
+        assert_eq!((coarse.rows(), coarse.columns(), coarse.stretch()), (21, 11, gully.stretch()));
+        assert_eq!((coarse.row_of_the_barrier(), coarse.x(15), coarse.y(5)), (15, 0.0, 10.0));
+        assert_eq!(coarse.corner(3, 4), gully.corner(6, 8));
     }
 
     #[test]

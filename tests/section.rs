@@ -4,9 +4,10 @@ use std::sync::atomic::AtomicBool;
 
 use approx::assert_relative_eq;
 use barrier_check::design::Design;
-use barrier_check::design::read::read_design;
+use barrier_check::design::entries::Purpose;
+use barrier_check::design::read::{DesignFile, read_design, read_design_for};
 use barrier_check::fidelity::choose;
-use barrier_check::guideline::{Surface, earth_pressure_by_weight, guideline, held_below};
+use barrier_check::guideline::{Surface, earth_pressure_by_weight, guideline, held_below, reservoir};
 use barrier_check::pipeline::{Verdict, run};
 use barrier_check::scene::build::build;
 use barrier_check::scene::event::Watch;
@@ -249,4 +250,73 @@ fn a_flat_reach_does_not_pull_the_deposit_back() {
     let level = k("profile: {upstream: [[3 m, 0 deg]]}");
     assert!(flat > 0.4 * even && flat < even, "{flat} of {even}");
     assert_relative_eq!(flat, level, max_relative = 0.02);
+}
+
+/// The design of the raster, with the files that lie beside it.
+fn raster_gully() -> DesignFile {
+    let open =
+        |name: &str| std::fs::read(std::path::Path::new("designs").join(name)).map_err(|error| error.to_string());
+    let text = include_bytes!("../designs/gully_terrain.yaml");
+    read_design_for(Purpose::Simulation, "gully_terrain.yaml", text, &open)
+        .unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Volumes under level surfaces 1, 1.6 and 2 m above the lowest ground between the barrier's ends, that were summed over squares of 5 cm of the
+/// raster with numpy, from the plumb plane between the ends upstream.
+#[test]
+fn the_storage_of_a_raster_is_that_of_fine_sums() {
+    let design = raster_gully().design;
+    let reservoir = reservoir(&design);
+    let plumb = libm::cos(design.channel.slope);
+    for (height, volume) in [(1.0, 6.528), (1.6, 19.584), (2.0, 32.848)] {
+        let stored = reservoir.stored(height * plumb, Surface::Plane(0.0), 0.0).expect("a deposit");
+        assert_relative_eq!(stored.volume, volume, max_relative = 5e-3);
+    }
+    // It is found back.
+    let found = reservoir.height(19.584 / design.channel.width, 0.0);
+    assert_relative_eq!(found, 1.6 * plumb, max_relative = 3e-3);
+    // Three free ropes of three different spans.
+    let spans: Vec<f64> = guideline(&design).ropes.iter().map(|rope| rope.span).collect();
+    assert!(spans.windows(2).all(|pair| pair[1] > pair[0] + 1.0), "{spans:?}");
+}
+
+/// On a raster the flow lies on the ground as it is, none of it goes through, and the net holds it.
+#[test]
+fn the_raster_is_judged_from_end_to_end() {
+    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let run = run(raster_gully(), 1, &watch).expect("a run");
+    assert!(run.doubts.is_empty(), "{:?}", run.doubts);
+    assert_ne!(run.verdict, Verdict::Fail);
+    let seen = run.simulated.as_ref().expect("a simulation");
+    assert_eq!(seen.numerics.escaped, 0);
+    let start = seen.histories.at_release;
+    assert!(start.stored_contacts < 0.01 * start.kinetic, "{} of {}", start.stored_contacts, start.kinetic);
+    let lost: f64 = seen.histories.lost.last().copied().unwrap_or([1.0; 4]).iter().sum();
+    assert!(lost < 0.05, "{lost}");
+}
+
+/// A raster of a million cells is read in two seconds, within 200 MB.
+#[test]
+fn a_million_cells_are_read_soon() {
+    let folder = std::env::temp_dir().join(format!("barrier-check-{}-cells", std::process::id()));
+    std::fs::create_dir_all(folder.join("terrain")).expect("a folder");
+    let small = include_str!("../designs/terrain/gully.asc");
+    let (head, rows) = small.split_once("NODATA_value -9999\n").expect("a head");
+    // The gully in the south-west corner of a plain.
+    let mut text = head.replace("ncols 110", "ncols 1000").replace("nrows 90", "nrows 1000") + "NODATA_value -9999\n";
+    text += &format!("{}\n", "850.00 ".repeat(1000)).repeat(910);
+    for row in rows.lines() {
+        text += row;
+        text += &" 850.00".repeat(890);
+        text.push('\n');
+    }
+    std::fs::write(folder.join("terrain/gully.asc"), text).expect("a raster");
+    std::fs::write(folder.join("gully.yaml"), include_str!("../designs/gully_terrain.yaml")).expect("a design");
+    let started = std::time::Instant::now();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_barrier-check"));
+    let told = command.arg("loads").arg(folder.join("gully.yaml")).arg("--out").arg(folder.join("out")).output();
+    let told = told.expect("the program starts");
+    assert_eq!(told.status.code(), Some(2), "{}", String::from_utf8_lossy(&told.stderr));
+    assert!(started.elapsed().as_secs_f64() < 5.0, "{:?}", started.elapsed());
+    std::fs::remove_dir_all(folder).expect("the folder");
 }

@@ -66,6 +66,8 @@ pub struct Channel {
     pub profile: Option<Profile>,
     /// The ground itself, where a raster tells it; section and profile are then those at the barrier and along the lowest line.
     pub relief: Option<Arc<Relief>>,
+    /// The same in cells of the raster, as it is simulated.
+    pub mesh: Option<Arc<Relief>>,
     /// Slope of the bed against the horizontal (rad).
     pub slope: f64,
     /// Of the side walls, or of the lower end of a surveyed section, normal to the bed (m).

@@ -1,10 +1,13 @@
 //! From checked entries to the design, in SI.
 
+use std::sync::Arc;
+
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve};
 use crate::design::net_rules::rope_heights;
 use crate::design::sizes::SizeCurve;
+use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
     Factors, FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, Project,
@@ -45,6 +48,7 @@ fn channel(e: &Entries) -> Option<Channel> {
         survey: if value("width").is_some() { None } else { Some(survey(e)?) },
         profile: profile(e),
         relief: e.relief.clone(),
+        mesh: e.relief.as_ref().map(|relief| Arc::new(relief.every(FINE))),
         slope: value("slope")?,
         wall_height: height_of_sides(e)?,
         base_friction: value("base_friction").map_or(f64::NAN, libm::tan),

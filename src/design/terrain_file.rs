@@ -29,8 +29,10 @@ pub type Wrong = (&'static str, String, String);
 
 /// Ground beyond either end of the barrier, over its length.
 const BESIDE: f64 = 0.3;
+/// Points to a cell of the raster along a side, so that the grid, which is turned against it, says the same; the ground of the simulation has one.
+pub const FINE: usize = 4;
 /// Points of the grid at the most; a finer raster is taken in wider steps.
-const MOST_POINTS: f64 = 60_000.0;
+const MOST_POINTS: f64 = 400_000.0;
 /// Stretch of the lowest line over which its slope at the barrier is the mean: upstream and downstream (m).
 const MEAN_SLOPE: [f64; 2] = [10.0, 3.0];
 /// Length of a barrier (m).
@@ -52,10 +54,11 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
     let rightwards = [(right[0] - left[0]) / span, (right[1] - left[1]) / span];
     let downstream = [-rightwards[1], rightwards[0]];
     let area = (asked.upstream + asked.downstream) * (1.0 + 2.0 * BESIDE) * span;
-    let step = raster.cell.max((area / MOST_POINTS).sqrt());
+    let step = (raster.cell / FINE as f64).max((area / MOST_POINTS).sqrt());
     // Half a span of ground beside it, or as much as there is.
     let beside = BESIDE * span;
-    let cells = |length: f64| (length / step).ceil() as usize;
+    // Whole cells of the ground of the simulation, which takes every so many points.
+    let cells = |length: f64| (length / (FINE as f64 * step)).ceil() as usize * FINE;
     let (before, after, across) = (cells(asked.upstream), cells(asked.downstream), cells(span + 2.0 * beside));
     let place = |x: f64, y: f64| {
         let to_the_right = span + beside - y;

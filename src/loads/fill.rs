@@ -12,6 +12,9 @@ use crate::section::Section;
 
 /// Steps of a deposit's height in which the area is integrated along the bed.
 const STEPS: f64 = 40.0;
+/// How close a height is sought, as a share, and tries at the most.
+const CLOSE: f64 = 1e-9;
+const MOST_TRIES: usize = 60;
 /// Steps after which a surface is taken never to meet the bed.
 const MOST_STEPS: usize = 20_000;
 
@@ -147,7 +150,8 @@ impl Reservoir {
         // The top of the deposit at the barrier, level and plumb.
         let top_along = -height * libm::tan(self.lean);
         let (top_x, top_z) = (top_along * cosine + height * sine, height * cosine - top_along * sine);
-        let step = height / STEPS;
+        // On a raster from row to row.
+        let step = self.relief.as_ref().map_or(height / STEPS, |relief| relief.x(1) - relief.x(0));
         let at_the_foot = profile.falls(-0.5 * step);
         let mut columns = Vec::new();
         // Between the foot and the top of the face: what is under the face is taken off, or added where it leans upstream.
@@ -226,11 +230,32 @@ impl Reservoir {
                 return f64::INFINITY;
             }
         }
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            match holds(middle) {
-                Some(held) if held < volume => low = middle,
-                _ => high = middle,
+        // Regula falsi on the square root, which is near to straight, with halving where one end stays (Illinois).
+        let off = |height: f64| holds(height).map_or(f64::INFINITY, |held| held.max(0.0).sqrt()) - volume.sqrt();
+        let (mut below, mut above) = (off(low.max(f64::MIN_POSITIVE)), off(high));
+        let mut stays = 0;
+        for _ in 0..MOST_TRIES {
+            if high - low <= CLOSE * high {
+                break;
+            }
+            let straight = low - below * (high - low) / (above - below);
+            let next = if straight > low && straight < high { straight } else { 0.5 * (low + high) };
+            let found = off(next);
+            if found < 0.0 {
+                (low, below) = (next, found);
+                if stays < 0 {
+                    above *= 0.5;
+                }
+                stays = -1;
+            } else {
+                (high, above) = (next, found);
+                if stays > 0 {
+                    below *= 0.5;
+                }
+                stays = 1;
+            }
+            if found.abs() <= CLOSE * volume.sqrt() {
+                return next;
             }
         }
         high

@@ -10,6 +10,7 @@ use crate::report::pictures::Chart;
 use crate::report::plots::cross_section::{CrossSection, Member, cross_section};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::plots::long_profile::{LongProfile, Surface, long_profile};
+use crate::report::plots::plan::{Plan, plan};
 use crate::report::row::{Row, row};
 use crate::scene::flow::release::Block;
 use crate::section::Section;
@@ -20,6 +21,7 @@ const HEIGHTS: usize = 60;
 /// All pictures of the site that the design allows.
 pub fn charts(run: &Run) -> Vec<Chart> {
     let mut charts = vec![across(run)];
+    charts.extend(above(run));
     charts.extend(along(run));
     charts.extend(storage(run));
     charts
@@ -72,6 +74,20 @@ fn release_row(run: &Run) -> Option<Row> {
         "from {near:.1} m to {far:.1} m upstream of the barrier's foot, along the bed{slopes}; reaches beyond take no part in the simulation, only in what is stored"
     );
     Some(row("Flow at its release", with_unit(block.length, "m"), remark))
+}
+
+/// The ground from above, where a raster tells it.
+fn above(run: &Run) -> Option<Chart> {
+    let (design, guideline) = (&run.file.design, &run.guideline);
+    let channel = &design.channel;
+    let (relief, profile) = (channel.mesh.as_ref()?, channel.profile.as_ref()?);
+    let block = Block::of(&design.flow, channel, (guideline.input.barrier_height * libm::tan(guideline.lean)).max(0.0));
+    let level = |along: f64| -profile.at(along).x;
+    let release = [level(block.front), level(block.front - block.length)];
+    let barrier = guideline.section.banks(guideline.input.barrier_height);
+    let note = "To scale, in the directions of the barrier; grey: the lowest line. The section is taken on the line between the barrier's ends, the ground of the simulation is the raster itself, two triangles to each cell.";
+    let drawn = Plan { relief, barrier, release: run.simulated.is_some().then_some(release) };
+    Some(Chart::of("Terrain from above", plan(&drawn), note))
 }
 
 /// Distances to the right, as surveyed where the section was, and plumb heights.

@@ -38,6 +38,7 @@ type Statement = (bool, &'static str, &'static str);
 /// What the simulation rests on, and net and channel in it.
 fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let raster = design.channel.relief.is_some();
     let (rectangular, even) = (design.channel.survey.is_none(), design.channel.profile.is_none());
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     vec![
@@ -58,7 +59,12 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             EITHER,
         ),
         (
-            !rectangular,
+            raster,
+            "The ground is that of the raster as far as it is read; in the guideline calculation the section is that between the barrier's ends, and the deposit is summed over the raster along the lowest line. Beyond the part that is read there is no ground: what goes over its edges is lost.",
+            EITHER,
+        ),
+        (
+            !rectangular && !raster,
             "The channel is straight and has the surveyed section all along, plumb heights over a bed of the slopes given; the last slope on either side goes on. Beyond the ends of the survey there is no ground: what goes over them is lost.",
             EITHER,
         ),

@@ -30,8 +30,8 @@ fn kinds(survey: &Survey, friction: impl Fn(bool) -> f64) -> Vec<(SurfaceRole, f
 
 /// The ground of a channel from one place along it to another (m, in its frame).
 pub fn ground_of(channel: &Channel, survey: &Survey, along: [f64; 2], friction: impl Fn(bool) -> f64) -> Terrain {
-    if let Some(relief) = &channel.relief {
-        return of_relief(channel, relief, along, friction);
+    if let Some(mesh) = &channel.mesh {
+        return of_relief(channel, mesh, along, friction);
     }
     let Some(profile) = &channel.profile else { return terrain(survey, along, friction) };
     let corners = profile.corners().iter().map(|corner| corner[0]).filter(|x| *x > along[0] && *x < along[1]);
@@ -166,7 +166,7 @@ pub fn across(channel: &Channel) -> Across {
     let highest = survey.points().iter().map(|point| point[1]).fold(0.0, f64::max);
     let height = |row: usize| BEYOND * highest * row as f64 / AREAS as f64;
     let areas = (0..=AREAS).map(|row| [height(row), section.area(height(row))]).collect();
-    let grid = channel.relief.as_ref().map(|relief| HeightGrid {
+    let grid = channel.mesh.as_ref().map(|relief| HeightGrid {
         first: [relief.x(0), relief.y(0)],
         step: relief.x(1) - relief.x(0),
         columns: relief.columns(),
@@ -218,6 +218,7 @@ mod tests {
             survey: Some(survey.clone()),
             profile: Some(profile),
             relief: None,
+            mesh: None,
             slope,
             wall_height: 5.0,
             base_friction: 0.4,
@@ -249,6 +250,7 @@ mod tests {
             survey: Some(survey),
             profile: None,
             relief: None,
+            mesh: None,
             slope: 0.3,
             wall_height: 5.0,
             base_friction: 0.4,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 12.0;
 /// Room at the right for the labels of the ropes.
-const LABELS: f64 = 132.0;
+const LABELS: f64 = 152.0;
 /// Room above for the width at the top, and below for the width of the bed and the scale.
 const ABOVE: f64 = 30.0;
 const BELOW: f64 = 54.0;

@@ -142,7 +142,11 @@ impl Ground {
             Shape::Planes { .. } => parts.extend(0..PLANES as u32),
             Shape::Facets { terrain, reaches } => {
                 if reaches[index] > f64::NEG_INFINITY {
-                    terrain.near(&node.position, node.radius, |facet| parts.push(facet));
+                    terrain.near(&node.position, node.radius, |facet| {
+                        if terrain.may_touch(facet, &node.position, node.radius) {
+                            parts.push(facet);
+                        }
+                    });
                 }
                 parts.extend(before.iter().map(|footing| footing.part));
                 parts.sort_unstable();

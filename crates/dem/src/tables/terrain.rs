@@ -347,6 +347,13 @@ impl Terrain {
         if untouched { reach } else { square }
     }
 
+    /// Whether a sphere may touch a facet: not where it is further from its plane, or beyond an edge, than its radius.
+    #[inline]
+    pub fn may_touch(&self, number: u32, centre: &Vec3, radius: f64) -> bool {
+        let facet = self.facet(number);
+        facet.height(centre) < radius && facet.beyond(centre) < radius
+    }
+
     /// Whether two facets share a corner.
     pub fn meet(&self, number: u32, other: u32) -> bool {
         self.around.row(number as usize).binary_search(&other).is_ok()
@@ -420,6 +427,8 @@ struct Places {
     facets: Rows,
     /// First cell of each facet along x and y.
     first: Vec<[u32; 2]>,
+    /// Highest corner of the facets over each cell (m).
+    highest: Vec<f64>,
 }
 
 impl Places {
@@ -452,6 +461,11 @@ impl Places {
                 }
             }
         }
+        let top = |number: &u32| {
+            let corners = patches[*number as usize].corners.iter().map(|corner| corners[*corner as usize].z);
+            corners.fold(f64::NEG_INFINITY, f64::max)
+        };
+        places.highest = cells.iter().map(|facets| facets.iter().map(top).fold(f64::NEG_INFINITY, f64::max)).collect();
         places.facets = Rows::of(cells.into_iter());
         places
     }
@@ -473,6 +487,10 @@ impl Places {
             [self.cell_of([point.x - reach, point.y - reach]), self.cell_of([point.x + reach, point.y + reach])];
         for y in from[1]..=to[1] {
             for x in from[0]..=to[0] {
+                // What is further above all facets here than it reaches, touches none of them.
+                if point.z - reach > self.highest[y * self.counts[0] + x] {
+                    continue;
+                }
                 for &facet in self.facets.row(y * self.counts[0] + x) {
                     let [first_x, first_y] = self.first[facet as usize];
                     // Of several cells that a facet lies over, the first that is visited tells it.
