@@ -11,6 +11,7 @@
 //! |---|---|
 //! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
 //! | another way to give the section of a channel | its key in [`design::schema`], what it makes in `design::channel_entries`; all else asks [`section`] and [`profile`] |
+//! | a format of terrain rasters | [`raster`]; how it is turned into the barrier's directions in `design::terrain_file` and [`relief`] |
 //! | a file that a design names | a key of the kind `File`, and `design::attached` |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
 //! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes, and its springs by `law::Spring`, from which the stable step and what is shown go as well; its damping in [`dem::contact::restitution`] |

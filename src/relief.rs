@@ -133,12 +133,12 @@ impl Relief {
         let height = |row: usize| self.corner(row, line[row]);
         let mut corners = vec![[0.0, 0.0]];
         let mut level = 0.0_f64;
-        for row in (0..origin).rev().filter(|row| (origin - row) % apart == 0 || *row == 0) {
+        for row in (0..origin).rev().filter(|row| (origin - row).is_multiple_of(apart) || *row == 0) {
             level = level.max(height(row));
             corners.insert(0, [self.x(row), level]);
         }
         level = 0.0;
-        for row in (origin + 1..self.rows).filter(|row| (row - origin) % apart == 0 || *row == self.rows - 1) {
+        for row in (origin + 1..self.rows).filter(|row| (row - origin).is_multiple_of(apart) || *row == self.rows - 1) {
             level = level.min(height(row));
             corners.push([self.x(row), level]);
         }

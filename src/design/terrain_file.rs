@@ -102,7 +102,7 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
         Some(height(x, y)? - lowest)
     })
     .map_err(|_| ("file", "which has gaps".to_string(), String::new()))?;
-    let slope = slope_at_the_barrier(&relief, &line);
+    let slope = slope_at_the_barrier(&relief, line);
     if slope <= 0.0 {
         return Err((
             "left_end",
