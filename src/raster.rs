@@ -20,6 +20,9 @@ const GEO_KEYS: Tag = Tag::GeoKeyDirectoryTag;
 const MODEL_TYPE: u16 = 1024;
 const GEOGRAPHIC: u16 = 2;
 const RASTER_TYPE: u16 = 1025;
+/// Key of the unit of lengths, and the metre.
+const LINEAR_UNIT: u16 = 3076;
+const METRE: u16 = 9001;
 const OF_POINTS: u16 = 2;
 
 /// Heights of cells over the coordinates of their centres.
@@ -98,6 +101,25 @@ impl Raster {
     }
 }
 
+/// Heights of the ground (m).
+const HEIGHTS: [f64; 2] = [-500.0, 9000.0];
+/// What stands for no value where a file does not say it.
+const USUAL_NO_DATA: f64 = -9999.0;
+
+/// A height, or NaN for what stands for none.
+fn height_of(value: f64, no_data: Option<f64>) -> Result<f32, Wrong> {
+    // As the file holds it: a number of 32 bits may have been written in decimals.
+    let is = |mark: f64| value as f32 == mark as f32 || (value - mark).abs() <= 1e-5 * mark.abs();
+    if value.is_nan() || is(no_data.unwrap_or(USUAL_NO_DATA)) {
+        return Ok(f32::NAN);
+    }
+    if !(HEIGHTS[0]..=HEIGHTS[1]).contains(&value) {
+        let hint = "heights are metres above the sea; what stands for no value is told by `NODATA_value`, or by the tag of GDAL";
+        return Err(wrong(format!("which holds the height {value:.6e}"), hint));
+    }
+    Ok(value as f32)
+}
+
 /// Cells are counted before memory is taken for them.
 fn bearable(columns: f64, rows: f64) -> Result<(), Wrong> {
     if !(columns >= 2.0 && rows >= 2.0) {
@@ -159,7 +181,7 @@ fn read_ascii(bytes: &[u8]) -> Result<Raster, Wrong> {
                 "values have a decimal point and are parted by blanks",
             )
         })?;
-        heights.push(if no_data == Some(value) { f32::NAN } else { value as f32 });
+        heights.push(height_of(value, no_data)?);
         if heights.len() > count {
             break;
         }
@@ -203,6 +225,20 @@ fn read_tiff(bytes: &[u8]) -> Result<Raster, Wrong> {
     if key(MODEL_TYPE) == Some(GEOGRAPHIC) {
         return Err(wrong("whose coordinates are degrees", "project it to metres first, as to a national grid or UTM"));
     }
+    if let Some(unit) = key(LINEAR_UNIT).filter(|unit| *unit != METRE) {
+        return Err(wrong(
+            format!("whose coordinates are in the unit {unit} of EPSG, not in metres"),
+            "project it to a grid in metres first",
+        ));
+    }
+    let orientation = decoder_tag(&mut decoder, Tag::Orientation);
+    let white_is_zero = decoder_tag(&mut decoder, Tag::PhotometricInterpretation);
+    if orientation.is_some_and(|orientation| orientation != 1) || white_is_zero == Some(0) {
+        return Err(wrong(
+            "a TIFF that is turned or inverted",
+            "write it with the north up and the first row in the north, as GDAL does",
+        ));
+    }
     let no_data = decoder.get_tag_ascii_string(NO_DATA).ok();
     let no_data = no_data.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
     let values: Vec<f64> = match decoder.read_image().map_err(broken)? {
@@ -218,14 +254,18 @@ fn read_tiff(bytes: &[u8]) -> Result<Raster, Wrong> {
     if values.len() != columns * rows {
         return Err(wrong("a TIFF of several bands", "give the heights as one band"));
     }
-    let heights =
-        values.into_iter().map(|value| if no_data == Some(value) { f32::NAN } else { value as f32 }).collect();
+    let heights = values.into_iter().map(|value| height_of(value, no_data)).collect::<Result<_, _>>()?;
     // The known place is the corner of a cell, or its centre, counted from the north-west.
     let half = if key(RASTER_TYPE) == Some(OF_POINTS) { 0.0 } else { 0.5 };
     let cell = scale[0];
     let west = tie[3] + (half - tie[0]) * cell;
     let north = tie[4] - (half - tie[1]) * cell;
     Ok(Raster::new([west, north - cell * (rows - 1) as f64], cell, [columns, rows], heights))
+}
+
+/// A tag that is one number.
+fn decoder_tag(decoder: &mut Decoder<Cursor<&[u8]>>, tag: Tag) -> Option<u32> {
+    decoder.find_tag_unsigned(tag).ok().flatten()
 }
 
 #[cfg(test)]
@@ -247,6 +287,9 @@ mod tests {
             assert_relative_eq!(raster.height(place).unwrap(), height, max_relative = 1e-12);
         }
         assert_eq!((raster.height([1005.0, 2001.0]), raster.height([1000.0, 2001.0])), (None, None));
+        // What is told by nobody stands for no value as well.
+        let untold = read(GRID.replace("NODATA_value -9999\n", "").as_bytes()).unwrap();
+        assert_eq!(untold.height([1005.0, 2001.0]), None);
         let centred = GRID.replace("llcorner", "llcenter");
         assert_eq!(read(centred.as_bytes()).unwrap().first, [1000.0, 2000.0]);
     }
@@ -282,6 +325,7 @@ mod tests {
                 "look like degrees",
             ),
             ("hello".into(), "whose head gives no number for `hello`"),
+            (GRID.replace("4 5", "4 -3.4e38"), "which holds the height -3.4"),
         ] {
             let told = read(text.as_bytes()).unwrap_err().0;
             assert!(told.contains(found), "{told} instead of {found}");

@@ -3,6 +3,8 @@
 //! X runs level and downstream from the line between the barrier's ends, y across from the right bank to the left, and heights are plumb over
 //! the lowest ground on that line. Between the corners of the grid the ground is that of two triangles to each cell.
 
+/// Length over which a turn of the lowest line is told (m).
+const TURNS: f64 = 6.0;
 /// Least length of a piece of the lowest line (m).
 const REACH: f64 = 2.0;
 
@@ -143,6 +145,27 @@ impl Relief {
             corners.push([self.x(row), level]);
         }
         corners
+    }
+
+    /// The steepest rise between two neighbours of a row (m over a metre), and where it is along X.
+    pub fn steepest(&self) -> Option<[f64; 2]> {
+        let rise = |row: usize, column: usize| {
+            let [here, across] = [self.corner(row, column), self.corner(row, column + 1)];
+            let along = if row + 1 < self.rows { self.corner(row + 1, column) } else { here };
+            (across - here).abs().max((along - here).abs()) / self.step
+        };
+        let places = (0..self.rows).flat_map(|row| (0..self.columns - 1).map(move |column| (row, column)));
+        places.map(|(row, column)| [self.x(row), rise(row, column)]).max_by(|a, b| a[1].total_cmp(&b[1]))
+    }
+
+    /// Angle between the lowest line and X over pieces of some metres, at the most (rad).
+    pub fn most_turned(&self) -> f64 {
+        let apart = (TURNS / self.step).ceil().max(1.0) as usize;
+        let turned = |row: usize| {
+            let aside = self.y(self.thalweg[row + apart]) - self.y(self.thalweg[row]);
+            libm::atan2(aside, apart as f64 * self.step).abs()
+        };
+        (0..self.rows.saturating_sub(apart)).map(turned).fold(0.0, f64::max)
     }
 
     /// The row at X = 0.

@@ -320,3 +320,31 @@ fn a_million_cells_are_read_soon() {
     assert!(started.elapsed().as_secs_f64() < 5.0, "{:?}", started.elapsed());
     std::fs::remove_dir_all(folder).expect("the folder");
 }
+
+/// A hollow of the same depth beside the gully, beyond a crest, takes none of the flow.
+#[test]
+fn the_flow_starts_in_the_gully_alone() {
+    let grid = |second: bool| {
+        let mut text = "ncols 60\nnrows 60\nxllcenter 0\nyllcenter 0\ncellsize 1\n".to_string();
+        for row in 0..60 {
+            let north = 59 - row;
+            for column in 0..60 {
+                let from = |middle: i32| f64::from(((column - middle).abs() - 2).max(0)) * 0.8;
+                let beside = if second && north < 28 { from(42) } else { 9.0 };
+                text += &format!("{:.2} ", 200.0 - 0.3 * f64::from(north) + from(30).min(beside).min(9.0));
+            }
+        }
+        text
+    };
+    let text = include_str!("../designs/gully_terrain.yaml")
+        .replace("left_end: [2600072.75 m, 1200044.76 m]", "left_end: [24.5 m, 30 m]")
+        .replace("right_end: [2600067.25 m, 1200035.24 m]", "right_end: [35.5 m, 30 m]");
+    let length = |second: bool| {
+        let open = |_: &str| Ok(grid(second).into_bytes());
+        let file = read_design_for(Purpose::Simulation, "x.yaml", text.as_bytes(), &open);
+        let design = file.unwrap_or_else(|problems| panic!("{problems}")).design;
+        barrier_check::scene::flow::release::Block::of(&design.flow, &design.channel, 0.0).length
+    };
+    let [alone, beside] = [false, true].map(length);
+    assert_relative_eq!(alone, beside, max_relative = 0.02);
+}

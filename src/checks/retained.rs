@@ -60,6 +60,12 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     }
     // What the barrier does not store is held by friction upstream of it, as long as the flow is no wetter than the simulated one.
     let behind = stored(design);
+    if behind.is_nan() && (design.channel.profile.is_some()) {
+        return Some(Opening::NotGiven(
+            "the surface of the deposit does not meet the bed in the part of the channel that is known, so that what the barrier stores is not known (a terrain: raise channel.terrain.upstream, or put the ends further apart; a level reach: give the slope that follows it)".to_string(),
+        ));
+    }
+    let behind = if behind.is_nan() { 0.0 } else { behind };
     if behind < design.limits.retained_mass * flow.volume() {
         return Some(Opening::NotGiven(format!(
             "the barrier stores {behind:.0} m³ of its {:.0} m³, with the slope of the deposit that the design counts on, and the rest is held by friction upstream: a wetter flow of that volume would go over it (a higher barrier, or loads.deposit_slope and filled_height as they are known to be)",
@@ -97,7 +103,7 @@ fn stored(design: &Design) -> f64 {
     if let Some(left) = left_by_sag(design, &guideline(design)) {
         sagged.loads.filled_height = design.loads.filled_height.min(left);
     }
-    held(&sagged).map_or(0.0, |held| held.volume)
+    held(&sagged).map_or(f64::NAN, |held| held.volume)
 }
 
 #[cfg(test)]

@@ -110,7 +110,7 @@ pub fn walls_belong_to_a_width(e: &Entries) -> Option<Problem> {
 
 pub fn bed_is_told_of_points(e: &Entries) -> Option<Problem> {
     let path = "channel.bed_up_to";
-    (e.mentions(path) && !e.mentions(POINTS)).then(|| {
+    (e.mentions(path) && (!e.mentions(POINTS) || e.mentions("channel.terrain"))).then(|| {
         Problem::new(path, "what is bed, of a section that says so itself", "this key beside `section.points` only")
             .hint("leave it out")
     })

@@ -35,6 +35,10 @@ pub const FINE: usize = 4;
 const MOST_POINTS: f64 = 400_000.0;
 /// Stretch of the lowest line over which its slope at the barrier is the mean: upstream and downstream (m).
 const MEAN_SLOPE: [f64; 2] = [10.0, 3.0];
+/// Angle between the lowest line and the square to the barrier's line beyond which the section is none of the gully (rad): 25 degrees.
+const MOST_TURNED: f64 = 0.436;
+/// Rise of the ground over a metre beyond which it is no ground.
+const STEEPEST_STEP: f64 = 15.0;
 /// Length of a barrier (m).
 const LENGTHS: [f64; 2] = [1.0, 200.0];
 
@@ -96,8 +100,35 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
             "give the places in the two banks where the barrier is anchored".into(),
         ));
     }
-    let section =
-        (0..relief.columns()).rev().map(|column| [to_the_right(column), relief.corner(row, column) - lowest]).collect();
+    let aside = turned(&relief, line);
+    if aside.abs() > MOST_TURNED {
+        return Err((
+            "left_end",
+            format!(
+                "ends whose line is not square to the gully: just upstream its lowest line runs {:.0} degrees aside",
+                aside.abs().to_degrees()
+            ),
+            "put the ends so that the line between them crosses the gully at a right angle".into(),
+        ));
+    }
+    if let Some([x, rise]) = relief.steepest().filter(|[_, rise]| *rise > STEEPEST_STEP) {
+        return Err((
+            "file",
+            format!("with a step of {rise:.0} m to a metre, {x:.0} m from the barrier along the gully"),
+            "is there a value that stands for none? Tell it by `NODATA_value`, or take the step out".into(),
+        ));
+    }
+    let listed = |column: usize| [to_the_right(column), relief.corner(row, column) - lowest];
+    let mut section: Vec<[f64; 2]> = (0..relief.columns()).rev().map(listed).collect();
+    // Beyond its ends the ground is taken to go on rising: a hollow there is none of the gully.
+    let end = |right: f64| section.iter().position(|point| point[0] >= right).unwrap_or(0);
+    let (first, last) = (end(0.0), end(span));
+    for index in (0..first).rev() {
+        section[index][1] = section[index][1].max(section[index + 1][1]);
+    }
+    for index in last + 1..section.len() {
+        section[index][1] = section[index][1].max(section[index - 1][1]);
+    }
     let relief = Relief::sample([-step * before as f64, 0.0], step, [before + after + 1, across + 1], |x, y| {
         Some(height(x, y)? - lowest)
     })
@@ -111,6 +142,13 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
         ));
     }
     Ok(Terrain { relief: Arc::new(relief), section, slope })
+}
+
+/// Angle between the lowest line just upstream of the barrier and the square to its line (rad).
+fn turned(relief: &Relief, line: &[usize]) -> f64 {
+    let row = relief.row_of_the_barrier();
+    let far = (0..row).find(|row| relief.x(*row) >= -MEAN_SLOPE[0]).unwrap_or(row);
+    libm::atan2(relief.y(line[far]) - relief.y(line[row]), relief.x(row) - relief.x(far))
 }
 
 fn ends_are_inside(raster: &Raster, asked: &Asked) -> Result<(), Wrong> {

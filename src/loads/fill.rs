@@ -221,6 +221,8 @@ impl Reservoir {
         let (mut low, mut high) = (0.0, 1.0);
         loop {
             match holds(high) {
+                // On a raster it may have come to an edge: how high it stands is not known.
+                None if self.relief.is_some() => return f64::INFINITY,
                 // A surface that never meets the bed holds any volume: no deposit is higher than that.
                 None => break,
                 Some(held) if held >= volume => break,

@@ -275,12 +275,15 @@ fn storage(run: &Run) -> Option<Chart> {
     };
     let event = event_fill(design, &guideline.input);
     let note = format!(
-        "Design slope: at the barrier the deposit's surface falls at {:.1}°, the bed at {:.1}°. The filled barrier keeps {} of its {} (loads.filled_height). The event stands {} high with a level surface.{}",
+        "Design slope: at the barrier the deposit's surface falls at {:.1}°, the bed at {:.1}°. The filled barrier keeps {} of its {} (loads.filled_height). {}{}",
         held.deposit.surface.to_degrees(),
         held.deposit.slope.to_degrees(),
         with_unit(held.deposit.height, "m"),
         with_unit(top, "m"),
-        with_unit(event.level, "m"),
+        match event.level.is_finite() {
+            true => format!("The event stands {} high with a level surface.", with_unit(event.level, "m")),
+            false => "How high the event stands with a level surface is not known.".to_string(),
+        },
         if event.level > top { " That is more than the barrier's height." } else { "" }
     );
     Some(Chart::of("Storage curve", chart.svg(), note))

@@ -32,6 +32,7 @@ const WARNINGS: &[Warning] = &[
     escaped,
     run_up_over_the_banks,
     storage_without_an_end,
+    gully_turns,
     force_beyond_the_guideline,
     faster_flow_than_the_guideline_was_given,
     dissipators_used_up,
@@ -171,7 +172,21 @@ fn storage_without_an_end(run: &Run) -> Option<String> {
     let ends = run.guideline.retention.is_some();
     let reaches = design.channel.profile.is_some();
     (!ends && reaches).then(|| {
-        "The surface of the deposit (loads.deposit_slope) does not meet the bed upstream: the volume held behind the barrier is not told, and no check rests on it. A level reach has no end; give the slope that follows it.".to_string()
+        "The surface of the deposit (loads.deposit_slope) does not meet the bed in the part of the channel that is known: the volume held behind the barrier is not told, and no check rests on it. A level reach has no end: give the slope that follows it. A deposit that comes to the edge of a terrain needs more of it: raise channel.terrain.upstream, or put the ends further apart.".to_string()
+    })
+}
+
+/// Angle from which a bend of a gully is worth a word (rad): 15 degrees.
+const BEND: f64 = 0.262;
+
+/// Slopes and velocities are told square to the barrier, along which a bent gully does not run.
+fn gully_turns(run: &Run) -> Option<String> {
+    let turned = run.file.design.channel.relief.as_ref()?.most_turned();
+    (turned > BEND).then(|| {
+        format!(
+            "The lowest line of the terrain turns up to {:.0}° aside from the square to the barrier: slopes, distances and the velocity at the release are told along that square, so that a bent gully counts as steeper and shorter than it is. The ground of the simulation is not affected.",
+            turned.to_degrees()
+        )
     })
 }
 

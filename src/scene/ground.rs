@@ -89,12 +89,19 @@ pub fn survey_at(channel: &Channel, along: f64) -> Option<(Survey, f64)> {
     let (relief, profile) = (channel.relief.as_ref()?, channel.profile.as_ref()?);
     let there = profile.at(along);
     let upright = libm::cos(there.slope);
-    let heights = relief.across(there.x);
+    // Of the gully alone: a hollow beside it, beyond a crest, is none of it.
+    let lowest = relief.thalweg()[relief.nearest_row(there.x)];
+    let mut heights = relief.across(there.x);
+    for column in lowest + 1..heights.len() {
+        heights[column] = heights[column].max(heights[column - 1]);
+    }
+    for column in (0..lowest).rev() {
+        heights[column] = heights[column].max(heights[column + 1]);
+    }
     let width = relief.y(relief.columns() - 1);
     // As it is listed: from the left to the right.
     let listed: Vec<[f64; 2]> =
         heights.iter().enumerate().rev().map(|(column, z)| [width - relief.y(column), z * upright]).collect();
-    let lowest = heights.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(column, _)| column);
     Some((Survey::new(&listed, STEEPEST_BED), relief.y(lowest)))
 }
 

@@ -25,7 +25,7 @@ pub struct Plan<'a> {
 fn interval(range: f64) -> f64 {
     let rough = range / CONTOURS;
     let steps = [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 2.5, 5.0, 10.0, 20.0, 50.0];
-    steps.into_iter().find(|step| *step >= rough).unwrap_or(100.0)
+    steps.into_iter().find(|step| *step >= rough).unwrap_or(rough.max(0.1))
 }
 
 pub fn plan(drawn: &Plan) -> String {

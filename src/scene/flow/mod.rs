@@ -1,4 +1,4 @@
 //! The flow before it meets the barrier: grains of the wanted sizes, packed, settled and released.
 
 pub mod packing;
-pub(crate) mod release;
+pub mod release;
