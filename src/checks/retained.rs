@@ -60,13 +60,15 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     }
     // What the barrier does not store is held by friction upstream of it, as long as the flow is no wetter than the simulated one.
     let behind = stored(design);
-    if behind.is_nan() && (design.channel.profile.is_some()) {
+    if behind.is_none() && design.channel.profile.is_some() {
         return Some(Opening::NotGiven(
             "the surface of the deposit does not meet the bed in the part of the channel that is known, so that what the barrier stores is not known (a terrain: raise channel.terrain.upstream, or put the ends further apart; a level reach: give the slope that follows it)".to_string(),
         ));
     }
-    let behind = if behind.is_nan() { 0.0 } else { behind };
-    if behind < design.limits.retained_mass * flow.volume() {
+    let behind = behind.unwrap_or(0.0);
+    // Asked as "suffices", so that what is not a number does not.
+    let suffices = behind >= design.limits.retained_mass * flow.volume();
+    if !suffices {
         return Some(Opening::NotGiven(format!(
             "the barrier stores {behind:.0} m³ of its {:.0} m³, with the slope of the deposit that the design counts on, and the rest is held by friction upstream: a wetter flow of that volume would go over it (a higher barrier, or loads.deposit_slope and filled_height as they are known to be)",
             flow.volume()
@@ -97,13 +99,13 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     })
 }
 
-/// Volume behind the barrier (m³) with the design's slope of the deposit, and no more of its height than the top rope's sag leaves.
-fn stored(design: &Design) -> f64 {
+/// Volume behind the barrier (m³), where the deposit ends in the part of the channel that is known, with the design's slope of the deposit, and no more of its height than the top rope's sag leaves.
+fn stored(design: &Design) -> Option<f64> {
     let mut sagged = design.clone();
     if let Some(left) = left_by_sag(design, &guideline(design)) {
         sagged.loads.filled_height = design.loads.filled_height.min(left);
     }
-    held(&sagged).map_or(f64::NAN, |held| held.volume)
+    held(&sagged).map(|held| held.volume)
 }
 
 #[cfg(test)]
@@ -242,7 +244,7 @@ mod tests {
             let change = |design: &mut Design| {
                 (design.channel.slope, design.channel.base_friction) =
                     (20_f64.to_radians(), libm::tan(friction.to_radians()));
-                design.flow.mass *= share * stored(design) / 0.9 / design.flow.volume();
+                design.flow.mass *= share * stored(design).unwrap() / 0.9 / design.flow.volume();
                 design.flow.event_volume = design.flow.volume();
             };
             verdict(change, 1.0)
@@ -265,6 +267,6 @@ mod tests {
         let left = left_by_sag(&design, &guideline(&design)).expect("a load");
         let whole = held(&design).expect("a deposit").volume;
         assert!(left < 0.95, "{left}");
-        assert!((stored(&design) / (whole * left * left) - 1.0).abs() < 1e-9);
+        assert!((stored(&design).unwrap() / (whole * left * left) - 1.0).abs() < 1e-9);
     }
 }
