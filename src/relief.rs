@@ -53,6 +53,12 @@ impl Relief {
         relief
     }
 
+    /// The same with its heights counted from a level (m).
+    pub fn over(&self, level: f64) -> Self {
+        let heights = self.heights.iter().map(|height| height - level).collect();
+        Self { heights, ..self.clone() }
+    }
+
     pub fn rows(&self) -> usize {
         self.rows
     }

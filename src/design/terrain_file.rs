@@ -59,7 +59,6 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
     let downstream = [-rightwards[1], rightwards[0]];
     let area = (asked.upstream + asked.downstream) * (1.0 + 2.0 * BESIDE) * span;
     let step = (raster.cell / FINE as f64).max((area / MOST_POINTS).sqrt());
-    // Half a span of ground beside it, or as much as there is.
     let beside = BESIDE * span;
     // Whole cells of the ground of the simulation, which takes every so many points.
     let cells = |length: f64| (length / (FINE as f64 * step)).ceil() as usize * FINE;
@@ -88,7 +87,6 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
     })?;
     let row = relief.row_of_the_barrier();
     let line = relief.thalweg();
-    let lowest = relief.corner(row, line[row]);
     let to_the_right = |column: usize| span + beside - relief.y(column);
     let at = to_the_right(line[row]);
     if !(0.05 * span..=0.95 * span).contains(&at) {
@@ -115,25 +113,12 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
         return Err((
             "file",
             format!("with a step of {rise:.0} m to a metre, {x:.0} m from the barrier along the gully"),
-            "is there a value that stands for none? Tell it by `NODATA_value`, or take the step out".into(),
+            "if a number in the file stands for missing heights, name it in the header as `NODATA_value`; otherwise take the step out".into(),
         ));
     }
-    let listed = |column: usize| [to_the_right(column), relief.corner(row, column) - lowest];
-    let mut section: Vec<[f64; 2]> = (0..relief.columns()).rev().map(listed).collect();
-    // Beyond its ends the ground is taken to go on rising: a hollow there is none of the gully.
-    let end = |right: f64| section.iter().position(|point| point[0] >= right).unwrap_or(0);
-    let (first, last) = (end(0.0), end(span));
-    for index in (0..first).rev() {
-        section[index][1] = section[index][1].max(section[index + 1][1]);
-    }
-    for index in last + 1..section.len() {
-        section[index][1] = section[index][1].max(section[index - 1][1]);
-    }
-    let relief = Relief::sample([-step * before as f64, 0.0], step, [before + after + 1, across + 1], |x, y| {
-        Some(height(x, y)? - lowest)
-    })
-    .map_err(|_| ("file", "which has gaps".to_string(), String::new()))?;
-    let slope = slope_at_the_barrier(&relief, line);
+    let section = section_at_the_barrier(&relief, span, to_the_right);
+    let relief = relief.over(relief.corner(row, line[row]));
+    let slope = slope_at_the_barrier(&relief);
     if slope <= 0.0 {
         return Err((
             "left_end",
@@ -142,6 +127,25 @@ pub fn terrain(bytes: &[u8], asked: &Asked) -> Result<Terrain, Wrong> {
         ));
     }
     Ok(Terrain { relief: Arc::new(relief), section, slope })
+}
+
+/// The section on the line between the ends of a barrier, as [`Terrain::section`] has it.
+///
+/// Beyond the ends the ground is taken to go on rising: a hollow there is not part of the gully.
+fn section_at_the_barrier(relief: &Relief, span: f64, to_the_right: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
+    let row = relief.row_of_the_barrier();
+    let lowest = relief.corner(row, relief.thalweg()[row]);
+    let listed = |column: usize| [to_the_right(column), relief.corner(row, column) - lowest];
+    let mut section: Vec<[f64; 2]> = (0..relief.columns()).rev().map(listed).collect();
+    let end = |right: f64| section.iter().position(|point| point[0] >= right).unwrap_or(0);
+    let (first, last) = (end(0.0), end(span));
+    for index in (0..first).rev() {
+        section[index][1] = section[index][1].max(section[index + 1][1]);
+    }
+    for index in last + 1..section.len() {
+        section[index][1] = section[index][1].max(section[index - 1][1]);
+    }
+    section
 }
 
 /// Angle between the lowest line just upstream of the barrier and the square to its line (rad).
@@ -167,7 +171,8 @@ fn ends_are_inside(raster: &Raster, asked: &Asked) -> Result<(), Wrong> {
 }
 
 /// Slope of a straight line through the lowest line (rad), least squares.
-fn slope_at_the_barrier(relief: &Relief, line: &[usize]) -> f64 {
+fn slope_at_the_barrier(relief: &Relief) -> f64 {
+    let line = relief.thalweg();
     let near = |row: &usize| (-MEAN_SLOPE[0]..=MEAN_SLOPE[1]).contains(&relief.x(*row));
     let places: Vec<[f64; 2]> =
         (0..relief.rows()).filter(near).map(|row| [relief.x(row), relief.corner(row, line[row])]).collect();
