@@ -1,6 +1,6 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
-use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo};
+use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo, RunUp};
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
@@ -41,6 +41,10 @@ pub struct Guideline {
     pub dissipator: Option<[f64; 2]>,
     /// Whether a dissipator caps the load of its anchor: not where lateral ropes are tied to the anchors, past it.
     pub anchors_capped: bool,
+    /// Level that the event reaches in front of the barrier, run-up and deposit, normal to the bed (m), and whether it is known; where it is
+    /// not, as far as it is.
+    pub level: f64,
+    pub level_is_known: bool,
     /// What the barrier holds; nothing on a level bed.
     pub retention: Option<Retention>,
 }
@@ -97,6 +101,7 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     let extras = extras(design);
     let (width, section) = (design.channel.width, design.channel.section());
     let stages = envelope(&input, &extras);
+    let level = level_reached(design, &input);
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
         BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
@@ -131,6 +136,8 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
             BarrierDesign::RigidWall(_) => None,
         },
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
+        level: level.unwrap_or_else(|least| least),
+        level_is_known: level.is_ok(),
         retention: held(design),
         section,
     }
@@ -190,6 +197,22 @@ impl EventFill {
         let from = if self.several { self.level } else { 0.0 };
         self.level.max(self.heap.min(from + self.run_up))
     }
+}
+
+/// Level that the event reaches in front of the barrier, normal to the bed (m): that of its deposit with a level surface, or what its last
+/// surge runs up to from what the others left, whichever is higher.
+///
+/// # Errors
+/// A lower bound of it, where its deposit reaches beyond what is known of the channel.
+pub fn level_reached(design: &Design, input: &GuidelineInput) -> Result<f64, f64> {
+    let section = design.channel.section();
+    let run_up = match design.limits.run_up {
+        RunUp::Larger => run_up::bound(input, &section),
+        RunUp::MomentumJump => run_up::by_jump(input, &section),
+        RunUp::Energy => run_up::by_energy(input),
+    };
+    let reached = EventFill { run_up, ..event_fill(design, input) }.reach();
+    if reached.is_infinite() { Err(larger_or_nan(run_up, reservoir(design).higher_than())) } else { Ok(reached) }
 }
 
 pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {

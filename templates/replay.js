@@ -99,7 +99,8 @@
   });
   const groundFirst = 24, groundCount = ground.reduce((sum, piece) => sum + piece.corners.length / 3, 0);
   const top = head.wall[0];
-  const wall = quad([0, 0, 0], [0, w, 0], [top, w, h], [top, 0, h]);
+  const [right, left] = head.wall_ends;
+  const wall = quad([0, right, 0], [0, left, 0], [top, left, h], [top, right, h]);
   const sides = [0, w].flatMap(y => quad([back, y, 0], [front, y, 0], [front, y, h], [back, y, h]));
   const planeArray = attach(planes, 3, [["corner", 3]], 0);
   gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([...bed, ...sides, ...wall, ...ground.flatMap(piece => piece.corners)]), gl.STATIC_DRAW);

@@ -21,13 +21,9 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
         .map(|(index, demand)| {
             let id = format!("brake_{}_stroke", index + 1);
             let name = CheckName::of(&dissipator::STROKE, index, id, STROKE_DATA);
-            Outcome::at_most(
-                name,
-                *demand,
-                Resistance { characteristic: given.stroke, factor: 1.0 },
-                design.limits.dissipator_utilisation,
-            )
-            .of_rope(index)
+            let stroke = Resistance { characteristic: given.stroke, factor: 1.0 };
+            let outcome = Outcome::at_most(name, *demand, stroke, design.limits.dissipator_utilisation);
+            Outcome { kind: Kind::Stroke, ..outcome.of_rope(index) }
         })
         .collect()
 }

@@ -6,6 +6,7 @@ pub(crate) mod bolts;
 pub mod credibility;
 pub mod detailing;
 pub(crate) mod dissipators;
+pub(crate) mod freeboard;
 pub(crate) mod height;
 pub(crate) mod implausible;
 pub(crate) mod not_covered;
@@ -43,6 +44,7 @@ const CHECKS: &[Check] = &[
     bolts::check,
     retained::check,
     height::check,
+    freeboard::check,
 ];
 
 /// Holds the demands against all limits.

@@ -42,12 +42,16 @@ pub enum Kind {
     MassHeld,
     /// The share of its height that the barrier keeps.
     HeightLeft,
+    /// The level that the flow reaches in front of the barrier.
+    Level,
     /// The worst bolt of the lowest rope, whose load the equations spread evenly.
     Bolts,
     /// The lowest rope between its bolts, whose tension grows as the load of the worst bolt to the power of 2/3.
     BetweenBolts,
     /// The strength of a wall.
     WallStrength,
+    /// The stroke of the dissipators of a rope, which ends at its stop.
+    Stroke,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
     /// The tension of a free main rope, of the lateral ropes, of the net.

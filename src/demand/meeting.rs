@@ -60,6 +60,9 @@ impl Meeting<'_> {
             Some(Demanded::Worst) => {
                 vec![Demand { simulation: self.worst(&|seen| seen.one(quantity)), ..Demand::default() }]
             }
+            Some(Demanded::Level(by_equations)) => {
+                vec![self.level(by_equations(self.guideline), &|seen| seen.one(quantity))]
+            }
             Some(Demanded::Kept) => vec![self.kept(&|seen| seen.one(quantity))],
         }
     }
@@ -84,6 +87,19 @@ impl Meeting<'_> {
             simulation: spread(self.governing, read).map(|spread| self.factor * spread.upper()),
             characteristic: self.characteristic(read),
             cap: None,
+        }
+    }
+
+    /// A level, in the characteristic and in the factored case.
+    fn level(&self, guideline: f64, read: Read) -> Demand {
+        let upper = |observed: &[&Observed]| spread(observed, read).map(|spread| spread.upper());
+        let both = upper(self.governing).into_iter().chain(upper(&self.seen.characteristic));
+        let characteristic = upper(&self.seen.characteristic).filter(|_| !self.seen.factored.is_empty());
+        Demand {
+            guideline: Some(guideline),
+            simulation: both.reduce(larger_or_nan),
+            characteristic,
+            ..Demand::default()
         }
     }
 

@@ -62,7 +62,8 @@ pub fn height_of_barrier(e: &Entries) -> Option<f64> {
     let slope = e.number("channel.slope")?;
     let lean = |path: &str| e.number(path).map_or(0.0, |tilt| slope + tilt);
     if let Some(height) = e.number("barrier.rigid_wall.height") {
-        return Some(height * libm::cos(lean("barrier.rigid_wall.tilt")));
+        let plumb = e.mentions("channel.terrain") && !e.mentions("barrier.rigid_wall.tilt");
+        return Some(height * libm::cos(if plumb { slope } else { lean("barrier.rigid_wall.tilt") }));
     }
     let height = e.number(&at("height"))?;
     Some(height * libm::cos(lean(&at("tilt"))) + e.number(&at("bottom.opening")).unwrap_or(0.0))

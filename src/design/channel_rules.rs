@@ -45,11 +45,19 @@ pub fn terrain_tells_the_reaches(e: &Entries) -> Option<Problem> {
     })
 }
 
-pub fn terrain_takes_a_plumb_net(e: &Entries) -> Option<Problem> {
-    let path = at("tilt");
-    (e.mentions("channel.terrain") && e.number(&path)? != 0.0).then(|| {
-        Problem::new(path, "a net that leans, in a terrain", "0 deg: the section is taken plumb between the two ends")
-    })
+pub fn terrain_takes_a_plumb_barrier(e: &Entries) -> Option<Problem> {
+    if !e.mentions("channel.terrain") {
+        return None;
+    }
+    let leans = |path: &str| e.number(path).is_some_and(|angle| angle != 0.0);
+    let lean = [at("tilt"), "barrier.rigid_wall.tilt".to_string()].into_iter().find(|path| leans(path));
+    let base = "barrier.rigid_wall.stability.base_slope";
+    let (path, found) = match lean {
+        Some(path) => (path, "a barrier that leans, in a terrain"),
+        None if leans(base) => (base.to_string(), "a base that is not level, in a terrain"),
+        None => return None,
+    };
+    Some(Problem::new(path, found, "0 deg: the section is taken plumb between the two ends"))
 }
 
 pub fn terrain_takes_a_surge(e: &Entries) -> Option<Problem> {
@@ -64,7 +72,8 @@ const FOLLOWED: f64 = 3.0;
 
 pub fn terrain_goes_far_enough_downstream(e: &Entries) -> Option<Problem> {
     let path = "channel.terrain.downstream";
-    let least = FOLLOWED * e.number(&at("height"))? + 1.0;
+    let height = e.number(&at("height")).or_else(|| e.number("barrier.rigid_wall.height"))?;
+    let least = FOLLOWED * height + 1.0;
     (e.number(path)? < least).then(|| {
         Problem::new(
             path,
@@ -184,13 +193,6 @@ pub fn barrier_within_the_section(e: &Entries) -> Option<Problem> {
 
 fn path_of_section(e: &Entries, of_trapezoid: &str) -> String {
     if e.mentions(POINTS) { POINTS.to_string() } else { format!("channel.section.trapezoid.{of_trapezoid}") }
-}
-
-pub fn walls_stand_in_a_rectangle(e: &Entries) -> Option<Problem> {
-    (e.has_section("barrier.rigid_wall") && is_surveyed(e)).then(|| {
-        Problem::new("channel.section", "a rigid wall across a surveyed section", "a net, or a channel with a `width`")
-            .hint("a wall is modelled between vertical side walls only: give `width` and `wall_height` of the rectangle that it closes")
-    })
 }
 
 pub fn strips_lie_on_vertical_walls(e: &Entries) -> Option<Problem> {

@@ -383,11 +383,24 @@ pub struct Limits {
     pub retained_mass: f64,
     /// Least height left over the initial height, both normal to the bed.
     pub residual_height: f64,
+    /// By which the barrier must rise above the level of the event, normal to the bed (m), where that is asked for.
+    pub freeboard: Option<f64>,
+    /// How the run-up for that is worked out.
+    pub run_up: RunUp,
     pub rope_utilisation: f64,
     pub anchor_utilisation: f64,
     /// Greatest share of the stroke that may be used.
     pub dissipator_utilisation: f64,
     pub outside_range: OutsideRange,
+}
+
+/// The balance by which a flow's run-up is worked out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunUp {
+    /// The larger of both.
+    Larger,
+    MomentumJump,
+    Energy,
 }
 
 /// What becomes of a check that a formula governs outside the range it is known for.

@@ -11,7 +11,7 @@ use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
     Factors, FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, Project,
-    RigidWall, Rope, SideExtension, SimulationWishes, Stability, Surge,
+    RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -157,6 +157,8 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             (Some(tilt), _) => slope + tilt,
             // One that stands by its weight stands upright on its base.
             (None, Some(Some(stability))) => slope - stability.base_slope.unwrap_or(0.0),
+            // In a terrain the section is taken plumb.
+            (None, _) if e.mentions("channel.terrain") => slope,
             (None, _) => 0.0,
         },
         segment_tops: segment_tops.collect(),
@@ -240,6 +242,12 @@ fn limits(e: &Entries) -> Option<Limits> {
     Some(Limits {
         retained_mass: value("retained_mass")?,
         residual_height: value("residual_height")?,
+        freeboard: value("freeboard"),
+        run_up: match e.text("limits.run_up")? {
+            "momentum_jump" => RunUp::MomentumJump,
+            "energy" => RunUp::Energy,
+            _ => RunUp::Larger,
+        },
         rope_utilisation: value("rope_utilisation")?,
         anchor_utilisation: value("anchor_utilisation")?,
         dissipator_utilisation: value("dissipator_utilisation")?,

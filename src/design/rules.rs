@@ -1,7 +1,7 @@
 //! Contradictions between values, each rule one function. A rule whose values are missing or wrong keeps
 //! silent: that was already reported.
 
-use crate::design::channel_entries::{height_of_sides, profile, section};
+use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, quantiles, size_curve};
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
@@ -19,7 +19,7 @@ pub const RULES: &[Rule] = &[
     channel_rules::width_section_or_terrain,
     channel_rules::slope_is_given,
     channel_rules::terrain_tells_the_reaches,
-    channel_rules::terrain_takes_a_plumb_net,
+    channel_rules::terrain_takes_a_plumb_barrier,
     channel_rules::terrain_takes_a_surge,
     channel_rules::terrain_goes_far_enough_downstream,
     channel_rules::terrain_goes_far_enough_upstream,
@@ -31,7 +31,6 @@ pub const RULES: &[Rule] = &[
     channel_rules::both_banks_are_there,
     channel_rules::section_has_a_width,
     channel_rules::barrier_within_the_section,
-    channel_rules::walls_stand_in_a_rectangle,
     channel_rules::strips_lie_on_vertical_walls,
     channel_rules::ropes_of_cylinders_are_straight,
     channel_rules::lowest_rope_has_a_length,
@@ -56,6 +55,8 @@ pub const RULES: &[Rule] = &[
     wall_rules::wall_face_stands_on_its_base,
     point_load_on_the_barrier,
     self_weight_of_a_net,
+    freeboard_is_of_an_emptied_barrier,
+    freeboard_within_the_barrier,
     overflow_has_friction_and_length,
     net_rules::mesh_within_the_barrier,
     net_rules::main_ropes_counted_once,
@@ -273,6 +274,28 @@ fn self_weight_of_a_net(e: &Entries) -> Option<Problem> {
     (e.mentions(path) && e.has_section("barrier.rigid_wall")).then(|| {
         Problem::new(path, "the weight of a rigid wall".to_string(), "this key for a net only")
             .hint("a wall's weight follows from barrier.rigid_wall.stability")
+    })
+}
+
+/// Over a barrier that earlier events have filled every surge goes.
+fn freeboard_is_of_an_emptied_barrier(e: &Entries) -> Option<Problem> {
+    let path = "limits.freeboard";
+    (e.mentions(path) && e.text("loads.filling") == Some("to_the_top")).then(|| {
+        Problem::new(
+            path,
+            "a freeboard of a barrier that is filled to its top (loads.filling: to_the_top)",
+            "this key beside `loads.filling: one_event` only",
+        )
+        .hint("surges go over a barrier that is full: say loads.filling: one_event if it is cleared after each event, or leave the freeboard out")
+    })
+}
+
+fn freeboard_within_the_barrier(e: &Entries) -> Option<Problem> {
+    let path = "limits.freeboard";
+    let (freeboard, height) = (e.number(path)?, height_of_barrier(e)?);
+    (freeboard >= height).then(|| {
+        Problem::new(path, length(freeboard), format!("less than the barrier's height over the bed, {}", length(height)))
+            .hint("is the unit right?")
     })
 }
 

@@ -524,6 +524,17 @@ const UTILISATION: Kind = quantity(D::Share, 0.01, 1.0);
 const LIMITS: &[Key] = &[
     Key::default("retained_mass", quantity(D::Share, 0.0, 1.0), "90 %", "least share of the mass that must be held"),
     Key::default("residual_height", quantity(D::Share, 0.0, 1.0), "50 %", "least height left over initial height"),
+    Key::optional(
+        "freeboard",
+        quantity(D::Length, 0.0, 20.0),
+        "height, normal to the bed, by which the barrier must rise above the level that the event reaches in front of it: run-up and deposit are checked against the barrier's height only where this is given",
+    ),
+    Key::default(
+        "run_up",
+        Kind::Choice(&["larger", "momentum_jump", "energy"]),
+        "larger",
+        "how the run-up for that check is worked out: by a momentum jump, by energy, or the larger of both",
+    ),
     Key::default("rope_utilisation", UTILISATION, "100 %", "greatest tension over design resistance of ropes and net"),
     Key::default("anchor_utilisation", UTILISATION, "100 %", "greatest load over design resistance of anchors"),
     Key::default(

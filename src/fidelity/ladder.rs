@@ -10,7 +10,6 @@ use crate::checks::not_covered::rigid_wall::SIMULATIONS_REACH;
 use crate::checks::outcome::{CheckVerdict, Kind, Opening, Outcome, Route};
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
 use crate::fidelity::{needed_pieces, net_pieces};
-use crate::quantities::quantity::Unit;
 
 /// How far off a rung may be: what a finer one may say over what this one says, less one, upwards and downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -235,13 +234,13 @@ impl Rung {
             None => used - self.above.share / (1.0 - capacity).max(1e-9) > 1.0,
             // A stroke that is used up would be longer if there were more of it.
             Some((resistance, _))
-                if outcome.unit == Unit::Metre
+                if outcome.kind == Kind::Stroke
                     && outcome.demand.simulation >= Some(0.999 * resistance.characteristic) =>
             {
                 true
             }
             Some(_) => {
-                let above = if outcome.unit == Unit::Metre { self.above.stroke } else { self.above.force };
+                let above = if outcome.kind == Kind::Stroke { self.above.stroke } else { self.above.force };
                 used / (1.0 + above) > 1.0
             }
         }
@@ -266,10 +265,10 @@ impl Rung {
         if self.starts == 0 && outcome.verdict == CheckVerdict::Open {
             return Answer::Open;
         }
-        let band = match outcome.unit {
+        let band = match outcome.kind {
             _ if outcome.is_of_a_wall() => self.on_a_wall,
-            _ if outcome.kind == Kind::NetRopes => self.of_the_net,
-            Unit::Metre => self.band.stroke,
+            Kind::NetRopes => self.of_the_net,
+            Kind::Stroke => self.band.stroke,
             _ => self.band.force,
         };
         let used_by = |demand: Option<f64>| demand.map(|demand| demand / capacity);
@@ -329,6 +328,7 @@ pub struct Step {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quantities::quantity::Unit;
     use crate::checks::outcome::{CheckName, Resistance};
     use crate::demand::Demand;
 
@@ -425,6 +425,7 @@ mod tests {
         let demand = Demand { simulation: Some(2.5), ..Demand::default() };
         let stroke = Resistance { characteristic: 2.5, factor: 1.0 };
         let used_up = Outcome::at_most(CheckName::new("x", "x", Unit::Metre, "x"), demand, stroke, 0.9);
+        let used_up = Outcome { kind: Kind::Stroke, ..used_up };
         assert_eq!(after(rung("grains"), used_up), CheckVerdict::Fail);
     }
 

@@ -221,8 +221,15 @@ impl Reservoir {
         let (mut low, mut high) = (0.0, 1.0);
         loop {
             match holds(high) {
-                // On a raster it may have come to an edge: how high it stands is not known.
-                None if self.relief.is_some() => return f64::INFINITY,
+                // On a raster it may have come to an edge: beyond the highest that is known, how high it stands is not.
+                None if self.relief.is_some() => {
+                    let known = self.highest_known(surface, [low, high]);
+                    if holds(known).is_none_or(|held| held < volume) {
+                        return f64::INFINITY;
+                    }
+                    high = known;
+                    break;
+                }
                 // A surface that never meets the bed holds any volume: no deposit is higher than that.
                 None => break,
                 Some(held) if held >= volume => break,
@@ -261,6 +268,25 @@ impl Reservoir {
             }
         }
         high
+    }
+
+    /// The largest height of a deposit whose end is known, between one that is known and one that is not (m).
+    fn highest_known(&self, surface: Surface, [mut known, mut unknown]: [f64; 2]) -> f64 {
+        while unknown - known > 1e-3 * unknown {
+            let middle = 0.5 * (known + unknown);
+            if self.stored(middle, surface, 0.0).is_some() { known = middle } else { unknown = middle }
+        }
+        known
+    }
+
+    /// Height that a deposit with a level surface surely has whose height is not known: of the largest that the raster tells of (m).
+    pub fn higher_than(&self) -> f64 {
+        let level = Surface::Plane(0.0);
+        let mut high = 1e-3;
+        while high < 1e4 && self.stored(high, level, 0.0).is_some() {
+            high *= 2.0;
+        }
+        self.highest_known(level, [0.0, high])
     }
 
     /// What the barrier holds up to a height, nothing where the surface does not meet the bed.

@@ -16,6 +16,7 @@ pub mod other_ropes;
 pub mod quantity;
 pub mod reading;
 pub mod rope_tension;
+pub mod run_up;
 pub mod total_force;
 pub mod wall;
 pub mod wear;
@@ -41,6 +42,7 @@ pub const QUANTITIES: &[&Quantity] = &[
     &mass::LOST_OVER,
     &height::TOP_ROPE,
     &height::RESIDUAL,
+    &run_up::LEVEL,
     &rope_tension::PEAK,
     &rope_tension::MEAN_PEAK,
     &rope_tension::MEAN_RESIDUAL,

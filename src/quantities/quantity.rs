@@ -93,6 +93,8 @@ pub enum Demanded {
     Plateau,
     /// What must not happen in any packing: the worst of them.
     Worst,
+    /// A level that is reached, with no factor: the value that the next packing of either case exceeds with a probability of 5 %.
+    Level(fn(&Guideline) -> f64),
     /// A share that must be kept: the value that the next packing falls below with a probability of 5 %.
     Kept,
 }

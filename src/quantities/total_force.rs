@@ -2,6 +2,8 @@
 
 use crate::quantities::quantity::Unit::{Newton, NewtonPerMetre, Second};
 use crate::quantities::quantity::{Demanded, Of, Quantity, Told};
+use crate::quantities::wall;
+use crate::section::Section;
 use dem::recorders::histories::{peak, tail_mean};
 
 /// Largest total force of the smoothed signal.
@@ -46,7 +48,13 @@ pub const PUSH_RESIDUAL: Quantity =
 /// Normal to the face of a wall, on the metre that takes the most.
 pub const ON_A_METRE: Quantity =
     Quantity::new("wall_local_peak", "Largest force on a metre of the wall", NewtonPerMetre, Of::Run, |run| {
-        vec![peak(&run.smooth).1 / run.guideline.width]
+        vec![match &run.guideline.section {
+            Section::Rectangle { .. } => peak(&run.smooth).1 / run.guideline.width,
+            Section::Surveyed(_) => {
+                let forces = run.force.iter().zip(wall::metre_widths(run));
+                peak(&run.smoothed(&forces.map(|(force, width)| force / width).collect::<Vec<_>>())).1
+            }
+        }]
     })
     .demanded(Demanded::Load(|guideline, factors| {
         Some(factors.load * (guideline.metre_force / libm::cos(guideline.lean)))

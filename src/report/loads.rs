@@ -5,18 +5,16 @@ use serde::Serialize;
 use crate::checks::between_bolts::{concentration, tension_between};
 use crate::checks::detailing;
 use crate::design::BarrierDesign;
-use crate::guideline::{RopeLoad, event_fill, wall_of};
+use crate::guideline::{RopeLoad, wall_of};
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
-use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::other_models::MODELS;
 use crate::loads::rope::RopeInput;
-use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::quantities::bed;
 use crate::report::numbers::{figures, percent, with_unit};
 use crate::report::plots::pressure::pressure_diagram;
-use crate::report::row::{Row, lower_first, row};
+use crate::report::row::{Row, lower_first};
 use crate::section::Section;
 use crate::sensitivity;
 
@@ -355,95 +353,6 @@ pub fn other_models(run: &Run) -> Vec<ModelRow> {
         }
     };
     MODELS.iter().map(row).collect()
-}
-
-/// What the barrier holds, and what a flow of this volume is like by rules of thumb.
-pub fn holding(run: &Run) -> Vec<Row> {
-    let design = &run.file.design;
-    let mut rows = Vec::new();
-    if let Some(held) = run.guideline.retention {
-        let formula = match (&design.channel.survey, &design.channel.profile) {
-            (None, None) => format!("V = ½ b H² (cot(α − α') + tan ε), b = {} the width", with_unit(design.channel.width, "m")),
-            (Some(_), None) => format!(
-                "V = S (cot(α − α') + tan ε), S = {} the first moment of the section's area up to H about its surface",
-                with_unit(run.guideline.section.moment(held.deposit.height), "m³")
-            ),
-            (_, Some(_)) => "summed along the bed, the area of the section under the deposit's surface at every place, reach by reach".to_string(),
-        };
-        rows.push(row(
-            "Volume held behind the barrier",
-            with_unit(held.volume, "m³"),
-            format!(
-                "{formula}, H = {} the height of the sagged net when full (loads.filled_height), α = {:.1}° the slope of the bed, α' = {:.1}° that of the deposit's surface (loads.deposit_slope), ε = {:.1}° the lean of the barrier from the bed's normal; over {} of channel. Defaults are from practice, not verified",
-                with_unit(held.deposit.height, "m"),
-                held.deposit.slope.to_degrees(),
-                held.deposit.surface.to_degrees(),
-                held.deposit.lean.to_degrees(),
-                with_unit(held.length, "m")
-            ),
-        ));
-        rows.push(row(
-            "Storage capacity, in design surges",
-            figures(held.surges),
-            format!(
-                "of {} each, the design flow; the event has {}",
-                with_unit(design.flow.volume(), "m³"),
-                with_unit(design.flow.event_volume, "m³")
-            ),
-        ));
-    }
-    let input = &run.guideline.input;
-    let event = event_fill(design, input);
-    rows.push(row(
-        "Run-up on the barrier",
-        format!("{} / {}", with_unit(run_up::by_jump(input, &run.guideline.section), "m"), with_unit(run_up::by_energy(input), "m")),
-        "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; dry friction is left out",
-    ));
-    let one_event = event.height();
-    rows.push(row(
-        "Freeboard after one event",
-        with_unit(input.barrier_height - one_event, "m"),
-        format!(
-            "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier, its surface falling upstream at {:.1}° (flow.grain_friction), to {}, but no higher than the larger run-up; with a level surface {}. No guideline value was found",
-            with_unit(input.barrier_height, "m"),
-            with_unit(event.height(), "m"),
-            libm::atan(design.flow.grain_friction).to_degrees(),
-            if event.heap.is_finite() { with_unit(event.heap, "m") } else { "no limit".into() },
-            with_unit(event.level, "m"),
-        ),
-    ));
-    rows.extend(estimates(run));
-    rows
-}
-
-/// Velocity and depth by other ways, for comparison.
-fn estimates(run: &Run) -> Vec<Row> {
-    let design = &run.file.design;
-    let mut rows = Vec::new();
-    let slope = design.channel.slope;
-    if slope > 0.0 {
-        for estimate in peak_discharge(design.flow.event_volume) {
-            let [velocity, depth] = velocity_and_depth(estimate.value, slope, &run.guideline.section);
-            rows.push(row(
-                format!("Estimate from the volume alone: {}", estimate.name),
-                with_unit(estimate.value, "m³/s"),
-                format!(
-                    "{}; with v = 2.1 Q^0.33 S^0.33: {} and {} deep; not checked against the original, and not used in any check",
-                    estimate.formula,
-                    with_unit(velocity, "m/s"),
-                    with_unit(depth, "m")
-                ),
-            ));
-        }
-        let depth = run.guideline.input.depth;
-        let [rough, smooth] = [0.18, 0.05].map(|n| manning_strickler(depth, slope, n));
-        rows.push(row(
-            "Estimate from the depth: Manning-Strickler",
-            format!("{} to {}", with_unit(rough, "m/s"), with_unit(smooth, "m/s")),
-            "v = h^⅔ S^½/n, n 0.18 to 0.05; not checked against the original, and not used in any check",
-        ));
-    }
-    rows
 }
 
 pub fn rules(run: &Run) -> Vec<RuleRow> {

@@ -3,6 +3,7 @@
 pub(crate) mod compare;
 pub(crate) mod findings;
 pub(crate) mod folder;
+pub(crate) mod holding;
 pub mod json;
 pub(crate) mod kind;
 pub(crate) mod loads;

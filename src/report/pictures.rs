@@ -6,7 +6,7 @@ use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::{BarrierDesign, Bottom, Channel};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
-use crate::quantities::{mass, total_force};
+use crate::quantities::{mass, total_force, wall};
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::escape;
@@ -145,11 +145,14 @@ fn wall_charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     if histories.barrier.rows(&of_wall::SEGMENTS).is_empty() {
         return Vec::new();
     }
-    let width = run.file.design.channel.width;
+    let design = &run.file.design;
     let window = crate::scene::build::SAMPLES_PER_WINDOW as usize;
-    let per_width = |row: &[f64]| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
-    let segments: Vec<Vec<f64>> = histories.barrier.rows(&of_wall::SEGMENTS).iter().map(|row| per_width(row)).collect();
-    let moment = per_width(histories.barrier.series(&of_wall::MOMENT));
+    let over =
+        |row: &[f64], width: f64| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
+    let segments = histories.barrier.rows(&of_wall::SEGMENTS).iter().enumerate();
+    let segments: Vec<Vec<f64>> = segments.map(|(index, row)| over(row, wall::segment_width(design, index))).collect();
+    let (moment, width) = wall::metre_moment(histories, design);
+    let moment = over(moment, width);
     let chart = |title: &'static str, label, units: [&'static str; 2], series: Vec<Series>, note: &str| {
         let largest = series.iter().flat_map(|series| series.values).copied().fold(0.0, f64::max);
         let (unit, factor) = if largest < 2000.0 { (units[0], 1.0) } else { (units[1], 1e-3) };
@@ -335,9 +338,10 @@ pub fn replay(run: &Run, seen: &Simulated) -> Option<Replay> {
         }
         BarrierDesign::FlexibleNet(_) => None,
     };
+    let wall_ends = run.guideline.section.banks(run.guideline.input.barrier_height);
     let film = &seen.histories.film;
     let ground = channel.ground().map_or(Vec::new(), |_| pieces(channel, film.stretch()));
-    pack(film, &Stage { width: channel.width, ground, slope: channel.slope, wall })
+    pack(film, &Stage { width: channel.width, ground, slope: channel.slope, wall, wall_ends })
 }
 
 fn split_chart(seen: &Simulated) -> Chart {

@@ -58,6 +58,8 @@ struct Head {
     width: f64,
     slope: f64,
     wall: [f64; 2],
+    /// Where the wall ends across the channel (m).
+    wall_ends: [f64; 2],
 }
 
 /// The channel that the film was taken in.
@@ -71,6 +73,8 @@ pub struct Stage {
     pub slope: f64,
     /// Top of a rigid wall over its foot (m along the channel, m normal to the bed), if that is the barrier.
     pub wall: Option<[f64; 2]>,
+    /// Where it ends across the channel (m).
+    pub wall_ends: [f64; 2],
 }
 
 /// Packs a film, with fewer frames if it would be too large; nothing if there is too little to show.
@@ -164,6 +168,7 @@ impl<'a> Packer<'a> {
             width: stage.width,
             slope: stage.slope,
             wall: stage.wall.unwrap_or_default(),
+            wall_ends: stage.wall_ends,
         };
         let mut bytes = Vec::new();
         for axis in 0..3 {

@@ -284,7 +284,7 @@ fn storage(run: &Run) -> Option<Chart> {
             true => format!("The event stands {} high with a level surface.", with_unit(event.level, "m")),
             false => "How high the event stands with a level surface is not known.".to_string(),
         },
-        if event.level > top { " That is more than the barrier's height." } else { "" }
+        if event.level.is_finite() && event.level > top { " That is more than the barrier's height." } else { "" }
     );
     Some(Chart::of("Storage curve", chart.svg(), note))
 }

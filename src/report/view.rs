@@ -4,14 +4,14 @@ use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, used, w
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::design::entries::Origin;
 use crate::design::read::sha256;
 use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
-use crate::quantities::quantity::Unit;
+use crate::report::holding;
 use crate::report::loads::{self, CaseRow, ModelRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, with_scatter, with_unit};
 use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
@@ -156,7 +156,7 @@ impl View {
             ropes: loads::ropes(run),
             other_models: loads::other_models(run),
             wall: loads::wall(run),
-            holding: loads::holding(run),
+            holding: holding::rows(run),
             start: run.simulated.as_ref().map_or(String::new(), start_named),
             by_starts: run.simulated.as_ref().map_or(String::new(), by_starts),
             rules: loads::rules(run),
@@ -319,7 +319,7 @@ fn check_row(outcome: &Outcome) -> CheckRow {
     let show = |value: Option<f64>| value.map_or("–".to_string(), |value| with_unit(value, outcome.unit.symbol()));
     // A stroke ends where there is no more of it: the demand is at least that.
     let stroke =
-        outcome.resistance.filter(|_| outcome.unit == Unit::Metre).map(|(resistance, _)| resistance.characteristic);
+        outcome.resistance.filter(|_| outcome.kind == Kind::Stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = |demand: Option<f64>| stroke.zip(demand).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     let demand =
         |demand: Option<f64>| if used_up(demand) { format!("≥ {}, used up", show(demand)) } else { show(demand) };

@@ -11,7 +11,7 @@ use crate::scene::flow::release::{Block, packed_block, shape};
 use crate::scene::ground::{self, bed_at};
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
-use crate::section::Survey;
+use crate::section::{Section, Survey};
 use crate::units::GRAVITY;
 use dem::Vec3;
 use dem::elements::ground::{Ground, Plane};
@@ -24,6 +24,7 @@ use dem::tables::barrier::Barrier;
 use dem::tables::grains::Grain;
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use dem::tables::terrain::Terrain;
+use dem::tables::wall::WallShape;
 
 /// A simulation at the moment of release.
 pub struct Scene {
@@ -163,10 +164,7 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
             friction: flow.grain_friction,
         },
         gravity: gravity(design.channel.slope),
-        wall_levels: match &design.barrier {
-            BarrierDesign::RigidWall(wall) => wall.segment_tops.clone(),
-            BarrierDesign::FlexibleNet(_) => Vec::new(),
-        },
+        wall: wall_shape(design),
         outlet: outlet(design),
     };
     let mean_radius = 0.42 * flow.sizes.quantile(0.5);
@@ -198,6 +196,24 @@ fn tail_time(s: f64, v: f64, slowed: f64) -> f64 {
     }
     let left = v * v - 2.0 * slowed * s;
     if left > 0.0 { 2.0 * s / (v + left.sqrt()) } else { v / slowed }
+}
+
+/// Heights at which the width of a wall in a surveyed section is told.
+const WALL_WIDTHS: usize = 64;
+
+/// The wall of the design, with its width at each height where it closes a section that is no rectangle.
+fn wall_shape(design: &Design) -> WallShape {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return WallShape::default() };
+    let section = design.channel.section();
+    let width = |index: usize| section
+            .width(wall.height * libm::cos(wall.lean) * index as f64 / WALL_WIDTHS as f64)
+            // In a groove no narrower than a grain, which touches it higher up.
+            .max(design.flow.sizes.quantile(0.5));
+    let widths = match &section {
+        Section::Rectangle { .. } => Vec::new(),
+        Section::Surveyed(_) => (0..=WALL_WIDTHS).map(width).collect(),
+    };
+    WallShape { segment_tops: wall.segment_tops.clone(), widths }
 }
 
 /// How far upstream of its foot the barrier reaches (m).
@@ -262,6 +278,9 @@ fn terrain_of(design: &Design, survey: &Survey, block: &Block) -> Terrain {
     ground::ground_of(channel, survey, along, friction)
 }
 
+/// How far a wall goes on into its banks (m).
+const INTO_THE_BANK: f64 = 0.05;
+
 /// Base, side walls, back wall and gate, and the rigid wall if that is the barrier.
 fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     let channel = &design.channel;
@@ -290,7 +309,15 @@ fn surfaces(design: &Design, block: &Block) -> Vec<Surface> {
     if let BarrierDesign::RigidWall(wall) = &design.barrier {
         let (sine, cosine) = libm::sincos(wall.lean);
         let (up, upstream) = (z * cosine - x * sine, -x * cosine - z * sine);
-        let spans = [Span::bounded(up, 0.0, wall.height), across];
+        // Into the ground at either end, and no further: what lies beyond a crest is none of the wall's.
+        let width = match channel.section() {
+            Section::Rectangle { .. } => across,
+            section @ Section::Surveyed(_) => {
+                let [right, left] = section.banks(wall.height * cosine);
+                Span::bounded(y, right - INTO_THE_BANK, left + INTO_THE_BANK)
+            }
+        };
+        let spans = [Span::bounded(up, 0.0, wall.height), width];
         all.push(Surface::new(SurfaceRole::Wall, Vec3::zeros(), upstream, spans, channel.barrier_friction));
     }
     all
@@ -362,7 +389,12 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         net_rows: net.map_or(Vec::new(), |net| net.rows),
         wall: match &design.barrier {
             BarrierDesign::RigidWall(wall) => {
-                Some(WallFace { height: wall.height, width: design.channel.width, lean: wall.lean })
+                let width = if let Some(survey) = design.channel.ground() {
+                    Section::Surveyed(survey).breadth()
+                } else {
+                    design.channel.width
+                };
+                Some(WallFace { height: wall.height, width, lean: wall.lean })
             }
             BarrierDesign::FlexibleNet(_) => None,
         },
@@ -373,6 +405,7 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         bolted: section.bed_ends(),
         incoming: window(INCOMING),
         approaching: window(APPROACHING),
+        at_the_barrier: GaugeWindow { near: -bulge, far: lean + INCOMING[0] * height, ..window(INCOMING) },
         deposit: GaugeWindow { near: -bulge, far: lean + DEPOSIT[1] * height, ..window(INCOMING) },
         mass: design.flow.mass,
         side_walls: design.channel.wall_height,

@@ -8,6 +8,7 @@ use crate::tables::fixed::Fixed;
 use crate::tables::grains::{Grain, GrainShape};
 use crate::tables::surfaces::Surface;
 use crate::tables::terrain::Terrain;
+use crate::tables::wall::WallShape;
 
 /// What the grains are made of, as contacts feel it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,8 +38,8 @@ pub struct Model {
     pub material: Material,
     /// m/s², in the channel frame.
     pub gravity: Vec3,
-    /// Tops of the rigid wall's segments from the bottom (m); empty without a rigid wall.
-    pub wall_levels: Vec<f64>,
+    /// How forces on a rigid wall are told apart.
+    pub wall: WallShape,
     /// Grains beyond this x are taken out of the model (m).
     pub outlet: f64,
 }
@@ -59,7 +60,7 @@ impl Model {
             barrier: None,
             material: Material { modulus: 1e8, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 },
             gravity: Vec3::zeros(),
-            wall_levels: Vec::new(),
+            wall: WallShape::default(),
             outlet: f64::INFINITY,
         }
     }

@@ -301,7 +301,7 @@ impl Simulation {
     fn gather_sums(&mut self) {
         let mut contacts = ContactSums::default();
         let surfaces = &mut self.sums.surfaces;
-        surfaces.reset(self.model.wall_levels.len());
+        surfaces.reset(self.model.wall.segment_tops.len());
         for block in &self.neighbours.blocks {
             contacts.add(&block.sums);
             surfaces.add(&block.surface_forces);

@@ -141,9 +141,9 @@ impl<'a> BlockForces<'a> {
             modulus: material.modulus,
             grain_friction: material.friction,
             clock: clocks.fixed,
-            wall_levels: &model.wall_levels,
+            wall: &model.wall,
         };
-        block.surface_forces.reset(model.wall_levels.len());
+        block.surface_forces.reset(model.wall.segment_tops.len());
         sums.add(&load_surfaces(&mut block.surfaces, &surfaces, &block.grains, loads, &mut block.surface_forces));
         if let Some(barrier) = &model.barrier {
             let context = RopeContext {

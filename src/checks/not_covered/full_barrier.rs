@@ -69,6 +69,8 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
     match outcome.kind {
         // The share held has its own rule: what a full barrier does not hold is not asked for.
         Kind::MassHeld | Kind::DissipatorTension => return None,
+        // A level does not grow with the load; what surges over a deposit reach is in the equations.
+        Kind::Level => return None,
         // A net that sinks in by a share under the first surge sinks in by that much more when it is full.
         Kind::HeightLeft => {
             let lost = |band: f64| more * (1.0 - demand + band) / (1.0 - capacity).max(1e-9);
@@ -81,6 +83,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         | Kind::MainRope
         | Kind::LateralRopes
         | Kind::NetRopes
+        | Kind::Stroke
         | Kind::OnTheBase => {}
     }
     // The equations spread the load evenly over the bolts, so theirs is no measure of the worst one.
@@ -93,9 +96,9 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         (if full > cap { cap } else { full }) / capacity
     };
     // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them, whichever run it is.
-    let band = match outcome.unit {
+    let band = match outcome.kind {
         _ if known => seen.one_run,
-        Unit::Metre => seen.stroke_band,
+        Kind::Stroke => seen.stroke_band,
         _ => seen.force_band,
     };
     Some([used(0.0), used(band)])

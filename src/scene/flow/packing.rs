@@ -12,6 +12,7 @@ use dem::Vec3;
 use dem::model::{Material, Model};
 use dem::simd::quad::Quad;
 use dem::simulation::{Simulation, Unstable};
+use dem::tables::wall::WallShape;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use dem::tables::terrain::Terrain;
@@ -156,7 +157,7 @@ fn relaxing(grains: Vec<Grain>, shape: GrainShape) -> Model {
         barrier: None,
         material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
         gravity: Vec3::zeros(),
-        wall_levels: Vec::new(),
+        wall: WallShape::default(),
         outlet: f64::INFINITY,
     }
 }

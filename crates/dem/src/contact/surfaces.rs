@@ -17,6 +17,7 @@ use crate::tables::fixed::Fixed;
 use crate::tables::grain_rows::GrainRows;
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::surfaces::SurfaceRole;
+use crate::tables::wall::WallShape;
 
 /// What surface contacts read.
 pub struct SurfaceContext<'a> {
@@ -27,8 +28,7 @@ pub struct SurfaceContext<'a> {
     pub grain_friction: f64,
     /// Way that the block's grains and all nodes can have gone since the lists were made (m).
     pub clock: Clock,
-    /// Heights that part the rigid wall into segments, from the bottom up (m); the last is its top.
-    pub wall_levels: &'a [f64],
+    pub wall: &'a WallShape,
 }
 
 /// Forces the grains of one block put on the surfaces in one step.
@@ -44,6 +44,9 @@ pub struct SurfaceForces {
     pub wall_moment: f64,
     /// Normal force on each wall segment (N).
     pub wall_segments: Vec<f64>,
+    /// The normal forces, each over the width of the wall at its height, and their moment about the toe: what a metre takes that goes from
+    /// the foot to the top (N/m, N m/m). Zeros for a wall that is equally wide all the way.
+    pub wall_metre: [f64; 2],
 }
 
 impl SurfaceForces {
@@ -54,6 +57,7 @@ impl SurfaceForces {
         self.wall_moment = 0.0;
         self.wall_segments.clear();
         self.wall_segments.resize(segments, 0.0);
+        self.wall_metre = [0.0; 2];
     }
 
     pub fn add(&mut self, other: &Self) {
@@ -64,18 +68,23 @@ impl SurfaceForces {
         for (mine, theirs) in self.wall_segments.iter_mut().zip(&other.wall_segments) {
             *mine += theirs;
         }
+        self.wall_metre[0] += other.wall_metre[0];
+        self.wall_metre[1] += other.wall_metre[1];
     }
 
-    fn record(&mut self, role: SurfaceRole, force: Vec3, normal_force: f64, height: f64, levels: &[f64]) {
+    fn record(&mut self, role: SurfaceRole, force: Vec3, normal_force: f64, height: f64, wall: &WallShape) {
         match role {
             SurfaceRole::Base => self.base += force,
             SurfaceRole::Side | SurfaceRole::Gate => self.sides += force,
             SurfaceRole::Wall => {
                 self.wall += force;
                 self.wall_moment += normal_force * height;
-                let segment = levels.iter().take_while(|&&top| height > top).count();
-                if let Some(sum) = self.wall_segments.get_mut(segment.min(levels.len().saturating_sub(1))) {
+                if let Some(sum) = self.wall_segments.get_mut(wall.segment(height)) {
                     *sum += normal_force;
+                }
+                if let Some(width) = wall.width(height) {
+                    self.wall_metre[0] += normal_force / width;
+                    self.wall_metre[1] += normal_force * height / width;
                 }
             }
         }
@@ -141,8 +150,8 @@ impl LoadSurfaces<'_, '_> {
             torques[lane].store(&mut load.torque);
             self.loads[*member as usize / members - self.start].join(&load);
             let square = normal_forces[lane] * touch.square[lane];
-            let levels = self.context.wall_levels;
-            self.forces.record(touch.role[lane], -load.force.vector(), square, touch.height[lane], levels);
+            let wall = self.context.wall;
+            self.forces.record(touch.role[lane], -load.force.vector(), square, touch.height[lane], wall);
         }
     }
 }

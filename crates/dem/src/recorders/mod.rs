@@ -11,6 +11,7 @@ pub mod gauge;
 pub mod histories;
 pub mod of_anchors;
 pub mod of_dissipators;
+pub mod of_level;
 pub mod of_ropes;
 pub mod of_wall;
 pub mod passage;
@@ -21,9 +22,12 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 17] = [
+pub const CHANNELS: [&Channel; 20] = [
+    &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
+    &of_wall::METRE_FORCE,
+    &of_wall::METRE_MOMENT,
     &of_ropes::MEAN,
     &of_ropes::LARGEST,
     &of_anchors::LOAD,

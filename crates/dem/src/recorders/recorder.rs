@@ -13,6 +13,7 @@ use crate::recorders::gauge::{GaugeWindow, front};
 use crate::recorders::histories::Histories;
 use crate::recorders::of_anchors::OfAnchors;
 use crate::recorders::of_dissipators::OfDissipators;
+use crate::recorders::of_level::OfLevel;
 use crate::recorders::of_ropes::OfRopes;
 use crate::recorders::of_wall::OfWall;
 use crate::recorders::passage::{Screen, WAYS, Way};
@@ -65,6 +66,7 @@ struct IntervalSum {
 /// The recorders of all kinds of parts.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Bodies {
+    level: OfLevel,
     wall: OfWall,
     ropes: OfRopes,
     dissipators: OfDissipators,
@@ -72,8 +74,8 @@ struct Bodies {
 }
 
 impl Bodies {
-    fn each(&mut self) -> [&mut dyn BodyRecorder; 4] {
-        [&mut self.wall, &mut self.ropes, &mut self.dissipators, &mut self.anchors]
+    fn each(&mut self) -> [&mut dyn BodyRecorder; 5] {
+        [&mut self.level, &mut self.wall, &mut self.ropes, &mut self.dissipators, &mut self.anchors]
     }
 }
 

@@ -31,6 +31,8 @@ pub struct RecorderSetup {
     pub incoming: GaugeWindow,
     /// The same about a barrier's height upstream.
     pub approaching: GaugeWindow,
+    /// Where the level of the flow at the barrier is sought.
+    pub at_the_barrier: GaugeWindow,
     /// Where the depth of the deposit at the barrier is sought.
     pub deposit: GaugeWindow,
     /// Mass of the whole flow (kg).

@@ -11,3 +11,4 @@ pub mod nodes;
 pub mod prefetch;
 pub mod surfaces;
 pub mod terrain;
+pub mod wall;
