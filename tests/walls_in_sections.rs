@@ -12,7 +12,8 @@ use barrier_check::scene::event::Watch;
 use dem::recorders::histories::tail_mean;
 use dem::recorders::of_wall::{METRE_FORCE, METRE_MOMENT, MOMENT, SEGMENTS};
 
-const WALL: &str = "barrier:\n  rigid_wall:\n    height: 2 m\n    resistance: 1000 kN\n    moment_resistance: 500 kN m/m\n\n";
+const WALL: &str =
+    "barrier:\n  rigid_wall:\n    height: 2 m\n    resistance: 1000 kN\n    moment_resistance: 500 kN m/m\n\n";
 
 /// An example with a wall in the place of its net.
 fn with_a_wall(name: &str) -> String {
@@ -20,7 +21,9 @@ fn with_a_wall(name: &str) -> String {
     let (before, rest) = text.split_once("barrier:\n  flexible_net:").expect("a net");
     let (_, after) = rest.split_once("limits:").expect("limits");
     let without_nets = |line: &&str| {
-        !["residual_height", "utilisation", "dissipator_overstrength", "barrier_model"].iter().any(|key| line.contains(key))
+        !["residual_height", "utilisation", "dissipator_overstrength", "barrier_model"]
+            .iter()
+            .any(|key| line.contains(key))
     };
     let text = format!("{before}{WALL}limits:{after}");
     text.lines().filter(without_nets).collect::<Vec<_>>().join("\n")

@@ -15,6 +15,7 @@ use dem::simulation::Simulation;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use dem::tables::terrain::{Patch, Terrain};
+use dem::tables::wall::WallShape;
 
 /// Radius of the spheres (m).
 pub const RADIUS: f64 = 0.007635;
@@ -192,7 +193,7 @@ impl State {
             barrier: None,
             material: Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 1.327 },
             gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * 9.81,
-            wall_levels: Vec::new(),
+            wall: WallShape::default(),
             outlet: f64::INFINITY,
         }
     }

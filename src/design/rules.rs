@@ -294,8 +294,12 @@ fn freeboard_within_the_barrier(e: &Entries) -> Option<Problem> {
     let path = "limits.freeboard";
     let (freeboard, height) = (e.number(path)?, height_of_barrier(e)?);
     (freeboard >= height).then(|| {
-        Problem::new(path, length(freeboard), format!("less than the barrier's height over the bed, {}", length(height)))
-            .hint("is the unit right?")
+        Problem::new(
+            path,
+            length(freeboard),
+            format!("less than the barrier's height over the bed, {}", length(height)),
+        )
+        .hint("is the unit right?")
     })
 }
 

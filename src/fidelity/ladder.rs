@@ -328,9 +328,9 @@ pub struct Step {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quantities::quantity::Unit;
     use crate::checks::outcome::{CheckName, Resistance};
     use crate::demand::Demand;
+    use crate::quantities::quantity::Unit;
 
     fn force(guideline: Option<f64>, simulation: Option<f64>) -> Outcome {
         let resistance = Resistance { characteristic: 100.0, factor: 1.0 };

@@ -61,7 +61,8 @@ pub fn rows(run: &Run) -> Vec<Row> {
     ));
     rows.push(height_needed(run));
     rows.extend(overflow_width(run));
-    let or_unknown = |height: f64| if height.is_finite() { with_unit(height, "m") } else { "a height that is not known".into() };
+    let or_unknown =
+        |height: f64| if height.is_finite() { with_unit(height, "m") } else { "a height that is not known".into() };
     rows.push(row(
         "Freeboard after one event",
         if event.height().is_finite() { with_unit(input.barrier_height - event.height(), "m") } else { "not known".into() },
@@ -97,7 +98,11 @@ fn height_needed(run: &Run) -> Row {
             "normal to the bed, {} plumb; the barrier has {}. Level of the event {}, by {}{}{}; {}",
             with_unit(needed / libm::cos(design.channel.slope), "m"),
             with_unit(input.barrier_height, "m"),
-            if run.guideline.level_is_known { with_unit(level, "m") } else { format!("more than {}", with_unit(level, "m")) },
+            if run.guideline.level_is_known {
+                with_unit(level, "m")
+            } else {
+                format!("more than {}", with_unit(level, "m"))
+            },
             match design.limits.run_up {
                 RunUp::Larger => "the larger run-up",
                 RunUp::MomentumJump => "the momentum jump",
@@ -130,7 +135,9 @@ fn overflow_width(run: &Run) -> Option<Row> {
     Some(row(
         "Width of an overflow",
         with_unit(section.width(height), "m"),
-        format!("of the section at the barrier's top{level}: what lies below the barrier over that width is to be protected against scour"),
+        format!(
+            "of the section at the barrier's top{level}: what lies below the barrier over that width is to be protected against scour"
+        ),
     ))
 }
 

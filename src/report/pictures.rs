@@ -147,8 +147,7 @@ fn wall_charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     }
     let design = &run.file.design;
     let window = crate::scene::build::SAMPLES_PER_WINDOW as usize;
-    let over =
-        |row: &[f64], width: f64| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
+    let over = |row: &[f64], width: f64| smoothed(row, window).iter().map(|value| value / width).collect::<Vec<f64>>();
     let segments = histories.barrier.rows(&of_wall::SEGMENTS).iter().enumerate();
     let segments: Vec<Vec<f64>> = segments.map(|(index, row)| over(row, wall::segment_width(design, index))).collect();
     let (moment, width) = wall::metre_moment(histories, design);

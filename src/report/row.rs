@@ -48,7 +48,8 @@ pub fn is_share(outcome: &Outcome) -> bool {
 
 /// How much of the capacity is used; of a share that must be kept, what is kept.
 pub fn used(outcome: &Outcome) -> String {
-    let stroke = outcome.resistance.filter(|_| outcome.kind == Kind::Stroke).map(|(resistance, _)| resistance.characteristic);
+    let stroke =
+        outcome.resistance.filter(|_| outcome.kind == Kind::Stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     match (outcome.utilisation, outcome.verdict) {
         (None, CheckVerdict::Pass) => at_the_plateau(outcome).to_string(),

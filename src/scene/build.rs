@@ -205,10 +205,12 @@ const WALL_WIDTHS: usize = 64;
 fn wall_shape(design: &Design) -> WallShape {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return WallShape::default() };
     let section = design.channel.section();
-    let width = |index: usize| section
+    let width = |index: usize| {
+        section
             .width(wall.height * libm::cos(wall.lean) * index as f64 / WALL_WIDTHS as f64)
             // In a groove no narrower than a grain, which touches it higher up.
-            .max(design.flow.sizes.quantile(0.5));
+            .max(design.flow.sizes.quantile(0.5))
+    };
     let widths = match &section {
         Section::Rectangle { .. } => Vec::new(),
         Section::Surveyed(_) => (0..=WALL_WIDTHS).map(width).collect(),

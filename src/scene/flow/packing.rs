@@ -12,10 +12,10 @@ use dem::Vec3;
 use dem::model::{Material, Model};
 use dem::simd::quad::Quad;
 use dem::simulation::{Simulation, Unstable};
-use dem::tables::wall::WallShape;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use dem::tables::terrain::Terrain;
+use dem::tables::wall::WallShape;
 
 /// Largest overlap left, over the smaller radius.
 pub const OVERLAP_ALLOWED: f64 = 0.01;

@@ -9,9 +9,9 @@ use crate::validation::scenes::{
 };
 use dem::Vec3;
 use dem::model::Model;
-use dem::tables::wall::WallShape;
 use dem::tables::grains::GrainShape;
 use dem::tables::surfaces::SurfaceRole;
+use dem::tables::wall::WallShape;
 
 pub const BALANCE: Case = Case {
     id: "C1",
@@ -52,8 +52,11 @@ fn balance() -> Result<Vec<Finding>, Broken> {
     let (before, _) = momenta(&grains);
     let mass: f64 = grains.iter().map(|grain| grain.body.mass).sum();
     let far = 0.5;
-    let mut model =
-        Model { gravity: Vec3::new(6.0, 0.0, -7.5), wall: WallShape { segment_tops: vec![0.5], widths: Vec::new() }, ..free_model(grains, GrainShape::Clump) };
+    let mut model = Model {
+        gravity: Vec3::new(6.0, 0.0, -7.5),
+        wall: WallShape { segment_tops: vec![0.5], widths: Vec::new() },
+        ..free_model(grains, GrainShape::Clump)
+    };
     model.surfaces = vec![
         floor(0.4),
         plane(SurfaceRole::Side, Vec3::zeros(), Vec3::y(), 0.3),

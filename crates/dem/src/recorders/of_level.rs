@@ -20,4 +20,3 @@ impl BodyRecorder for OfLevel {
         channels.push(&LEVEL, &[setup.at_the_barrier.level(&simulation.snapshot())]);
     }
 }
-
