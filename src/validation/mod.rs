@@ -55,6 +55,7 @@ pub const CASES: &[&Case] = &[
     &wall::variants::FLUCTUATION,
     &wall::slopes::CASE,
     &wall::surge::MODULUS,
+    &wall::usgs_flume::CASE,
     &barrier::ropes::BAR,
     &barrier::beams::TIP_LOAD,
     &barrier::beams::ELASTICA,

@@ -5,4 +5,5 @@ pub(crate) mod impulse;
 pub(crate) mod laboratory;
 pub(crate) mod slopes;
 pub(crate) mod surge;
+pub(crate) mod usgs_flume;
 pub(crate) mod variants;

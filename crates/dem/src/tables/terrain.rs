@@ -47,6 +47,8 @@ pub struct Facet {
     edges: [f64; CORNERS],
     /// The facet beyond each edge.
     beyond: [u32; CORNERS],
+    /// Whether the ground around it is nowhere below its plane: it has no ridge or peak on which a sphere beyond its edges could rest.
+    open: bool,
 }
 
 impl Facet {
@@ -157,6 +159,7 @@ impl Terrain {
                 level: normal.dot(&corner(0)),
                 edges: [0.0; CORNERS],
                 beyond: [NONE; CORNERS],
+                open: false,
             };
             for index in 0..count {
                 let (ends, turned) = edge(patch, index);
@@ -170,7 +173,7 @@ impl Terrain {
             }
             facet
         };
-        let facets: Vec<Facet> = patches.iter().enumerate().map(facet).collect();
+        let mut facets: Vec<Facet> = patches.iter().enumerate().map(facet).collect();
         let mut at_corner: Vec<Vec<u32>> = vec![Vec::new(); corners.len()];
         for (number, patch) in patches.iter().enumerate() {
             patch.corners.iter().for_each(|corner| at_corner[*corner as usize].push(number as u32));
@@ -189,19 +192,27 @@ impl Terrain {
             all
         };
         let around = Rows::of(patches.iter().enumerate().map(neighbours));
-        let above = |one: u32, other: u32| {
-            let (facet, patch) = (&facets[one as usize], &patches[other as usize]);
+        // Whether the one has a corner above (1) or below (-1) the plane of the other.
+        let off = |facets: &[Facet], plane: u32, other: u32, side: f64| {
+            let (facet, patch) = (&facets[plane as usize], &patches[other as usize]);
             let base = corners[facet.corners[0] as usize];
             let rise = |corner: &u32| facet.normal.dot(&(corners[*corner as usize] - base));
             let size = patch.corners.iter().map(|corner| (corners[*corner as usize] - base).norm()).fold(0.0, f64::max);
-            patch.corners.iter().any(|corner| rise(corner) > LEVEL * size)
+            patch.corners.iter().any(|corner| side * rise(corner) > LEVEL * size)
         };
         let rising = |number: usize| {
             let one = number as u32;
             let list = around.row(number).iter().copied();
-            list.filter(|other| above(one, *other) || above(*other, one)).collect::<Vec<u32>>()
+            list.filter(|other| off(&facets, one, *other, 1.0) || off(&facets, *other, one, 1.0)).collect::<Vec<u32>>()
         };
         let rising = Rows::of((0..facets.len()).map(rising));
+        let open = |number: usize| {
+            let facet = &facets[number];
+            let joined = facet.beyond[..facet.count].iter().all(|beyond| *beyond != NONE);
+            joined && !around.row(number).iter().any(|other| off(&facets, number as u32, *other, -1.0))
+        };
+        let open: Vec<bool> = (0..facets.len()).map(open).collect();
+        facets.iter_mut().zip(open).for_each(|(facet, open)| facet.open = open);
         Self {
             around,
             rising,
@@ -335,12 +346,17 @@ impl Terrain {
         parts(&normals[..count], &overlaps[..count])[mine] / overlaps[mine]
     }
 
-    /// How near a sphere comes to touching a facet: the square of a distance that its centre has from the facet at least (m²). Just out of touch
-    /// where the facet is near and not touched, because another one is.
+    /// How near a sphere comes to touching a facet: the square of its radius and the way that it has to go at the least (m²). Just out of
+    /// touch where the facet is near and not touched, because another one is.
     #[inline]
     pub fn separation(&self, number: u32, centre: &Vec3, radius: f64) -> f64 {
         let facet = self.facet(number);
         let (beyond, height) = (facet.beyond(centre).max(0.0), facet.height(centre));
+        if facet.open && beyond > LEVEL * radius {
+            // Its centre must come over the facet.
+            let above = (height - radius).max(0.0);
+            return (radius + (beyond * beyond + above * above).sqrt()).powi(2);
+        }
         let square = height * height + beyond * beyond;
         let reach = radius * radius;
         let untouched = square < reach && beyond > 0.0 && self.place_on_edge(number, centre).is_none();
