@@ -42,7 +42,7 @@
 //! | a time series of the barrier | a channel in the file of its body in [`dem::recorders`] and a line in `CHANNELS` there |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
 //! | a scene of the bench | a line in `benches/throughput.rs`, its state in `benches/states` |
-//! | a row of the report | [`report::findings`] (simulation), [`report::reliability`] (how far it can be relied on), [`report::loads`] (equations), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
+//! | a row of the report | [`report::findings`] (simulation), [`report::reliability`] (how far it can be relied on), [`report::loads`] (equations), [`report::holding`] (what the barrier holds and how high it must be), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
 //! | a rung of the ladder | [`fidelity::ladder::RUNGS`] |
 //! | a knob to study | a variant and its lines in [`studies::knobs`] |
 //! | a scene of the stability map | a function and a line in [`studies::stability_scenes::SCENES`] |

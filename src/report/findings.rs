@@ -24,7 +24,8 @@ pub fn rows(run: &Run, simulated: &Simulated) -> Vec<Row> {
 }
 
 fn per_width(force: f64, design: &Design) -> String {
-    format!("{} of width", with_unit(force / design.channel.width, "N/m"))
+    let width = if design.channel.survey.is_some() { "mean width" } else { "width" };
+    format!("{} of {width}", with_unit(force / design.channel.width, "N/m"))
 }
 
 fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {

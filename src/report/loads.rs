@@ -108,10 +108,18 @@ pub fn per_width(run: &Run) -> String {
     let Section::Surveyed(survey) = section else { return String::new() };
     let top = run.guideline.input.barrier_height;
     format!(
-        "The section is not a rectangle: pressures, force per width and moment are those of a metre of width at its lowest point. The force is integrated over the width at each height, R = ∫ p(z) w(z) dz, with w = {:.2} m at the bed and {:.2} m at the barrier's top, and {:.1} m² between them. A main rope takes, over its own span, the even load that bends a beam and pushes on its supports no less than the pressures on its strip do, each metre of width from the ground up; what presses beside the span goes to its ends. Heights of the survey ({} points) count normal to the bed, plumb heights times cos α.",
+        "The section is not a rectangle: pressures, force per width and moment are those of a metre of width at its lowest point. The force is integrated over the width at each height, R = ∫ p(z) w(z) dz, with w = {:.2} m at the bed and {:.2} m at the barrier's top, and {:.1} m² between them.{} Heights of the survey ({} points) count normal to the bed, plumb heights times cos α.",
         section.width(0.0),
         section.width(top),
         section.area(top),
+        match &run.file.design.barrier {
+            BarrierDesign::FlexibleNet(_) => {
+                " A main rope takes, over its own span, the even load that bends a beam and pushes on its supports no less than the pressures on its strip do, each metre of width from the ground up; what presses beside the span goes to its ends."
+            }
+            BarrierDesign::RigidWall(_) => {
+                " The wall is checked by its deepest metre; steps of its foundation along the banks, and what the banks hold of it, are not modelled."
+            }
+        },
         survey.points().len()
     )
 }

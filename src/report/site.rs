@@ -170,17 +170,23 @@ fn across(run: &Run) -> Chart {
         bed: drawing.ends(section.bed_ends()),
         surfaces: vec![(format!("flow, {:.2} m", guideline.input.depth / plumb), guideline.input.depth / plumb)],
     };
+    let is_net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let note = format!(
-        "To scale, looking downstream; heights plumb over the lowest point of the bed. The barrier's top is {:.2} m high, plumb, and {:.2} m normal to the bed, which is the height that the load equations use.{} Ropes are drawn straight, with the length from bank to bank.",
+        "To scale, looking downstream; heights plumb over the lowest point of the bed. The barrier's top is {:.2} m high, plumb, and {:.2} m normal to the bed, which is the height that the load equations use.{}{}",
         top / plumb,
         top,
-        match section {
-            Section::Rectangle { .. } => String::new(),
-            Section::Surveyed(_) => format!(
+        match (section, is_net) {
+            (Section::Rectangle { .. }, _) => String::new(),
+            (Section::Surveyed(_), true) => format!(
                 " Where a load or a result is told per width, it is over the mean width of the section up to there, {:.2} m, unless it says otherwise.",
                 guideline.width
             ),
-        }
+            (Section::Surveyed(_), false) => format!(
+                " What the wall bears per width is of its deepest metre, which takes the pressure of every height; segments are told over their own widths, and resistances of the whole wall over the mean width, {:.2} m.",
+                guideline.width
+            ),
+        },
+        if is_net { " Ropes are drawn straight, with the length from bank to bank." } else { "" }
     );
     Chart::of("Barrier in its section", cross_section(&chart), note)
 }

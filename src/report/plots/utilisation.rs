@@ -19,7 +19,7 @@ pub struct Bar {
 
 const WIDTH: f64 = 980.0;
 const LABEL: f64 = 380.0;
-const RIGHT: f64 = 70.0;
+const RIGHT: f64 = 84.0;
 const ROW: f64 = 20.0;
 const TOP: f64 = 18.0;
 /// Utilisation at which bars are cut off.
@@ -51,11 +51,12 @@ pub fn utilisation(bars: &[Bar]) -> String {
         if let Some(used) = bar.by[1] {
             let _ = write!(out, r#"<circle class="by" cx="{:.1}" cy="{up}" r="3.2"/>"#, x(used));
         }
-        let more = if bar.used > MOST { "› " } else { "" };
+        // Beyond 1000 % the number says so itself.
+        let more = if bar.used > MOST && bar.used <= 10.0 { "› " } else { "" };
         let used = match &bar.value {
             Some(value) => super::escape(value),
-            None if bar.used.is_finite() => percent(Some(bar.used)),
-            None => "not a number".into(),
+            None if bar.used.is_nan() => "not a number".into(),
+            None => percent(Some(bar.used)),
         };
         let _ = write!(out, r#"<text class="label" x="{:.1}" y="{middle}">{more}{used}</text>"#, end + 6.0);
     }
@@ -76,6 +77,10 @@ mod tests {
         let full = WIDTH - LABEL - RIGHT;
         assert!(
             svg.contains(&format!(r#"width="{:.1}""#, full * 0.25)) && svg.contains(&format!(r#"width="{full:.1}""#))
+        );
+        assert!(
+            utilisation(&[bar(f64::INFINITY)]).contains(">&gt; 1000 %<")
+                || utilisation(&[bar(f64::INFINITY)]).contains("> 1000 %<")
         );
         assert!(svg.contains("› 700 %") && svg.contains("not a number") && svg.contains("a&lt;b"));
     }
