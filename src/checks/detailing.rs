@@ -210,7 +210,7 @@ fn tilt_of(design: &Design) -> f64 {
 fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
     let input = &guideline.input;
     least(
-        "Freeboard after one event",
+        "Barrier over the heaped deposit of one event",
         input.barrier_height - event_fill(design, input).height(),
         0.0,
         "m",

@@ -3,9 +3,10 @@
 use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::demand::Demands;
-use crate::design::Design;
+use crate::design::{Design, RunUp};
 use crate::guideline::{guideline, height_over_bed};
 use crate::larger::larger_or_nan;
+use crate::loads::run_up::{by_energy, by_jump};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{height, run_up};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
@@ -26,7 +27,20 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             "the deposit of the event reaches beyond what is known of the channel, so that its level at the barrier is not known (a terrain: raise channel.terrain.upstream, or put the ends further apart; a level reach: give the slope that follows it)".to_string(),
         ));
     }
+    let by_energy_alone = design.limits.run_up == RunUp::Energy;
+    if outcome.holds() && by_energy_alone && !energy_is_enough(design) {
+        outcome.leave_open(Opening::OutOfRange(
+            "the run-up by energy is lower than that by a momentum jump here, and no bound (limits.run_up: larger)"
+                .to_string(),
+        ));
+    }
     vec![Outcome { kind: Kind::Level, ..outcome.whatever_the_pressures() }]
+}
+
+/// Whether the energy balance gives no less than the jump does.
+fn energy_is_enough(design: &Design) -> bool {
+    let guideline = guideline(design);
+    by_energy(&guideline.input) >= by_jump(&guideline.input, &guideline.section)
 }
 
 /// Height of the barrier over the bed, normal to it, that a net keeps when it sags: by the equations or in the simulation, whichever is
@@ -43,7 +57,6 @@ mod tests {
     use super::*;
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::Demand;
-    use crate::design::RunUp;
     use crate::design::read::read_design;
     use approx::assert_relative_eq;
 
@@ -84,7 +97,7 @@ mod tests {
         let mut design = wall();
         (design.channel.slope, design.flow.event_volume) = (20_f64.to_radians(), design.flow.volume());
         let mut input = guideline(&design).input;
-        (input.velocity, input.depth, input.gravity_normal) = (5.0, 0.4, 9.81 * 20_f64.to_radians().cos());
+        (input.velocity, input.depth, input.gravity_normal) = (5.0, 0.4, 9.81 * libm::cos(20_f64.to_radians()));
         let by = |design: &mut Design, run_up: RunUp| {
             design.limits.run_up = run_up;
             // Of a flow whose deposit is no higher.
@@ -97,6 +110,16 @@ mod tests {
         let (r, froude) = (jump / 0.4, 25.0 / (9.2184 * 0.4));
         assert!((r.powi(3) - r * r - (2.0 * froude + 1.0) * r + 1.0).abs() < 1e-3, "{r}");
         assert_eq!(by(&mut design, RunUp::Larger), by(&mut design, RunUp::Energy).max(jump));
+    }
+
+    /// A flow of 0.6 m with 3.6 m/s runs up higher by the jump than by energy, which then passes nothing.
+    #[test]
+    fn the_energy_balance_alone_passes_no_slow_flow() {
+        let mut design = wall();
+        (design.limits.freeboard, design.limits.run_up) = (Some(0.0), RunUp::Energy);
+        assert_eq!(outcome(&design, None).verdict, CheckVerdict::Open);
+        design.limits.run_up = RunUp::MomentumJump;
+        assert!(outcome(&design, None).holds());
     }
 
     /// A net that keeps 60 % of its height holds back no more than that.

@@ -52,10 +52,10 @@ pub fn rows(run: &Run) -> Vec<Row> {
         format!(
             "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; friction is left out. Froude number {}: {}",
             figures(input.froude()),
-            if input.froude() < BALANCES_MEET {
-                "below about 2.5 the energy balance is lower than the jump and is no bound"
+            if run_up::by_energy(input) < run_up::by_jump(input, &run.guideline.section) {
+                "the energy balance is lower than the jump here, and no bound"
             } else {
-                "above about 2.5 the energy balance is higher than the jump; on a wall in the USGS flume, at Froude numbers of 6 to 10, it was several times what was measured, and the jump 1.0 to 1.5 times"
+                "the energy balance is no lower than the jump here; on a wall in the USGS flume, at Froude numbers of 6 to 10, it was several times what was measured, and the jump at or above it (1.0 to 1.5 times)"
             }
         ),
     ));
@@ -64,7 +64,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
     let or_unknown =
         |height: f64| if height.is_finite() { with_unit(height, "m") } else { "a height that is not known".into() };
     rows.push(row(
-        "Freeboard after one event",
+        "Barrier over the heaped deposit of one event",
         if event.height().is_finite() { with_unit(input.barrier_height - event.height(), "m") } else { "not known".into() },
         format!(
             "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier, its surface falling upstream at {:.1}° (flow.grain_friction), to {}, but no higher than the larger run-up; with a level surface {}. No guideline value was found",
@@ -78,10 +78,6 @@ pub fn rows(run: &Run) -> Vec<Row> {
     rows.extend(estimates(run));
     rows
 }
-
-/// Froude number at which the energy balance gives the same run-up as the momentum jump, in a rectangle: 1 + Fr²/2 solves the cubic of the
-/// jump there.
-const BALANCES_MEET: f64 = 2.5;
 
 /// The height that a barrier needs for the level of the event, with the freeboard that is asked for.
 fn height_needed(run: &Run) -> Row {
