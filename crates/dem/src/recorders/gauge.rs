@@ -32,8 +32,6 @@ pub struct GaugeWindow {
     pub mean_diameter: f64,
 }
 
-/// Depth of a layer of grains that do not count as part of a flow's level, over the mean diameter.
-const FEW: f64 = 0.25;
 /// Windows into which the stretch of the deposit is cut; neighbours overlap by half.
 const DEPOSIT_WINDOWS: usize = 12;
 
@@ -56,15 +54,15 @@ impl GaugeWindow {
         most.map(|mass| self.across.depth_of(mass, self.bulk_density, 2.0 * cell))
     }
 
-    /// Height above which there is no more mass than a quarter of a grain's depth over the window has, and half a grain: the level of a flow, or
-    /// of a jet that runs up the barrier, without the few grains that fly above it (m); 0 without grains.
+    /// Height above which there is less mass than one row of grains across the channel has, and half a grain: the level of a flow, or of a
+    /// jet one grain thick that runs up the barrier, without the few grains that fly above it, however long the window is (m); 0 without grains.
     pub fn level(&self, grains: &[Grain]) -> f64 {
         let stretch = -self.far..=-self.near;
         let inside = grains.iter().filter(|grain| stretch.contains(&grain.position.x));
         let mut heights: Vec<[f64; 2]> =
             inside.map(|grain| [self.across.over_the_bed(&grain.position), grain.body.mass]).collect();
         heights.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
-        let wanted = FEW * self.mean_diameter * self.across.width() * (self.far - self.near) * self.bulk_density;
+        let wanted = self.mean_diameter.powi(2) * self.across.width() * self.bulk_density;
         let mut above = 0.0;
         let reached = heights.iter().find(|[_, mass]| {
             above += mass;
@@ -125,11 +123,11 @@ mod tests {
     use crate::Vec3;
     use crate::tables::grains::GrainBody;
 
-    /// Grains of 0.1 m and 1 kg at heights, in a window of 1 m by 1 m in which a quarter of a grain's depth has 25 kg · 0.1 = 2.5 kg.
+    /// Grains of 0.1 m and 1 kg at heights, in a channel 1 m wide in which a row of them has 0.1² · 250 = 2.5 kg, whatever the window.
     #[test]
     fn a_few_grains_that_fly_are_none_of_the_level() {
         let window =
-            GaugeWindow { near: 0.0, far: 1.0, across: Across::Even(1.0), bulk_density: 100.0, mean_diameter: 0.1 };
+            GaugeWindow { near: 0.0, far: 3.0, across: Across::Even(1.0), bulk_density: 250.0, mean_diameter: 0.1 };
         let grain = |height: f64| {
             let body = GrainBody { mass: 1.0, ..GrainBody::sphere(0.05, 1000.0) };
             Grain::at(0, Vec3::new(-0.5, 0.5, height), Vec3::x(), body)
@@ -139,7 +137,7 @@ mod tests {
         assert_eq!(level(&[0.05, 0.15, 0.25, 9.0, 8.0]), 0.3);
         // Three fly: that is no longer few.
         assert_eq!(level(&[0.05, 7.0, 9.0, 8.0]), 7.05);
-        // Fewer than a quarter of a grain deep is nothing.
+        // Less than a row is nothing.
         assert_eq!(level(&[0.05, 0.05]), 0.0);
     }
 }
