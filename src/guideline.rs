@@ -102,6 +102,8 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     let (width, section) = (design.channel.width, design.channel.section());
     let stages = envelope(&input, &extras);
     let level = level_reached(design, &input);
+    // A point load spreads along no more of a wall than there is at its height.
+    let hit = extras.point.map_or(width, |point| width.min(section.width(point.height)));
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
         BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
@@ -125,9 +127,9 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         largest_force: stages.iter().map(|case| case.total_force(&section)).fold(0.0, larger_or_nan),
         lean: lean(design),
         face_force: stages.iter().map(|case| case.face_force(&section, lean(design))).fold(0.0, larger_or_nan),
-        face_moment: stages.iter().map(|case| case.face_moment(width, lean(design))).fold(0.0, larger_or_nan),
-        metre_force: stages.iter().map(|case| case.metre_force(width, input.barrier_height)).fold(0.0, larger_or_nan),
-        foot_moment: stages.iter().map(|case| case.foot_moment(width, lean(design))).fold(0.0, larger_or_nan),
+        face_moment: stages.iter().map(|case| case.face_moment(hit, lean(design))).fold(0.0, larger_or_nan),
+        metre_force: stages.iter().map(|case| case.metre_force(hit, input.barrier_height)).fold(0.0, larger_or_nan),
+        foot_moment: stages.iter().map(|case| case.foot_moment(hit, lean(design))).fold(0.0, larger_or_nan),
         ropes,
         dissipator: match &design.barrier {
             BarrierDesign::FlexibleNet(net) => {

@@ -123,3 +123,21 @@ fn a_wall_closes_a_raster_gully() {
     assert!(observed.one(&mass::RETAINED) > 0.9);
     assert!(observed.one(&total_force::RESIDUAL) > 0.0);
 }
+
+/// A boulder of 100 kN, 0.3 m over the lowest point of a groove of 1 : 1, hits a wall that is 0.6 m wide there, whatever the mean width is:
+/// 167 kN on the metre.
+#[test]
+fn a_boulder_spreads_along_no_more_than_there_is_of_the_wall() {
+    let text = with_a_wall("gully.yaml");
+    let (before, rest) = text.split_once("    trapezoid:").expect("a trapezoid");
+    let (_, after) = rest.split_once("  base_friction").expect("friction");
+    let plumb = libm::cos(16_f64.to_radians());
+    let points = format!("[[-4 m, {0} m], [0 m, 0 m], [4 m, {0} m]]", 4.0 / plumb);
+    let text = format!("{before}    points: {points}\n  base_friction{after}");
+    let with = |point: &str| {
+        let text = text.replace("loads:\n", &format!("loads:\n{point}"));
+        guideline(&read(&text).design)
+    };
+    let (alone, hit) = (with(""), with("  point_load: {force: 100 kN, height: 0.3 m}\n"));
+    assert_relative_eq!(hit.metre_force - alone.metre_force, 100e3 / 0.6, max_relative = 1e-6);
+}

@@ -4,7 +4,7 @@ use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{Design, RunUp};
-use crate::guideline::{guideline, height_over_bed};
+use crate::guideline::{Guideline, guideline, height_over_bed};
 use crate::larger::larger_or_nan;
 use crate::loads::run_up::{by_energy, by_jump};
 use crate::quantities::quantity::Unit;
@@ -35,6 +35,14 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         ));
     }
     vec![Outcome { kind: Kind::Level, ..outcome.whatever_the_pressures() }]
+}
+
+/// Whether the barrier is high enough for the level by other equations, with the height that was found to be kept and with the sag of a net
+/// by these.
+pub fn has_room(design: &Design, asked: &Guideline, found: &Outcome) -> bool {
+    let Some((room, freeboard)) = found.capacity.zip(design.limits.freeboard) else { return true };
+    let sagged = height_over_bed(design) * left_by_sag(design, asked).unwrap_or(1.0) - freeboard;
+    asked.level_is_known && asked.level <= room && asked.level <= sagged
 }
 
 /// Whether the energy balance gives no less than the jump does.

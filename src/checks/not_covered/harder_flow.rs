@@ -4,6 +4,7 @@
 
 use super::known::{FirstSurge, Known};
 use crate::checks::check_all;
+use crate::checks::freeboard;
 use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
@@ -91,7 +92,8 @@ fn leave_open_with(design: &Design, guideline: &Guideline, harder: GuidelineInpu
         // What cannot be asked, because something seen is not a number, does not hold.
         let unknown = then.demand.guideline.map_or(outcome.demand.guideline.is_some(), f64::is_nan);
         let sags = outcome.kind == Kind::HeightLeft && !enough_left;
-        let why = if outcome.would_fail(then) || unknown || sags {
+        let goes_over = outcome.kind == Kind::Level && !freeboard::has_room(design, &asked, outcome);
+        let why = if outcome.would_fail(then) || unknown || sags || goes_over {
             "the equations would fail this check"
         } else if held && !then.holds() && equations_count {
             "the equations would be used outside the range they are known for"
@@ -141,6 +143,34 @@ mod tests {
     use crate::checks::outcome::CheckVerdict;
     use crate::design::{BarrierDesign, Design};
     use crate::guideline::guideline;
+
+    /// A net that the simulation leaves 60 % of its height has room for the given flow, not for one that arrives faster, which by the equations,
+    /// with less sag, it would have.
+    #[test]
+    fn a_faster_flow_finds_no_more_height_than_the_simulation_left() {
+        use crate::demand::Demand;
+        use crate::quantities::{height, run_up};
+        let mut design = small_net();
+        (design.loads.to_the_top, design.limits.freeboard) = (false, Some(0.0));
+        (design.flow.mass, design.flow.event_volume) = (1.0, 1.0 / design.flow.bulk_density);
+        let crate::design::Arrival::Surge(surge) = &mut design.flow.arrival else { panic!("a surge") };
+        (surge.depth, surge.velocity) = (0.2, 2.0);
+        let guideline = guideline(&design);
+        let level = guideline.level;
+        let kept =
+            Demand { simulation: Some(1.1 * level / crate::guideline::height_over_bed(&design)), ..Demand::default() };
+        let demands = Demands::by_equations(&guideline, &design.factors).with(&height::RESIDUAL, &[kept]);
+        let verdict = |velocity: f64| {
+            let mut outcomes = check_all(&design, &demands);
+            let seen = FirstSurge { velocity, ..FirstSurge::default() };
+            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            let outcome = outcomes.into_iter().find(|outcome| outcome.kind == Kind::Level).expect("a check");
+            assert_eq!(outcome.demand, demands.one(&run_up::LEVEL));
+            outcome.verdict
+        };
+        assert_eq!(verdict(2.0), CheckVerdict::Warn);
+        assert_eq!(verdict(2.6), CheckVerdict::Open);
+    }
 
     #[test]
     fn what_the_equations_would_fail_with_the_velocity_or_the_k_that_is_seen_is_open() {
