@@ -25,6 +25,7 @@ pub const CASES: &[&Case] = &[
     &contact::oblique::SPINNING,
     &contact::coarse_steps::CASE,
     &contact::gears::CASE,
+    &contact::neck::CASE,
     &contact::clump_body::BODY,
     &contact::rolling::SLOPE,
     &contact::clump_body::CONSERVED,

@@ -102,15 +102,25 @@ fn collide(
 fn ledger() -> Result<Vec<Finding>, Broken> {
     let [start, end] = collide(cloud(700, 5), 0.3, 0.5, 2e-6, 15_000)?;
     let energy = start.kinetic;
-    // Steps as long as a run takes them, and longer ones: about 0.4 and 0.6 of the critical step of the smallest pair.
-    let long = |step: f64| -> Result<f64, Broken> {
-        let [start, end] = collide(cloud(700, 5), 0.3, 0.5, step, (0.03 / step) as usize)?;
-        Ok(end.relative_error(&start))
+    // Steps as long as a run takes them, and longer ones: about 0.4 and 0.6 of the critical step of the smallest pair. A hard impact is over in
+    // two of them, and what its account is off by depends on where in a step it began: one in some hundred runs is off by ten times as much.
+    let long = |around: f64| -> Result<[f64; 2], Broken> {
+        let off = |run: u32| {
+            let step = around * (0.92 + 0.02 * f64::from(run));
+            let [start, end] = collide(cloud(700, 5), 0.3, 0.5, step, (0.03 / step) as usize)?;
+            Ok(end.relative_error(&start).abs())
+        };
+        let mut all = (0..9).map(off).collect::<Result<Vec<f64>, Broken>>()?;
+        all.sort_by(f64::total_cmp);
+        Ok([all[4], all[8]])
     };
+    let ([shorter, worst_of_shorter], [longer, worst_of_longer]) = (long(2.7e-5)?, long(4e-5)?);
     Ok(vec![
         Finding::close("imbalance over energy", end.relative_error(&start), 0.0, 1e-4),
-        Finding::close("imbalance in steps of 0.4 critical", long(2.7e-5)?, 0.0, 5e-4),
-        Finding::close("imbalance in steps of 0.6 critical", long(4e-5)?, 0.0, 5e-4),
+        Finding::close("median imbalance of nine runs in steps of about 0.4 critical", shorter, 0.0, 5e-4),
+        Finding::told("the largest of them", worst_of_shorter),
+        Finding::close("median imbalance of nine runs in steps of about 0.6 critical", longer, 0.0, 5e-4),
+        Finding::told("the largest of them", worst_of_longer),
         Finding::between("lost in dashpots over energy", end.lost_damping / energy, 0.05, 1.0),
         Finding::between("lost by slip over energy", end.lost_friction / energy, 0.01, 1.0),
     ])

@@ -8,6 +8,7 @@ pub(crate) mod cooling;
 pub(crate) mod energy;
 pub(crate) mod gears;
 pub(crate) mod ground;
+pub(crate) mod neck;
 pub(crate) mod oblique;
 pub(crate) mod restitution;
 pub(crate) mod rolling;

@@ -1,6 +1,6 @@
 //! Sphere against sphere, eight pairs side by side.
 
-use crate::contact::law::{ContactPoint, LawConstants, Response, Spring};
+use crate::contact::law::{ContactPoint, LawConstants, Response, Spring, normal_before};
 use crate::contact::pair_list::EightPairs;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::simd::quad::Quad;
@@ -77,20 +77,27 @@ impl<E: Eight, const CLUMPS: bool> GrainTouch<E, CLUMPS> {
         let all = E::all(1.0) / (sum * product * (inverse_mass * distance));
         let but_distance = all * distance;
         let but_spring = but_distance * inverse_mass;
-        let normal = scaled(between, all * (sum * product) * inverse_mass);
+        let inverse_distance = all * (sum * product) * inverse_mass;
+        let normal = scaled(between, inverse_distance);
         let numbers = E::from_lanes(each_lane!(|lane| lane as f64));
         let overlap = E::all(eight.count as f64).if_above(numbers, sum - distance, -sum);
         let reach = [r1 - overlap * 0.5, r2 - overlap * 0.5];
+        let half_step = 0.5 * constants.law.time_step;
+        let of_centres = if CLUMPS {
+            let [first, second] = [turning(spin1, arm[0], half_step), turning(spin2, arm[1], half_step)];
+            plus(motion, minus(second, first))
+        } else {
+            motion
+        };
+        let middle = normal_before(normal, of_centres, inverse_distance * half_step);
         // Surface velocities from the spins: Σ ω × (arm + reach n), the second body's reach being −reach n.
         let rim = add_scaled(scaled(spin1, reach[0]), reach[1], spin2);
-        let mut velocity = minus(motion, cross(rim, normal));
-        if CLUMPS {
-            velocity = plus(velocity, minus(cross(spin2, arm[1]), cross(spin1, arm[0])));
-        }
+        let velocity = minus(of_centres, cross(rim, middle));
         let stiffness = but_spring * product * product;
         let frequency = (stiffness * inverse_mass).root();
         let point = ContactPoint {
             normal,
+            middle,
             overlap,
             velocity,
             twist: dot(plus(spin1, spin2), normal) * 0.5,
@@ -121,4 +128,11 @@ impl<E: Eight, const CLUMPS: bool> GrainTouch<E, CLUMPS> {
         };
         (E::rows(joined(force, zero)), [E::rows(joined(torque1, zero)), E::rows(joined(torque2, zero))])
     }
+}
+
+/// Velocity of the end of an arm of a turning body, half a step before the arm was as it is: ω × (a − ½Δt ω × a) (m/s).
+#[inline(always)]
+pub fn turning<E: Eight>(spin: Triple<E>, arm: Triple<E>, half_step: f64) -> Triple<E> {
+    let now = cross(spin, arm);
+    add_scaled(now, E::all(-half_step), cross(spin, now))
 }

@@ -4,6 +4,10 @@
 //! Tangential     F_t ← rotate(F_t) + k_t Δs, |F_t| ≤ μ F_n,  k_t = k × the tangential ratio (2/7), corrected for the step
 //!
 //! with u the overlap (m), u̇ its rate, m_r the reduced mass of the two bodies, Δs the slip of this step while in contact.
+//!
+//! Places are those at the end of a step, velocities those of its middle. Rate and slip are therefore told with the normal of the middle:
+//! with the one at the end a grain that rolls round another would slip a little more in every step, always the same way, until its
+//! friction spring held it fast where it should fall off (Vyas, Ottino, Lueptow & Umbanhowar 2025).
 //! Source: Albaba 2015, section 3.3.1, with the signs, the reduced mass and the frame rotation corrected.
 //! Written for any [`Real`]: for one contact, or for eight side by side in vector registers.
 
@@ -19,9 +23,11 @@ use crate::simd::real::{Real, Triple, add_scaled, cross, dot, scaled};
 pub struct ContactPoint<R = f64> {
     /// Unit normal from the first body to the other.
     pub normal: Triple<R>,
+    /// The same half a step before, when the bodies moved with `velocity`.
+    pub middle: Triple<R>,
     /// Overlap u (m); without contact it is negative or zero, and the law answers with nothing.
     pub overlap: R,
-    /// Velocity of the other body's surface relative to the first's, at the contact (m/s).
+    /// Velocity of the other body's surface relative to the first's, at the contact, half a step before (m/s).
     pub velocity: Triple<R>,
     /// Mean spin of the two bodies about the normal (rad/s); it turns the stored friction force.
     pub twist: R,
@@ -210,7 +216,7 @@ pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: 
     let zero = R::all(0.0);
     let overlap = zero.or_larger(point.overlap);
     let stiffness = point.overlap.if_above(zero, point.spring.stiffness, zero);
-    let separation_rate = dot(point.velocity, n);
+    let separation_rate = dot(point.velocity, point.middle);
 
     // A contact that began within this step has lasted for a part of it only: its overlap over the way of the step.
     let way = (separation_rate * -step).or_larger(overlap).or_larger(R::all(SMALLEST));
@@ -230,7 +236,7 @@ pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: 
         (half_touching * point.spring.stiffness - (memory.dashpot + dashpot) * separation_rate * step) * 0.5;
 
     let old = carried(memory.tangential, n, point.twist * step);
-    let slip = add_scaled(point.velocity, -separation_rate, n);
+    let slip = flat(add_scaled(point.velocity, -separation_rate, point.middle), n);
     let trial = add_scaled(old, stiffness * overlap * quotient * (ratio * step), slip);
     let trial_squared = dot(trial, trial);
     let limit = point.friction * at_once;
@@ -258,9 +264,21 @@ pub fn respond<R: Real>(point: &ContactPoint<R>, memory: &Memory<R>, constants: 
 /// 1/√(1 − x) restore the magnitude, x being the share of the square that the new plane has cut off.
 #[inline(always)]
 fn carried<R: Real>(force: Triple<R>, n: Triple<R>, angle: R) -> Triple<R> {
-    let turned = add_scaled(force, angle, cross(n, force));
-    let flat = add_scaled(turned, -dot(turned, n), n);
+    let turned = flat(add_scaled(force, angle, cross(n, force)), n);
     let before = dot(force, force);
-    let cut = (before - dot(flat, flat)) / before.or_larger(R::all(f64::MIN_POSITIVE));
-    scaled(flat, cut * (cut * 0.375 + 0.5) + 1.0)
+    let cut = (before - dot(turned, turned)) / before.or_larger(R::all(f64::MIN_POSITIVE));
+    scaled(turned, cut * (cut * 0.375 + 0.5) + 1.0)
+}
+
+/// What of a vector lies in the plane of a unit normal.
+#[inline(always)]
+fn flat<R: Real>(vector: Triple<R>, n: Triple<R>) -> Triple<R> {
+    add_scaled(vector, -dot(vector, n), n)
+}
+
+/// The normal of a contact half a step before: `normal` less what it has turned since. `motion` is the velocity of the other body's centre
+/// relative to the first's, as far as the line between them turns with it (m/s), `half_over_distance` half a step over their distance (s/m).
+#[inline(always)]
+pub fn normal_before<R: Real>(normal: Triple<R>, motion: Triple<R>, half_over_distance: R) -> Triple<R> {
+    add_scaled(normal, -half_over_distance, flat(motion, normal))
 }

@@ -200,7 +200,11 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
     let normal = towards / distance;
     let foot = centre + normal * (member.radius - 0.5 * overlap);
     let rope_velocity = a.pace * (1.0 - along.share) + b.pace * along.share;
-    let velocity = rope_velocity - member.velocity - member.spin.cross(&(foot - centre));
+    let half_step = 0.5 * context.law.time_step;
+    let of_centres = rope_velocity - member.velocity_before(half_step);
+    let turning = turning(&of_centres, &normal, distance, [a, b].map(|end| (&end.position, &end.pace)), along.inside);
+    let middle = normal - turning * half_step;
+    let velocity = of_centres - member.spin.cross(&(middle * (member.radius - 0.5 * overlap)));
     let grain = context.grain_modulus * member.radius;
     let rope = barrier.contact_modulus * rope_radius;
     let inverse_mass = member.inverse_mass + inverse_mass_at(a, b, along.share);
@@ -208,6 +212,7 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
     let kept = (1.0 - given_up).max(LEAST_KEPT);
     let point = ContactPoint {
         normal: normal.into(),
+        middle: middle.into(),
         overlap,
         velocity: velocity.into(),
         twist: 0.5 * member.spin.dot(&normal),
@@ -217,6 +222,21 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
     let before = towards - (rope_velocity - member.velocity) * context.law.time_step;
     let crossed = before.dot(&towards) < 0.0;
     Some(RopeTouch { point, foot, share: along.share, crossed })
+}
+
+/// Rate at which the normal of a contact with a line turns (1/s): with what moves across it, and beside an end with all that moves; along a
+/// line it stays square to it however that turns.
+fn turning(of_centres: &Vec3, normal: &Vec3, distance: f64, ends: [(&Vec3, &Vec3); 2], inside: bool) -> Vec3 {
+    let across = of_centres - normal * normal.dot(of_centres);
+    if !inside {
+        return across / distance;
+    }
+    let [(from, slow), (to, fast)] = ends;
+    let line = to - from;
+    let length = line.norm();
+    let axis = line / length;
+    let turned = (fast - slow) / length;
+    (across - axis * axis.dot(&across)) / distance - axis * normal.dot(&turned)
 }
 
 /// Overlap that a line gives up at its nodes because other lines have it as well (m).

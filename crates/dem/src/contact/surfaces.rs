@@ -4,18 +4,20 @@ use std::ops::Range;
 
 use crate::Vec3;
 use crate::contact::lane_sums::LaneSums;
-use crate::contact::law::{ContactPoint, LawConstants, Response, Spring, respond};
+use crate::contact::grain_touch::turning;
+use crate::contact::law::{ContactPoint, LawConstants, Response, Spring, normal_before, respond};
 use crate::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::Clock;
 use crate::neighbours::memory_rows::MemoryRows;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::simd::quad::Quad;
-use crate::simd::real::{Triple, cross, dot, negative, plus, scaled};
+use crate::simd::real::{Triple, add_scaled, cross, dot, minus, negative, plus, scaled};
 use crate::simd::widest::{Work, with_widest};
 use crate::tables::fixed::Fixed;
 use crate::tables::grain_rows::GrainRows;
 use crate::tables::grain_table::GrainLoad;
+use crate::tables::grains::GrainShape;
 use crate::tables::surfaces::SurfaceRole;
 use crate::tables::wall::WallShape;
 
@@ -178,6 +180,7 @@ impl<E: Eight> SurfaceTouch<E> {
         let members = grains.shape.members();
         let (mut towards, mut lever, mut height) = ([Quad::default(); LANES], [Quad::default(); LANES], [0.0; LANES]);
         let (mut role, mut square, mut share) = ([SurfaceRole::Base; LANES], [0.0; LANES], [1.0; LANES]);
+        let (mut hinge, mut hinged) = ([Quad::default(); LANES], false);
         for (lane, [member, number]) in eight.pairs.iter().enumerate() {
             let (centre, radius) = grains.sphere(*member as usize);
             let touch = context.fixed.touch(*number, &centre, radius);
@@ -186,6 +189,9 @@ impl<E: Eight> SurfaceTouch<E> {
             lever[lane] = Quad::new(&from_grain, touch.friction.min(context.grain_friction));
             (role[lane], square[lane]) = (touch.role, touch.square);
             (share[lane], height[lane]) = (touch.share, touch.height);
+            if let Some(axis) = touch.hinge {
+                (hinge[lane], hinged) = (Quad::new(&axis, 1.0), true);
+            }
         }
         let row = |lane: usize| eight.pairs[lane][0] as usize / members;
         let (towards, radius) = parted(E::columns(each_lane!(|lane| E::Row::load(&towards[lane]))));
@@ -197,10 +203,24 @@ impl<E: Eight> SurfaceTouch<E> {
         let distance = dot(towards, towards).root() + f64::MIN_POSITIVE;
         let normal = scaled(towards, E::all(1.0) / distance);
         let numbers = E::from_lanes(each_lane!(|lane| lane as f64));
+        let half_step = 0.5 * context.law.time_step;
+        let of_centre = match grains.shape {
+            GrainShape::Sphere => motion,
+            GrainShape::Clump => plus(motion, turning(spin, minus(lever, towards), half_step)),
+        };
+        // Over an edge or a corner the normal turns as the centre passes.
+        let middle = if hinged {
+            let (axis, turns) = parted(E::columns(each_lane!(|lane| E::Row::load(&hinge[lane]))));
+            let passing = add_scaled(of_centre, -dot(of_centre, axis), axis);
+            normal_before(normal, negative(passing), turns * half_step / distance)
+        } else {
+            normal
+        };
         let point = ContactPoint {
             normal,
+            middle,
             overlap: E::all(eight.count as f64).if_above(numbers, radius - distance, -radius),
-            velocity: negative(plus(motion, cross(spin, lever))),
+            velocity: negative(plus(of_centre, cross(spin, scaled(middle, distance)))),
             twist: dot(spin, normal) * 0.5,
             spring: match context.fixed.terrain {
                 Some(_) => Spring::on_fixed(radius * context.modulus, inverse_mass).part(E::from_lanes(share)),

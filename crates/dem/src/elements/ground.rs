@@ -196,6 +196,8 @@ impl Ground {
         let spring = self.spring(node);
         ContactPoint {
             normal: (-touch.normal).into(),
+            // Nodes do not roll.
+            middle: (-touch.normal).into(),
             overlap: touch.overlap,
             velocity: (-node.velocity).into(),
             twist: 0.0,

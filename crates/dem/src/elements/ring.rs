@@ -87,6 +87,8 @@ impl RingSide {
         let sides = [context.moduli[0] * radii[0], context.moduli[1] * radii[1]];
         let point = ContactPoint {
             normal: normal.into(),
+            // A ring's rod is thin, and its steps are short.
+            middle: normal.into(),
             overlap,
             velocity: (theirs.0 - mine.0).into(),
             twist: 0.5 * (mine.1 + theirs.1).dot(&normal),

@@ -23,6 +23,8 @@ pub struct FixedTouch {
     pub share: f64,
     pub friction: f64,
     pub role: SurfaceRole,
+    /// Along the edge that is touched, or nothing of a length for a corner; none on a face. Over these the normal turns.
+    pub hinge: Option<Vec3>,
     /// Cosine of the angle between the push and the normal of a surface: less than 1 on an edge.
     pub square: f64,
     /// Height of the nearest point over a surface's origin, along its first direction (m).
@@ -69,6 +71,7 @@ impl<'a> Fixed<'a> {
             share: 1.0,
             friction: surface.friction,
             role: surface.role,
+            hinge: surface.hinge(centre),
             // On an edge the push leans away from the surface's own normal.
             square: facing.dot(&surface.normal).abs(),
             height: surface.spans[0].direction.dot(&(foot - surface.origin)),
@@ -79,10 +82,10 @@ impl<'a> Fixed<'a> {
 fn touch_facet(terrain: &Terrain, facet: u32, centre: &Vec3, radius: f64) -> FixedTouch {
     let touch = terrain.touch(facet, centre, radius);
     let facet = terrain.facet(facet);
-    let (towards, share) = match touch {
+    let (towards, share, hinge) = match touch {
         // Below the ground the push is out of it all the same.
-        Some((place, share)) => (place.normal * -place.height.max(f64::MIN_POSITIVE), share),
-        None => (facet.normal * (-2.0 * radius), 1.0),
+        Some((place, share)) => (place.normal * -place.height.max(f64::MIN_POSITIVE), share, place.hinge),
+        None => (facet.normal * (-2.0 * radius), 1.0, None),
     };
-    FixedTouch { towards, share, friction: facet.friction, role: facet.role, square: 1.0, height: 0.0 }
+    FixedTouch { towards, share, friction: facet.friction, role: facet.role, hinge, square: 1.0, height: 0.0 }
 }

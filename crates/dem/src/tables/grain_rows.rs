@@ -51,6 +51,14 @@ pub struct Member {
     pub arm: Vec3,
 }
 
+impl Member {
+    /// Velocity of the centre half a step before its arm was as it is (m/s).
+    #[inline(always)]
+    pub fn velocity_before(&self, half_step: f64) -> Vec3 {
+        self.velocity - self.spin.cross(&self.spin.cross(&self.arm)) * half_step
+    }
+}
+
 impl<'a> GrainRows<'a> {
     #[inline(always)]
     pub fn of(table: &'a GrainTable) -> Self {

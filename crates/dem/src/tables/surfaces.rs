@@ -74,6 +74,25 @@ impl Surface {
         nearest
     }
 
+    /// Along the edge that is nearest to `point`, or nothing of a length where that is a corner; none where it is a point within.
+    #[inline(always)]
+    pub fn hinge(&self, point: &Vec3) -> Option<Vec3> {
+        if self.unbounded() {
+            return None;
+        }
+        let from_origin = point - self.origin;
+        let beyond = |span: &Span| {
+            let along = span.direction.dot(&from_origin);
+            along < span.low || along > span.high
+        };
+        match [beyond(&self.spans[0]), beyond(&self.spans[1])] {
+            [false, false] => None,
+            [true, false] => Some(self.spans[1].direction),
+            [false, true] => Some(self.spans[0].direction),
+            [true, true] => Some(Vec3::zeros()),
+        }
+    }
+
     /// Square of the distance of `point` from the surface (m²).
     #[inline(always)]
     pub fn distance_squared(&self, point: &Vec3) -> f64 {

@@ -129,6 +129,8 @@ pub struct Place {
     pub normal: Vec3,
     /// Distance of the centre from the foot along it, negative below the ground (m).
     pub height: f64,
+    /// Along the ridge, or nothing of a length for a peak; none inside a facet. Over these the normal turns.
+    pub hinge: Option<Vec3>,
 }
 
 impl Terrain {
@@ -252,7 +254,8 @@ impl Terrain {
         let beyond = facet.beyond(centre);
         if beyond <= 0.0 {
             let height = facet.height(centre);
-            return (Some(Place { foot: centre - facet.normal * height, normal: facet.normal, height }), -beyond);
+            let foot = centre - facet.normal * height;
+            return (Some(Place { foot, normal: facet.normal, height, hinge: None }), -beyond);
         }
         (self.place_on_edge(number, centre), 0.0)
     }
@@ -260,12 +263,12 @@ impl Terrain {
     fn place_on_edge(&self, number: u32, centre: &Vec3) -> Option<Place> {
         let facet = self.facet(number);
         let mut nearest: Option<Place> = None;
-        let mut take = |foot: Vec3, normal: &Vec3| {
+        let mut take = |foot: Vec3, normal: &Vec3, hinge: Vec3| {
             let line = centre - foot;
             let height = line.norm();
             if nearest.is_none_or(|nearest| height < nearest.height) {
                 let normal = line.try_normalize(0.0).unwrap_or(*normal);
-                nearest = Some(Place { foot, normal, height });
+                nearest = Some(Place { foot, normal, height, hinge: Some(hinge) });
             }
         };
         for index in 0..facet.count {
@@ -284,12 +287,12 @@ impl Terrain {
                     same.is_some_and(|side| other_facet.beyond_edge(side, centre) > 0.0)
                 };
                 if outside_other {
-                    take(from + along * (way / along.norm_squared()), &facet.normal);
+                    take(from + along * (way / along.norm_squared()), &facet.normal, along.normalize());
                 }
             }
             let corner = facet.corners[index];
             if self.first_facet[corner as usize] == number && self.is_peak(corner, centre) {
-                take(self.corners[corner as usize], &facet.normal);
+                take(self.corners[corner as usize], &facet.normal, Vec3::zeros());
             }
         }
         nearest

@@ -149,8 +149,11 @@ impl UpToEight<'_> {
         let [_, _, _, arm] = E::columns(spins);
         let (step, keep) = (steps.time.0[0], steps.keep.0[0]);
         let momentum = scaled(add_scaled(momentum, E::all(step), torque), E::all(keep));
-        let (axis, rate) = turned(axis, momentum, step, inverse_transverse);
-        let spin = add_scaled(scaled(momentum, inverse_transverse), dot(axis, momentum) * difference, axis);
+        let before = axis;
+        let (axis, rate) = turned(before, momentum, step, inverse_transverse);
+        // Of the middle of the step, as the momentum is: about the axis half-way.
+        let about = dot(axis, momentum) * difference * 0.5;
+        let spin = add_scaled(scaled(momentum, inverse_transverse), about, plus(before, axis));
         let axes = E::rows(joined(axis, inverse_transverse));
         let momenta = E::rows(joined(momentum, difference));
         let spins = E::rows(joined(spin, arm));
