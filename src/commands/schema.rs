@@ -51,7 +51,11 @@ fn section(keys: &[Key]) -> Value {
     let here = |pair: &&Either| pair.keys.iter().all(|name| keys.iter().any(|key| key.name == *name));
     for pair in EITHER.iter().filter(here) {
         if pair.needed {
-            schema["oneOf"] = pair.keys.iter().map(|key| json!({ "required": [key] })).collect();
+            let mut one: Vec<Value> = pair.keys.iter().map(|key| json!({ "required": [key] })).collect();
+            if let Some([group, key]) = pair.instead {
+                one.push(json!({ "properties": { group: { "required": [key] } }, "required": [group] }));
+            }
+            schema["oneOf"] = one.into();
         } else {
             schema["not"] = json!({ "required": pair.keys });
         }
@@ -119,6 +123,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::File => json!({ "type": "string", "minLength": 1 }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Section(keys) => section(keys),
+        Kind::Sections(keys) => json!({ "type": "array", "minItems": 1, "items": section(keys) }),
         Kind::OneOf(keys) => {
             let mut schema = section(keys);
             schema["minProperties"] = json!(1);

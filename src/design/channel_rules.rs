@@ -6,6 +6,7 @@ use crate::design::flow_entries::flow_volume;
 use crate::design::net_rules::rope_heights;
 use crate::design::resolve::RUN_IN;
 use crate::design::show::{NET, at, length};
+use crate::design::surge_entries::{of_the_first, volume_of_all};
 use crate::problem::Problem;
 use crate::section::Section;
 
@@ -87,9 +88,10 @@ pub fn terrain_goes_far_enough_downstream(e: &Entries) -> Option<Problem> {
 pub fn terrain_goes_far_enough_upstream(e: &Entries) -> Option<Problem> {
     let path = "channel.terrain.upstream";
     let (upstream, section) = (e.number(path)?, section(e)?);
-    let depth = e.number("flow.arrival.surge.depth")?;
-    let run_in = e.number("flow.arrival.surge.run_in").unwrap_or(RUN_IN * depth);
-    let long = flow_volume(e)? / section.area(depth);
+    let (_, depth) = of_the_first(e, "depth")?;
+    let run_in = of_the_first(e, "run_in").map_or(RUN_IN * depth, |(_, run_in)| run_in);
+    // Later surges start behind what the earlier ones have left.
+    let long = volume_of_all(e).or_else(|| flow_volume(e))? / section.area(depth);
     // With its nose, and room for the packing.
     let least = run_in + 1.4 * long + 2.0 * depth + 2.0;
     (upstream < least).then(|| {
@@ -305,19 +307,6 @@ pub fn ropes_hang_clear_of_the_ground(e: &Entries) -> Option<Problem> {
         )
     };
     Some(Problem::new(at("main_ropes"), found, "ropes that hang clear of the ground from bank to bank").hint(hint))
-}
-
-pub fn flow_within_the_section(e: &Entries) -> Option<Problem> {
-    let survey = survey(e)?;
-    let depth = e.number("flow.arrival.surge.depth")?;
-    (depth > survey.lower_end()).then(|| {
-        let found = format!(
-            "a flow {} deep in a section whose lower bank ends at {}",
-            length(depth),
-            length(survey.lower_end())
-        );
-        Problem::new("flow.arrival.surge.depth", found, "at most the height of the lower bank, normal to the bed")
-    })
 }
 
 pub fn profile_has_a_reach(e: &Entries) -> Option<Problem> {

@@ -75,6 +75,11 @@ impl Entries {
         self.sections.iter().any(|section| section == path)
     }
 
+    /// Whether the file has a list of sections there.
+    pub fn has_list(&self, path: &str) -> bool {
+        self.has_section(&join(path, "0"))
+    }
+
     pub fn number(&self, path: &str) -> Option<f64> {
         match self.values.get(path)?.value {
             Value::Number(number) => Some(number),
@@ -132,6 +137,9 @@ pub fn read(root: &Node, keys: &'static [Key], purpose: Purpose, problems: &mut 
     reader.section(root, keys, "");
     reader.entries
 }
+
+/// Longest list of sections.
+const MOST_SECTIONS: usize = 50;
 
 struct Reader<'a> {
     entries: Entries,
@@ -238,6 +246,7 @@ impl Reader<'_> {
     fn value(&mut self, node: &Node, key: &'static Key, path: &str, origin: Origin) {
         match key.kind {
             Kind::Section(keys) => return self.section(node, keys, path),
+            Kind::Sections(keys) => return self.sections(node, keys, path),
             Kind::OneOf(keys) => return self.one_of(node, keys, path),
             _ => {}
         }
@@ -259,6 +268,24 @@ impl Reader<'_> {
                 let mut problem = Problem::new(path, found, key.kind.allowed());
                 problem.hint = hint.map(String::into_boxed_str);
                 self.problems.push(problem);
+            }
+        }
+    }
+
+    fn sections(&mut self, node: &Node, keys: &'static [Key], path: &str) {
+        match node {
+            Node::List(items) if (1..=MOST_SECTIONS).contains(&items.len()) => {
+                for (index, item) in items.iter().enumerate() {
+                    self.section(item, keys, &join(path, &index.to_string()));
+                }
+            }
+            Node::List(items) => {
+                let found = if items.is_empty() { "an empty list".into() } else { format!("a list of {}", items.len()) };
+                self.problems.push(Problem::new(path, found, format!("a list of 1 to {MOST_SECTIONS}")));
+            }
+            other => {
+                let allowed = Kind::Sections(keys).allowed();
+                self.problems.push(Problem::new(path, other.describe(), allowed).hint("begin each of them with a dash"));
             }
         }
     }
@@ -313,7 +340,7 @@ fn groups_with(name: &str, keys: &'static [Key], path: &str) -> Vec<String> {
         found.push(if path.is_empty() { "the design itself, without indent".to_string() } else { format!("`{path}`") });
     }
     for key in keys {
-        if let Kind::Section(keys) | Kind::OneOf(keys) = key.kind {
+        if let Kind::Section(keys) | Kind::Sections(keys) | Kind::OneOf(keys) = key.kind {
             found.extend(groups_with(name, keys, &join(path, key.name)));
         }
     }
@@ -404,7 +431,7 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
             }
             _ => Err((node.describe(), None)),
         },
-        Kind::Section(_) | Kind::OneOf(_) => Err((node.describe(), None)),
+        Kind::Section(_) | Kind::Sections(_) | Kind::OneOf(_) => Err((node.describe(), None)),
     }
 }
 

@@ -3,37 +3,50 @@
 use crate::design::entries::Entries;
 use crate::design::schema::QUANTILES;
 use crate::design::sizes::SizeCurve;
+use crate::design::surge_entries::{surge, volume_of, volume_of_all};
 
-/// Volume of the flow with pores, from whichever of mass and volume was given.
+/// Where the grain sizes of the flow stand.
+pub const SIZES: &str = "flow.grain_sizes";
+
+/// Volume of the flow with pores, from whichever of mass and volume was given; of a list of surges that of the first.
 pub fn flow_volume(entries: &Entries) -> Option<f64> {
-    entries.number("flow.volume").or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
+    entries
+        .number("flow.volume")
+        .or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
+        .or_else(|| volume_of(entries, &surge(0)))
 }
 
-/// (share of the mass, diameter) of the quantiles that were typed.
-pub fn quantiles(e: &Entries) -> Vec<(f64, f64)> {
-    let typed = |(key, share): &(&str, f64)| Some((*share, e.number(&format!("flow.grain_sizes.curve.{key}"))?));
+/// (share of the mass, diameter) of the quantiles that were typed, of the grain sizes at a path.
+pub fn quantiles(e: &Entries, sizes: &str) -> Vec<(f64, f64)> {
+    let typed = |(key, share): &(&str, f64)| Some((*share, e.number(&format!("{sizes}.curve.{key}"))?));
     QUANTILES.iter().filter_map(typed).collect()
 }
 
-/// The size curve of the design, ends included, if it is sound.
+/// The size curve of the flow, ends included, if it is sound.
 pub fn size_curve(e: &Entries) -> Option<SizeCurve> {
-    let uniform = |key: &str| e.number(&format!("flow.grain_sizes.uniform.{key}"));
+    size_curve_at(e, SIZES)
+}
+
+/// The same of the grain sizes at a path.
+pub fn size_curve_at(e: &Entries, sizes: &str) -> Option<SizeCurve> {
+    let uniform = |key: &str| e.number(&format!("{sizes}.uniform.{key}"));
     if let (Some(smallest), Some(largest)) = (uniform("min"), uniform("max")) {
         return (smallest <= largest).then_some(SizeCurve::ByNumber { smallest, largest });
     }
-    let points = quantiles(e);
+    let points = quantiles(e, sizes);
     let rises = points.windows(2).all(|pair| pair[0].1 < pair[1].1);
     (points.len() >= 2 && rises).then(|| SizeCurve::through(&points))
 }
 
 /// The lowest share of the mass of which the design gives a size.
 pub fn curve_known_from(e: &Entries) -> f64 {
-    quantiles(e).first().map_or(0.0, |(share, _)| *share)
+    quantiles(e, SIZES).first().map_or(0.0, |(share, _)| *share)
 }
 
+/// Grains of all surges, as if all were of one curve.
 pub fn grain_count(e: &Entries, curve: &SizeCurve) -> Option<f64> {
-    let solid = flow_volume(e)? * e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
-    Some(curve.count(solid))
+    let volume = volume_of_all(e).or_else(|| flow_volume(e))?;
+    Some(curve.count(volume * e.number("flow.bulk_density")? / e.number("flow.solid_density")?))
 }
 
 /// Grains to which `coarsen: auto` cuts a curve down: what runs in minutes.

@@ -19,6 +19,8 @@ pub(crate) mod schema;
 pub(crate) mod section_file;
 pub(crate) mod show;
 pub(crate) mod sizes;
+pub(crate) mod surge_entries;
+pub(crate) mod surge_rules;
 pub(crate) mod terrain_file;
 pub(crate) mod wall_rules;
 pub(crate) mod yaml_faults;
@@ -126,7 +128,22 @@ pub struct Flow {
     pub restitution: f64,
     /// Contact modulus of the grains (Pa).
     pub modulus: f64,
+    /// How it comes; where it comes in several surges, the first of them, whose mass is `mass`.
     pub arrival: Arrival,
+    /// The surges that come after the first, in their order.
+    pub later: Vec<LaterSurge>,
+}
+
+/// A surge that comes onto what those before it have left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaterSurge {
+    /// With pores (m³).
+    pub volume: f64,
+    pub surge: Surge,
+    /// Its grains, where they are others than the flow's.
+    pub sizes: Option<SizeCurve>,
+    /// Time from the release of the surge before it to its own (s); nothing where it waits until that has come to rest.
+    pub after: Option<f64>,
 }
 
 /// The fine end of a grain-size curve that is not simulated as it is.
@@ -139,14 +156,48 @@ pub struct CurveCut {
 }
 
 impl Flow {
-    /// Whether it is one of several surges of its event: more than rounding lies between their volumes.
+    /// Whether its event is more than the first surge: more than rounding lies between their volumes.
     pub fn is_one_of_several(&self) -> bool {
         self.event_volume > 1.001 * self.volume()
     }
 
-    /// Volume of the flow with its pores (m³).
+    /// Whether its event is more than all surges that are given.
+    pub fn is_part_of_its_event(&self) -> bool {
+        self.event_volume > 1.001 * self.volume_of_all()
+    }
+
+    /// Volume of the flow with its pores, of the first surge where there are several (m³).
     pub fn volume(&self) -> f64 {
         self.mass / self.bulk_density
+    }
+
+    /// Volume of all surges with their pores (m³).
+    pub fn volume_of_all(&self) -> f64 {
+        self.volume() + self.later.iter().map(|later| later.volume).sum::<f64>()
+    }
+
+    /// Mass of all surges (kg).
+    pub fn mass_of_all(&self) -> f64 {
+        self.mass + self.later.iter().map(|later| later.volume * self.bulk_density).sum::<f64>()
+    }
+
+    /// How many surges there are.
+    pub fn surges(&self) -> usize {
+        1 + self.later.len()
+    }
+
+    /// One surge alone, counted from 0.
+    pub fn alone(&self, number: usize) -> Self {
+        let alone = Self { later: Vec::new(), ..self.clone() };
+        match number.checked_sub(1).and_then(|number| self.later.get(number)) {
+            None => alone,
+            Some(later) => Self {
+                mass: later.volume * self.bulk_density,
+                sizes: later.sizes.clone().unwrap_or_else(|| self.sizes.clone()),
+                arrival: Arrival::Surge(later.surge),
+                ..alone
+            },
+        }
     }
 }
 

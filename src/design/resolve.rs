@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
-use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve};
+use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve, size_curve_at};
 use crate::design::net_rules::rope_heights;
 use crate::design::sizes::SizeCurve;
+use crate::design::surge_entries::{surges, volume_of, volume_of_all};
 use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
     Factors, FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, Project,
-    RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    LaterSurge, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -65,9 +66,10 @@ fn flow(e: &Entries) -> Option<Flow> {
     let cut = coarsened(e, &whole).map(|share| CurveCut { share, whole: whole.clone() });
     Some(Flow {
         mass: flow_volume(e)? * bulk_density,
-        event_volume: value("event_volume").or_else(|| flow_volume(e))?,
+        event_volume: value("event_volume").or_else(|| volume_of_all(e)).or_else(|| flow_volume(e))?,
         bulk_density,
         solid_density: value("solid_density").unwrap_or(f64::NAN),
+        later: later_surges(e, cut.as_ref())?,
         sizes: cut.as_ref().map_or(whole, |cut| cut.whole.cut_below(cut.share)),
         known_from: curve_known_from(e),
         cut,
@@ -104,15 +106,35 @@ fn arrival(e: &Entries) -> Option<Arrival> {
             velocity_at_barrier: value("dam_break.velocity_at_barrier"),
         }));
     }
-    let depth = value("surge.depth")?;
-    Some(Arrival::Surge(Surge {
-        length: flow_volume(e)? / section.area(depth),
+    Some(Arrival::Surge(surge(e, surges(e).first()?, flow_volume(e)?)?))
+}
+
+/// The surge of a volume (m³) that the entries at a path describe.
+fn surge(e: &Entries, path: &str, volume: f64) -> Option<Surge> {
+    let value = |key: &str| e.number(&format!("{path}.{key}"));
+    let depth = value("depth")?;
+    Some(Surge {
+        length: volume / section(e)?.area(depth),
         depth,
-        velocity: value("surge.velocity")?,
-        front_angle: value("surge.front_angle")
+        velocity: value("velocity")?,
+        front_angle: value("front_angle")
             .unwrap_or(granular_front(e.number("flow.grain_friction").unwrap_or(0.0), e.number("channel.slope")?)),
-        run_in: value("surge.run_in").unwrap_or(RUN_IN * depth),
-    }))
+        run_in: value("run_in").unwrap_or(RUN_IN * depth),
+    })
+}
+
+fn later_surges(e: &Entries, cut: Option<&CurveCut>) -> Option<Vec<LaterSurge>> {
+    let later = |path: &String| {
+        let volume = volume_of(e, path)?;
+        let own = size_curve_at(e, &format!("{path}.grain_sizes"));
+        Some(LaterSurge {
+            volume,
+            surge: surge(e, path, volume)?,
+            sizes: own.map(|own| cut.map_or(own.clone(), |cut| own.cut_below(cut.share))),
+            after: e.number(&format!("{path}.after")),
+        })
+    };
+    surges(e).iter().skip(1).map(later).collect()
 }
 
 fn barrier(e: &Entries) -> Option<BarrierDesign> {

@@ -3,11 +3,12 @@
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section};
 use crate::design::entries::Entries;
-use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, quantiles, size_curve};
+use crate::design::flow_entries::{MOST_CUT, SIZES, coarsened, flow_volume, grain_count, quantiles, size_curve};
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
-use crate::design::{channel_rules, net_rules, wall_rules};
+use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
+use crate::design::{channel_rules, net_rules, surge_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -36,7 +37,7 @@ pub const RULES: &[Rule] = &[
     channel_rules::lowest_rope_has_a_length,
     channel_rules::second_rope_above_the_bed,
     channel_rules::ropes_hang_clear_of_the_ground,
-    channel_rules::flow_within_the_section,
+    surge_rules::surge_within_the_section,
     channel_rules::profile_has_a_reach,
     channel_rules::reaches_upstream_follow,
     channel_rules::reaches_downstream_follow,
@@ -48,7 +49,11 @@ pub const RULES: &[Rule] = &[
     curve_increases,
     dam_break_height_agrees,
     surge_length_agrees,
-    flow_within_side_walls,
+    surge_rules::surges_have_one_size,
+    surge_rules::surges_make_the_flow,
+    surge_rules::first_surge_comes_first,
+    surge_rules::surge_within_side_walls,
+    surge_rules::surges_have_sound_sizes,
     wall_rules::wall_segments_fill_the_wall,
     wall_rules::wall_base_carries_the_wall,
     wall_rules::wall_base_no_steeper_than_the_bed,
@@ -88,6 +93,7 @@ pub const GRAIN_RULES: &[Rule] = &[
     grains_fit_the_channel,
     grain_count_is_bearable,
     block_larger_than_the_grains,
+    surge_rules::later_surges_larger_than_their_grains,
     net_rules::knots_are_bearable,
     net_rules::cylinders_are_bearable,
 ];
@@ -104,14 +110,14 @@ fn schema_version_is_known(e: &Entries) -> Option<Problem> {
 fn mass_or_volume(e: &Entries) -> Option<Problem> {
     let found = match (e.mentions("flow.mass"), e.mentions("flow.volume")) {
         (true, true) => format!("mass `{}` and volume `{}`", e.typed("flow.mass"), e.typed("flow.volume")),
-        (false, false) if e.has_section("flow") => "neither mass nor volume".to_string(),
+        (false, false) if e.has_section("flow") && !e.mentions(SURGES) => "neither mass nor volume".to_string(),
         _ => return None,
     };
     Some(Problem::new("flow", found, "either mass or volume").hint("the bulk density gives the other"))
 }
 
 fn event_is_no_less_than_the_flow(e: &Entries) -> Option<Problem> {
-    let (event, flow) = (e.number("flow.event_volume")?, flow_volume(e)?);
+    let (event, flow) = (e.number("flow.event_volume")?, volume_of_all(e).or_else(|| flow_volume(e))?);
     let show = |volume| Dimension::Volume.show(volume);
     (event < 0.999 * flow).then(|| {
         Problem::new("flow.event_volume", show(event), format!("no less than the flow itself, {}", show(flow)))
@@ -142,30 +148,42 @@ fn packing_is_possible(e: &Entries) -> Option<Problem> {
 }
 
 fn sizes_have_an_order(e: &Entries) -> Option<Problem> {
-    let (low, high) = ("flow.grain_sizes.uniform.min", "flow.grain_sizes.uniform.max");
-    (e.number(low)? > e.number(high)?).then(|| {
-        Problem::new(
-            low,
-            format!("`{}`, above max `{}`", e.typed(low), e.typed(high)),
-            "at most flow.grain_sizes.uniform.max",
-        )
+    sizes_have_an_order_at(e, SIZES)
+}
+
+/// Of the grain sizes at a path.
+pub fn sizes_have_an_order_at(e: &Entries, sizes: &str) -> Option<Problem> {
+    let [low, high] = ["min", "max"].map(|key| format!("{sizes}.uniform.{key}"));
+    (e.number(&low)? > e.number(&high)?).then(|| {
+        let found = format!("`{}`, above max `{}`", e.typed(&low), e.typed(&high));
+        Problem::new(low, found, format!("at most {high}"))
     })
 }
 
 fn curve_has_two_quantiles(e: &Entries) -> Option<Problem> {
-    let path = "flow.grain_sizes.curve";
-    (e.has_section(path) && quantiles(e).len() < 2)
-        .then(|| Problem::new(path, format!("{} quantile(s)", quantiles(e).len()), "two or more of d1 … d100"))
+    curve_has_two_quantiles_at(e, SIZES)
+}
+
+/// Of the grain sizes at a path.
+pub fn curve_has_two_quantiles_at(e: &Entries, sizes: &str) -> Option<Problem> {
+    let (path, count) = (format!("{sizes}.curve"), quantiles(e, sizes).len());
+    (e.has_section(&path) && count < 2)
+        .then(|| Problem::new(path, format!("{count} quantile(s)"), "two or more of d1 … d100"))
 }
 
 fn curve_increases(e: &Entries) -> Option<Problem> {
-    let points = quantiles(e);
+    curve_increases_at(e, SIZES)
+}
+
+/// Of the grain sizes at a path.
+pub fn curve_increases_at(e: &Entries, sizes: &str) -> Option<Problem> {
+    let points = quantiles(e, sizes);
     let pair = points.windows(2).find(|pair| pair[1].1 <= pair[0].1)?;
     let name = |share: f64| format!("d{:.0}", 100.0 * share);
     let found =
         format!("{} = {}, not above {} = {}", name(pair[1].0), length(pair[1].1), name(pair[0].0), length(pair[0].1));
     Some(Problem::new(
-        format!("flow.grain_sizes.curve.{}", name(pair[1].0)),
+        format!("{sizes}.curve.{}", name(pair[1].0)),
         found,
         "diameters that increase with the share",
     ))
@@ -174,8 +192,8 @@ fn curve_increases(e: &Entries) -> Option<Problem> {
 /// Width of the surface of the flow as it is let go (m).
 fn width_of_the_flow(e: &Entries) -> Option<f64> {
     let section = section(e)?;
-    let depth = e
-        .number("flow.arrival.surge.depth")
+    let depth = of_the_first(e, "depth")
+        .map(|(_, depth)| depth)
         .or_else(|| Some(section.depth_of(flow_volume(e)?, e.number("flow.arrival.dam_break.length")?)));
     Some(section.width(depth?))
 }
@@ -242,14 +260,6 @@ fn surge_length_agrees(e: &Entries) -> Option<Problem> {
         let found = format!("{}, while the volume needs {}", length(typed), length(needed));
         Problem::new(format!("{path}.length"), found, "the length that fits the volume to 5 %")
             .hint("leave the length out")
-    })
-}
-
-fn flow_within_side_walls(e: &Entries) -> Option<Problem> {
-    let (depth, wall) = (e.number("flow.arrival.surge.depth")?, e.number("channel.wall_height")?);
-    (depth > wall).then(|| {
-        let found = format!("a flow {} deep between walls of {}", length(depth), length(wall));
-        Problem::new("flow.arrival.surge.depth", found, "at most channel.wall_height")
     })
 }
 
@@ -361,11 +371,11 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
 fn block_larger_than_the_grains(e: &Entries) -> Option<Problem> {
     let largest = size_curve(e)?.quantile(1.0);
     let (volume, section) = (flow_volume(e)?, section(e)?);
-    let (typed_path, typed, other) = match e.number("flow.arrival.surge.depth") {
-        Some(depth) => ("flow.arrival.surge.depth", depth, volume / section.area(depth)),
+    let (typed_path, typed, other) = match of_the_first(e, "depth") {
+        Some((path, depth)) => (path, depth, volume / section.area(depth)),
         None => {
             let length = e.number("flow.arrival.dam_break.length")?;
-            ("flow.arrival.dam_break.length", length, section.depth_of(volume, length))
+            ("flow.arrival.dam_break.length".to_string(), length, section.depth_of(volume, length))
         }
     };
     let smaller = typed.min(other);

@@ -247,6 +247,11 @@ pub const QUANTILES: &[(&str, f64)] = &[
 const ARRIVAL: &[Key] = &[
     Key::optional("dam_break", Kind::Section(DAM_BREAK), "a block at rest behind a gate that opens at once"),
     Key::optional("surge", Kind::Section(SURGE), "a body of grains upstream of the barrier, already moving"),
+    Key::optional(
+        "surges",
+        Kind::Sections(SURGES),
+        "surges one after another, each let go upstream of what those before it have left",
+    ),
 ];
 
 const DAM_BREAK: &[Key] = &[
@@ -269,16 +274,37 @@ const SURGE: &[Key] = &[
     Key::required("depth", quantity(D::Length, 0.005, 50.0), "depth of the flow, normal to the bed"),
     Key::required("velocity", quantity(D::Velocity, 0.05, 40.0), "velocity of the flow along the bed"),
     Key::optional("length", quantity(D::Length, 0.01, 1e4), "length of the surge; by default what the volume needs"),
-    Key::optional(
-        "front_angle",
-        quantity(D::Angle, 5.0 * DEGREE, 90.0 * DEGREE),
-        "angle between the front face of the surge and the bed; by default that of a granular front, tan = tan(grain_friction) - tan(slope), at least 15 deg (Pouliquen 1999); 90 deg is a vertical face, which hits a barrier everywhere at once",
-    ),
+    FRONT_ANGLE,
     Key::optional(
         "run_in",
         quantity(D::Length, 0.0, 1e3),
         "way from the front of the surge at its release to the barrier, on which it loosens; by default four times the depth",
     ),
+];
+
+const FRONT_ANGLE: Key = Key::optional(
+    "front_angle",
+    quantity(D::Angle, 5.0 * DEGREE, 90.0 * DEGREE),
+    "angle between the front face of the surge and the bed; by default that of a granular front, tan = tan(grain_friction) - tan(slope), at least 15 deg (Pouliquen 1999); 90 deg is a vertical face, which hits a barrier everywhere at once",
+);
+
+const SURGES: &[Key] = &[
+    Key::optional("volume", quantity(D::Volume, 1e-6, 1e6), "volume with pores; give this or the length"),
+    Key::optional("length", quantity(D::Length, 0.01, 1e4), "length of the surge; give this or the volume"),
+    Key::required("depth", quantity(D::Length, 0.005, 50.0), "depth of the flow, normal to the bed"),
+    Key::required("velocity", quantity(D::Velocity, 0.05, 40.0), "velocity of the flow along the bed"),
+    FRONT_ANGLE,
+    Key::optional(
+        "run_in",
+        quantity(D::Length, 0.0, 1e3),
+        "way from the front of the surge at its release to the barrier, or to what earlier surges have left; by default four times the depth",
+    ),
+    Key::optional(
+        "after",
+        quantity(D::Time, 0.0, 1e4),
+        "time from the release of the surge before; by default it waits until that has come to rest",
+    ),
+    Key::optional("grain_sizes", Kind::OneOf(GRAIN_SIZES), "its grains, where they are others than the flow's"),
 ];
 
 const BARRIER: &[Key] = &[
@@ -676,12 +702,15 @@ pub struct Either {
     pub keys: &'static [&'static str],
     /// Whether one of them must.
     pub needed: bool,
+    /// A key of a group beside them that stands in their stead.
+    pub instead: Option<[&'static str; 2]>,
 }
 
 /// The JSON Schema tells these; [`super::rules`] words what it says of them.
 pub const EITHER: &[Either] = &[
-    Either { keys: &["width", "section", "terrain"], needed: true },
-    Either { keys: &["mass", "volume"], needed: true },
-    Either { keys: &["count", "heights"], needed: true },
-    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false },
+    Either { keys: &["width", "section", "terrain"], needed: true, instead: None },
+    Either { keys: &["mass", "volume"], needed: true, instead: Some(["arrival", "surges"]) },
+    Either { keys: &["volume", "length"], needed: true, instead: None },
+    Either { keys: &["count", "heights"], needed: true, instead: None },
+    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: None },
 ];
