@@ -100,13 +100,14 @@ pub fn guideline(design: &Design) -> Guideline {
 pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     let extras = extras(design);
     let (width, section) = (design.channel.width, design.channel.section());
-    let stages = envelope(&input, &extras);
-    let level = level_reached(design, &input);
+    let flows = flows(design, input);
+    let stages: Vec<LoadCase> = flows.iter().flat_map(|flow| envelope(flow, &extras)).collect();
+    let level = flows.iter().map(|flow| level_reached(design, flow)).reduce(higher).unwrap_or(Ok(0.0));
     // A point load spreads along no more of a wall than there is at its height.
     let hit = extras.point.map_or(width, |point| width.min(section.width(point.height)));
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
-        BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &input, &stages),
+        BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &flows, &stages),
     };
     let bed_force = match &design.barrier {
         BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed => {
@@ -143,6 +144,26 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
         retention: held(design),
         section,
     }
+}
+
+/// The flow of each surge: of the first as it is given, of later ones with their own depth and velocity, both by as much more as those of the
+/// first are more than the design's.
+pub fn flows(design: &Design, first: GuidelineInput) -> Vec<GuidelineInput> {
+    let (depth, velocity) = incoming(design);
+    let more = |ratio: f64| larger_or_nan(ratio, 1.0);
+    let later = design.flow.later.iter().map(|later| {
+        let depth = later.surge.depth * more(first.depth / depth);
+        let velocity = later.surge.velocity * more(first.velocity / velocity);
+        filled(design, GuidelineInput { depth, velocity, ..first })
+    });
+    std::iter::once(first).chain(later).collect()
+}
+
+/// The higher of two levels, each known or at least so high.
+fn higher(one: Result<f64, f64>, other: Result<f64, f64>) -> Result<f64, f64> {
+    let least = |level: Result<f64, f64>| level.unwrap_or_else(|least| least);
+    let highest = larger_or_nan(least(one), least(other));
+    if one.is_ok() && other.is_ok() { Ok(highest) } else { Err(highest) }
 }
 
 pub fn input(design: &Design) -> GuidelineInput {
@@ -222,7 +243,10 @@ pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
     let event = design.flow.event_volume / width;
     let repose = libm::atan(design.flow.grain_friction);
     let reservoir = reservoir(design);
-    let before = (event - design.flow.volume() / width).max(0.0);
+    // The smaller the last surge is, the more lies there already.
+    let later = design.flow.later.iter().map(|later| later.volume);
+    let last = later.fold(design.flow.volume(), f64::min);
+    let before = (event - last / width).max(0.0);
     EventFill {
         level: reservoir.height(event, 0.0),
         heap: reservoir.height(event, repose),
@@ -393,7 +417,7 @@ fn lean(design: &Design) -> f64 {
 
 /// Each rope under the case that loads its tributary height most. The lowest rope also takes what an open gap below it
 /// would let through; the topmost carries the weight of the net.
-fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages: &[LoadCase]) -> Vec<RopeLoad> {
+fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stages: &[LoadCase]) -> Vec<RopeLoad> {
     let rope = net.main_ropes.rope;
     let section = design.channel.section();
     let top = height_over_bed(design);
@@ -426,12 +450,14 @@ fn rope_loads(net: &FlexibleNet, design: &Design, input: &GuidelineInput, stages
                 (spread * spread + hung * hung - 2.0 * spread * hung * libm::sin(net.tilt)).sqrt()
             };
             // The surge whose moving flow starts or ends with the strip may lie between the stages.
-            let room = (input.fill_height - input.moving_depth()).max(0.0);
-            let surge = |deposit: f64| LoadCase {
-                point: extras(design).point,
-                ..later_surge::case(input, deposit.clamp(0.0, room))
+            let surge = |flow: &GuidelineInput, deposit: f64| {
+                let room = (flow.fill_height - flow.moving_depth()).max(0.0);
+                LoadCase { point: extras(design).point, ..later_surge::case(flow, deposit.clamp(0.0, room)) }
             };
-            let own = [low, high.min(top) - input.depth].map(surge);
+            let own: Vec<LoadCase> = flows
+                .iter()
+                .flat_map(|flow| [low, high.min(top) - flow.depth].map(|deposit| surge(flow, deposit)))
+                .collect();
             let governing =
                 stages.iter().chain(&own).map(|case| (on_rope(case), case)).max_by(|a, b| a.0.total_cmp(&b.0));
             let load = design.factors.load * governing.map_or(0.0, |(load, _)| load);

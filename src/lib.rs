@@ -101,6 +101,7 @@ pub mod section;
 mod sensitivity;
 pub mod simulated;
 mod sources;
+pub mod stages;
 mod starts;
 mod studies;
 pub mod terminal;

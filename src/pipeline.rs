@@ -10,20 +10,20 @@ use crate::checks::range::leave_open_outside_range;
 use crate::checks::ropes::leave_open_what_sockets_alone_hold;
 use crate::demand::Demands;
 use crate::design::read::DesignFile;
-use crate::design::{Arrival, BarrierDesign, Design};
+use crate::design::{Arrival, BarrierDesign, Design, LaterSurge};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
 use crate::load_cases::{LoadCase, cases};
 use crate::quantities::observed::Observed;
-use crate::quantities::{earth_pressure, incoming, total_force, wall};
+use crate::quantities::{earth_pressure, incoming, mass, total_force, wall};
 use crate::scene::estimate::estimate;
 use crate::scene::event::Watch;
 use crate::section::Section;
 use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
-use crate::simulated::{Detail, RunError, Simulated, simulate};
+use crate::simulated::{Detail, RunError, Simulated, Start, simulate};
 use crate::starts::{Spread, side_by_side};
 
 /// What the whole run says.
@@ -242,6 +242,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
     leave_open_what_sockets_alone_hold(design, &mut outcomes, judge);
     let mut doubts = simulated.as_ref().map_or_else(Vec::new, |simulated| simulated.doubts.clone());
     doubts.extend(whole.and_then(|simulated| slower_than_designed(design, simulated)));
+    doubts.extend(whole.into_iter().flat_map(|simulated| later_surges_that_fall_short(design, simulated)));
     let verdict = verdict(&outcomes, &doubts);
     Run { file, guideline, simulated, varied: Vec::new(), outcomes, doubts, verdict, climb: Vec::new() }
 }
@@ -259,23 +260,31 @@ fn first_surge(rung: &Rung, design: &Design, guideline: &Guideline, simulated: &
             simulated.starts.iter().map(|start| of(&start.observed)).map(|[sampled, smoothed]| sampled / smoothed);
         ratios.fold(1.0, larger_or_nan)
     };
-    let at_rest: Vec<f64> =
-        simulated.starts.iter().filter_map(|start| start.observed.known(&earth_pressure::OF_ANY_DEPTH)).collect();
-    let seen = (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean);
-    let push = simulated.spread(|seen| seen.one(&total_force::PUSH));
+    // Of the deposit at the end, and of what each surge has left.
+    let of_deposits = |seen: &dyn Fn(&Start) -> Option<f64>| {
+        let at_rest: Vec<f64> = simulated.starts.iter().filter_map(seen).collect();
+        (!at_rest.is_empty()).then(|| Spread::of(&at_rest).mean)
+    };
+    let k_of = |seen: &Observed| seen.known(&earth_pressure::OF_ANY_DEPTH);
+    let at_the_end = of_deposits(&|start| k_of(&start.observed));
+    let of_surges = (0..design.flow.surges()).filter_map(|surge| of_deposits(&|start| k_of(start.surges.get(surge)?)));
+    let seen = at_the_end.into_iter().chain(of_surges).reduce(larger_or_nan);
+    let first = |quantity: &dyn Fn(&Observed) -> f64| simulated.spread_of_first(quantity);
+    let push = first(&|seen| seen.one(&total_force::PUSH));
     let on_a_wall = matches!(design.barrier, BarrierDesign::RigidWall(_));
     let one_run = ONE_RUN[usize::from(on_a_wall)];
     let arrives = |seen: &Observed| larger_or_nan(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
     FirstSurge {
         push: push.mean,
         one_run: if push.starts > 1 { 0.0 } else { one_run - 1.0 },
+        largest_push: simulated.spread(|seen| seen.one(&total_force::PUSH)).mean,
         hardest_push: if push.starts > 1 { push.upper() } else { one_run * push.mean },
         moment: simulated.spread(|seen| seen.one(&wall::MOMENT)).mean,
         sampled_over_smoothed: short_peaks(|seen| [seen.one(&total_force::PEAK_SAMPLED), seen.one(&total_force::PEAK)]),
         moment_sampled_over_smoothed: short_peaks(|seen| [seen.one(&wall::MOMENT_SAMPLED), seen.one(&wall::MOMENT)]),
-        depth: simulated.spread(|seen| seen.incoming.depth).mean,
-        velocity: simulated.spread(arrives).mean,
-        flux_share: given_flux(design).map_or(1.0, |given| simulated.spread(|seen| seen.incoming.flux).mean / given),
+        depth: first(&|seen| seen.incoming.depth).mean,
+        velocity: first(&arrives).mean,
+        flux_share: given_flux(design).map_or(1.0, |given| first(&|seen| seen.incoming.flux).mean / given),
         earth_pressure: seen.into_iter().chain(by_weight).reduce(larger_or_nan),
         force_band: if on_a_wall { rung.on_a_wall } else { band.force },
         stroke_band: band.stroke,
@@ -290,14 +299,14 @@ const LEAST_FLUX: f64 = 0.55;
 /// A simulated flow that arrives more slowly, or thinner, than the design says tells nothing of the design flow.
 fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String> {
     let arrives = |seen: &Observed| larger_or_nan(seen.incoming.velocity, seen.known(&incoming::FRONT).unwrap_or(0.0));
-    let velocity = simulated.spread(arrives).mean;
-    let flux = simulated.spread(|seen| seen.incoming.flux).mean;
+    let velocity = simulated.spread_of_first(arrives).mean;
+    let flux = simulated.spread_of_first(|seen| seen.incoming.flux).mean;
     if velocity.is_nan() || flux.is_nan() {
         return Some("the velocity with which the simulated flow arrives is not a number".into());
     }
     let (depth, given) = given_arrival(&design.flow.arrival)?;
     (!like_the_design(given_flux(design), given, velocity, flux)).then(|| {
-        let seen = simulated.first().incoming;
+        let seen = simulated.starts[0].first_surge().incoming;
         format!(
             "the simulated flow arrives {:.2} m deep with {:.2} m/s where the design says {}{given:.2} m/s, so that its loads are not those of the design flow; release it so that it arrives as it should",
             seen.depth,
@@ -305,6 +314,27 @@ fn slower_than_designed(design: &Design, simulated: &Simulated) -> Option<String
             depth.map_or(String::new(), |depth| format!("{depth:.2} m with "))
         )
     })
+}
+
+/// Later surges that were not simulated, or never went as fast as the design says.
+fn later_surges_that_fall_short(design: &Design, simulated: &Simulated) -> Vec<String> {
+    let short = |(number, later): (usize, &LaterSurge)| {
+        let seen: Vec<&Observed> = simulated.starts.iter().filter_map(|start| start.surges.get(number + 1)).collect();
+        if seen.len() < simulated.starts.len() {
+            return Some(format!("surge {} was not simulated", number + 2));
+        }
+        let velocities: Vec<f64> = seen.iter().map(|seen| seen.one(&mass::VELOCITY)).collect();
+        let (fastest, given) = (Spread::of(&velocities).mean, later.surge.velocity);
+        // Asked as "fast enough", so that what is not a number is not.
+        let fast_enough = fastest >= SLOWEST * given;
+        (!fast_enough).then(|| {
+            format!(
+                "surge {} goes no faster than {fastest:.2} m/s in the simulation where the design says {given:.2} m/s, so that its loads are not those of the design flow; give it a shorter run_in",
+                number + 2
+            )
+        })
+    };
+    design.flow.later.iter().enumerate().filter_map(short).collect()
 }
 
 /// Depth (m) and velocity (m/s) with which the design says that the flow arrives; nothing where it gives no velocity.
@@ -396,7 +426,6 @@ mod tests {
     use crate::design::read::read_design;
     use crate::fidelity::ladder::RUNGS;
     use crate::guideline::guideline as guideline_of;
-    use crate::simulated::Start;
 
     fn small_net() -> Design {
         read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design
@@ -404,7 +433,7 @@ mod tests {
 
     /// Starts from seed 7 on, each with what it showed.
     fn simulated(observed: Vec<Observed>) -> Simulated {
-        let starts = observed.into_iter().zip(7..).map(|(observed, seed)| Start { seed, observed });
+        let starts = observed.into_iter().zip(7..).map(|(observed, seed)| Start { seed, observed, surges: Vec::new() });
         Simulated { starts: starts.collect(), ..Simulated::default() }
     }
 

@@ -47,7 +47,17 @@ pub struct Simulated {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Start {
     pub seed: u64,
+    /// Of the whole event.
     pub observed: Observed,
+    /// Of each surge, where there are several.
+    pub surges: Vec<Observed>,
+}
+
+impl Start {
+    /// What was observed of the first surge, which is all where it is alone.
+    pub fn first_surge(&self) -> &Observed {
+        self.surges.first().unwrap_or(&self.observed)
+    }
 }
 
 impl Simulated {
@@ -67,7 +77,17 @@ impl Simulated {
     /// Whether it is a simulation of the design, with all that reports rely on.
     pub fn fits(&self, design: &Design) -> bool {
         let mut all = self.starts.iter().chain(&self.factored);
-        !self.starts.is_empty() && all.all(|start| start.observed.fits(design)) && self.histories.is_whole()
+        let fits = |start: &Start| {
+            start.observed.fits(design)
+                && start.surges.len() <= design.flow.surges()
+                && start.surges.iter().all(|seen| seen.fits(design))
+        };
+        !self.starts.is_empty() && all.all(fits) && self.histories.is_whole()
+    }
+
+    /// A quantity of the first surge over the starts.
+    pub fn spread_of_first(&self, quantity: impl Fn(&Observed) -> f64) -> Spread {
+        Spread::of(&self.starts.iter().map(|start| quantity(start.first_surge())).collect::<Vec<_>>())
     }
 
     /// A quantity over the starts.
@@ -218,7 +238,7 @@ pub fn simulate(
         };
         let before = facts.wall_clock;
         let spent = || before + started.elapsed().as_secs_f64();
-        let event = ongoing.go_on(design.simulation.longest, watch, |ongoing, last| {
+        let event = ongoing.go_on(design, seed, watch, |ongoing, last| {
             if let Some(slot) = &slot {
                 let facts = Facts { wall_clock: spent(), ..facts.clone() };
                 slot.keep(&Kept::<Ready, _, Simulated>::Halfway(Halfway { facts, samples, ongoing }), last);
@@ -239,12 +259,14 @@ pub fn simulate(
             ..numerics(&event)
         };
         let [window, tail] = samples;
-        let observed = Observed::read(&event.histories, design, guideline, Samples { window, tail });
+        let samples = Samples { window, tail };
+        let observed = Observed::read(&event.histories, design, guideline, samples);
+        let surges = surges_of(&event.histories, design, samples);
         let histories = match detail {
             Detail::Full => event.histories,
             Detail::Observed => Histories::default(),
         };
-        let (starts, doubts) = (vec![Start { seed, observed }], doubts(&numerics));
+        let (starts, doubts) = (vec![Start { seed, observed, surges }], doubts(&numerics));
         let factored = Vec::new();
         let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, factored, doubts };
         if let Some(slot) = &slot {
@@ -252,6 +274,18 @@ pub fn simulate(
         }
         Ok(simulated)
     })
+}
+
+/// What was observed of each surge alone that was let go, where there are several; K and λ with its own depth and velocity.
+fn surges_of(histories: &Histories, design: &Design, samples: Samples) -> Vec<Observed> {
+    if design.flow.later.is_empty() {
+        return Vec::new();
+    }
+    let one = |number: usize| {
+        let alone = Design { flow: design.flow.alone(number), ..design.clone() };
+        Observed::read(&histories.of_surge(number), &alone, &crate::guideline::guideline(&alone), samples)
+    };
+    (0..=histories.surges.len()).map(one).collect()
 }
 
 /// What a finished run shows of its own numerics.
@@ -268,6 +302,7 @@ pub fn numerics(event: &Event) -> Numerics {
         stopped_upstream: event.histories.stopped_upstream,
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
+            Ending::NotLetGo(surge, error) => Some(format!("surge {} could not be let go: {error}", surge + 1)),
             _ => None,
         },
         missed: event.ending == Ending::Steady && event.histories.force.iter().all(|force| force.norm() == 0.0),

@@ -243,16 +243,18 @@ fn schemas_are_valid_json_and_know_the_contract() {
 
 #[test]
 fn one_two_and_seven_threads_give_the_same_numbers() {
-    let numbers = |threads: &str| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("threads_{threads}"));
+    let numbers = |design: &str, threads: &str| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("threads_{design}_{threads}"));
         let out = folder.display().to_string();
-        run(&["tests/fixtures/tiny.yaml", "--threads", threads, "--seeds", "2", "--out", &out]);
+        run(&[&format!("tests/fixtures/{design}.yaml"), "--threads", threads, "--seeds", "2", "--out", &out]);
         let result = result(&folder);
         let csv = std::fs::read(folder.join("histories.csv")).expect("histories");
-        (result["simulation"].clone(), result["starts"].clone(), result["checks"].clone(), csv)
+        (result["simulation"].clone(), result["starts"].clone(), result["checks"].clone(), result["surges"].clone(), csv)
     };
-    let one = numbers("1");
-    assert!(one == numbers("2") && one == numbers("7"), "the result depends on the number of threads");
+    for design in ["tiny", "tiny_surges"] {
+        let one = numbers(design, "1");
+        assert!(one == numbers(design, "2") && one == numbers(design, "7"), "the result of {design} depends on the number of threads");
+    }
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn with(fault: impl FnOnce(&mut Scene)) -> Event {
     let design = file().design;
     let mut scene = build(&design, &choose(&design), 1).expect("a scene");
     fault(&mut scene);
-    watched(|watch| Ongoing::begin(scene).go_on(design.simulation.longest, watch, |_, _| ()))
+    watched(|watch| Ongoing::begin(scene).go_on(&design, 1, watch, |_, _| ()))
 }
 
 /// What is told of the event; it must be something.

@@ -7,6 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 const DESIGN: &str = "tests/fixtures/tiny.yaml";
+const SURGES: &str = "tests/fixtures/tiny_surges.yaml";
 
 fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_barrier-check"))
@@ -48,18 +49,18 @@ fn strip(value: &mut serde_json::Value) {
 }
 
 /// The run that nobody disturbs, with the given further arguments.
-fn undisturbed(name: &str, more: &[&str]) -> (serde_json::Value, Vec<u8>) {
+fn undisturbed(design: &str, name: &str, more: &[&str]) -> (serde_json::Value, Vec<u8>) {
     let out = folder(name);
-    let output = run(&[&[DESIGN, "--out", &out.display().to_string()], more].concat());
+    let output = run(&[&[design, "--out", &out.display().to_string()], more].concat());
     assert!(matches!(output.status.code(), Some(0..=2)), "{}", error(&output));
     assert!(!out.join("checkpoint").exists());
     numbers(&out)
 }
 
 /// Starts a run that is kept at every stop.
-fn start(out: &Path, more: &[&str]) -> Child {
+fn start(design: &str, out: &Path, more: &[&str]) -> Child {
     let out = out.display().to_string();
-    let first = [DESIGN, "--out", &out, "--keep-every", "0"];
+    let first = [design, "--out", &out, "--keep-every", "0"];
     program().args(first).args(more).stderr(Stdio::null()).stdout(Stdio::null()).spawn().expect("the program starts")
 }
 
@@ -88,11 +89,11 @@ fn signal(child: &Child, name: &str) {
 }
 
 /// Kills and resumes a run `times` over, on changing numbers of threads, and lets it end.
-fn kill_and_resume(name: &str, times: u64, more: &[&str], seed: u64) {
+fn kill_and_resume(design: &str, name: &str, times: u64, more: &[&str], seed: u64) {
     let out = folder(name);
     let path = out.display().to_string();
     let mut random = fastrand::Rng::with_seed(seed);
-    let mut child = start(&out, more);
+    let mut child = start(design, &out, more);
     for time in 0..times {
         if !wait_until_kept(&mut child, &out) {
             break;
@@ -119,16 +120,25 @@ fn kill_and_resume(name: &str, times: u64, more: &[&str], seed: u64) {
 
 #[test]
 fn a_run_that_is_killed_and_resumed_ends_with_the_same_bits() {
-    let whole = undisturbed("whole", &[]);
-    kill_and_resume("killed", 4, &[], 1);
+    let whole = undisturbed(DESIGN, "whole", &[]);
+    kill_and_resume(DESIGN, "killed", 4, &[], 1);
     assert_eq!(whole, numbers(&folder_of("killed")));
+}
+
+/// Between surges and while they come.
+#[test]
+fn surges_that_are_killed_and_resumed_end_with_the_same_bits() {
+    let whole = undisturbed(SURGES, "whole_surges", &[]);
+    kill_and_resume(SURGES, "surges_killed", 6, &[], 3);
+    assert_eq!(whole, numbers(&folder_of("surges_killed")));
+    assert_eq!(whole.0["surges"].as_array().map(Vec::len), Some(3));
 }
 
 /// Several starts side by side, and a barrier of cylinders.
 #[test]
 fn several_starts_that_are_killed_end_with_the_same_bits() {
-    let whole = undisturbed("whole_of_three", &["--seeds", "3"]);
-    kill_and_resume("three_killed", 3, &["--seeds", "3"], 2);
+    let whole = undisturbed(DESIGN, "whole_of_three", &["--seeds", "3"]);
+    kill_and_resume(DESIGN, "three_killed", 3, &["--seeds", "3"], 2);
     assert_eq!(whole, numbers(&folder_of("three_killed")));
 }
 
@@ -136,10 +146,10 @@ fn several_starts_that_are_killed_end_with_the_same_bits() {
 #[test]
 #[ignore = "takes minutes"]
 fn fifty_kills() {
-    let whole = undisturbed("whole_of_fifty", &["--seeds", "2"]);
+    let whole = undisturbed(DESIGN, "whole_of_fifty", &["--seeds", "2"]);
     for round in 0..10 {
         let name = format!("killed_{round}");
-        kill_and_resume(&name, 5, &["--seeds", "2"], 100 + round);
+        kill_and_resume(DESIGN, &name, 5, &["--seeds", "2"], 100 + round);
         assert_eq!(whole, numbers(&folder_of(&name)), "round {round}");
     }
 }
@@ -151,7 +161,7 @@ fn folder_of(name: &str) -> PathBuf {
 /// A run that is asked to end keeps all its starts, ends with 2 and says how to go on.
 #[test]
 fn a_run_that_is_asked_to_end_can_be_resumed() {
-    let whole = undisturbed("whole_of_two", &["--seeds", "2"]);
+    let whole = undisturbed(DESIGN, "whole_of_two", &["--seeds", "2"]);
     let out = folder("asked");
     let path = out.display().to_string();
     let mut child = program()
@@ -176,7 +186,7 @@ fn a_run_that_is_asked_to_end_can_be_resumed() {
 fn a_short_run_does_not_take_the_place_of_the_one_that_was_kept() {
     let out = folder("before");
     let path = out.display().to_string();
-    let mut child = start(&out, &[]);
+    let mut child = start(DESIGN, &out, &[]);
     assert!(wait_until_kept(&mut child, &out));
     let _ = child.kill();
     let _ = child.wait();
@@ -218,7 +228,7 @@ fn what_is_resumed_takes_its_place_under_its_own_name() {
         manifest["source"].to_string()
     };
     let first = source();
-    let mut child = start(&out, &[]);
+    let mut child = start(DESIGN, &out, &[]);
     assert!(wait_until_kept(&mut child, &out));
     let _ = child.kill();
     let _ = child.wait();
@@ -249,7 +259,7 @@ fn what_is_resumed_takes_its_place_under_its_own_name() {
 /// Killed, with what was kept spoilt on purpose before it is resumed.
 fn spoilt(name: &str, spoil: impl Fn(&Path)) -> (PathBuf, Output) {
     let out = folder(name);
-    let mut child = start(&out, &[]);
+    let mut child = start(DESIGN, &out, &[]);
     assert!(wait_until_kept(&mut child, &out));
     let _ = child.kill();
     let _ = child.wait();
@@ -279,7 +289,7 @@ fn cut_short(path: &Path) {
 
 #[test]
 fn what_is_spoilt_is_told_and_the_one_before_is_used() {
-    let whole = undisturbed("whole_of_spoilt", &[]);
+    let whole = undisturbed(DESIGN, "whole_of_spoilt", &[]);
     let (out, output) = spoilt("bit", |kept| flip_a_bit(&simulation_in(kept, "bin")));
     assert!(error(&output).contains("damaged: its checksum is wrong; the one before it is used"), "{}", error(&output));
     assert_eq!(whole, numbers(&out));
@@ -385,9 +395,9 @@ fn links_do_not_lead_out_of_the_folder() {
 /// What one start has kept is not taken for another's, though both are of one design.
 #[test]
 fn simulations_of_one_run_are_not_taken_for_each_other() {
-    let whole = undisturbed("whole_of_swapped", &["--seeds", "3"]);
+    let whole = undisturbed(DESIGN, "whole_of_swapped", &["--seeds", "3"]);
     let out = folder("swapped");
-    let mut child = start(&out, &["--seeds", "3", "--threads", "1"]);
+    let mut child = start(DESIGN, &out, &["--seeds", "3", "--threads", "1"]);
     assert!(wait_until_kept(&mut child, &out));
     let kept = out.join("checkpoint");
     let files = || -> Vec<PathBuf> {
@@ -429,9 +439,9 @@ fn starts_side_by_side_are_kept_without_a_word() {
 /// A design that is refused, or dies at once, takes nothing of what an earlier run has kept.
 #[test]
 fn what_is_kept_stays_until_something_takes_its_place() {
-    let whole = undisturbed("whole_of_kept", &[]);
+    let whole = undisturbed(DESIGN, "whole_of_kept", &[]);
     let out = folder("kept");
-    let mut child = start(&out, &[]);
+    let mut child = start(DESIGN, &out, &[]);
     assert!(wait_until_kept(&mut child, &out));
     let _ = child.kill();
     let _ = child.wait();

@@ -3,7 +3,7 @@
 use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome};
 use crate::demand::Demands;
-use crate::design::{BarrierDesign, Design};
+use crate::design::{BarrierDesign, Design, Flow};
 use crate::guideline::{event_fill, guideline, height_over_bed, held, held_below, input};
 use crate::loads::fill::Surface;
 use crate::quantities::mass;
@@ -67,21 +67,21 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     }
     let behind = behind.unwrap_or(0.0);
     // Asked as "suffices", so that what is not a number does not.
-    let suffices = behind >= design.limits.retained_mass * flow.volume();
+    let suffices = behind >= design.limits.retained_mass * flow.volume_of_all();
     if !suffices {
         return Some(Opening::NotGiven(format!(
             "the barrier stores {behind:.0} m³ of its {:.0} m³, with the slope of the deposit that the design counts on, and the rest is held by friction upstream: a wetter flow of that volume would go over it (a higher barrier, or loads.deposit_slope and filled_height as they are known to be)",
-            flow.volume()
+            flow.volume_of_all()
         )));
     }
-    if !flow.is_one_of_several() {
+    if !flow.is_part_of_its_event() {
         return None;
     }
     let heaped = event_fill(design, &input(design)).reach();
     if heaped > height_over_bed(design) {
         return Some(Opening::NotGiven(format!(
-            "one surge of {:.0} m³ was simulated, and the last of the event's {:.0} m³ may run up to {heaped:.1} m, from what the others leave, over the barrier's {:.1} m, so that what of the later surges is held is not known",
-            flow.volume(),
+            "{} was simulated, and the last of the event's {:.0} m³ may run up to {heaped:.1} m, from what the others leave, over the barrier's {:.1} m, so that what of the later surges is held is not known",
+            simulated_part(flow),
             flow.event_volume,
             height_over_bed(design)
         )));
@@ -92,11 +92,19 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     let level = level.map_or("an unknown volume".to_string(), |level| format!("{level:.0} m³"));
     (!holds).then(|| {
         Opening::NotGiven(format!(
-            "one surge of {:.0} m³ was simulated, and to a level surface the barrier holds {level} of the event's {:.0} m³, so that what of the later surges is held is not known",
-            flow.volume(),
+            "{} was simulated, and to a level surface the barrier holds {level} of the event's {:.0} m³, so that what of the later surges is held is not known",
+            simulated_part(flow),
             flow.event_volume
         ))
     })
+}
+
+/// What of its event is simulated, in words.
+fn simulated_part(flow: &Flow) -> String {
+    match flow.surges() {
+        1 => format!("one surge of {:.0} m³", flow.volume()),
+        several => format!("a part of {:.0} m³ in {several} surges", flow.volume_of_all()),
+    }
 }
 
 /// Volume behind the barrier (m³), where the deposit ends in the part of the channel that is known, with the design's slope of the deposit, and no more of its height than the top rope's sag leaves.

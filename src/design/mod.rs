@@ -186,6 +186,27 @@ impl Flow {
         1 + self.later.len()
     }
 
+    /// Makes all grains so many times as large.
+    pub fn coarsen(&mut self, factor: f64) {
+        self.sizes = self.sizes.scaled(factor);
+        for sizes in self.later.iter_mut().filter_map(|later| later.sizes.as_mut()) {
+            *sizes = sizes.scaled(factor);
+        }
+    }
+
+    /// Makes all surges so many times as long.
+    pub fn lengthen(&mut self, factor: f64) {
+        self.mass *= factor;
+        match &mut self.arrival {
+            Arrival::DamBreak(block) => block.length *= factor,
+            Arrival::Surge(surge) => surge.length *= factor,
+        }
+        for later in &mut self.later {
+            later.volume *= factor;
+            later.surge.length *= factor;
+        }
+    }
+
     /// One surge alone, counted from 0.
     pub fn alone(&self, number: usize) -> Self {
         let alone = Self { later: Vec::new(), ..self.clone() };

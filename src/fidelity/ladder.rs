@@ -139,7 +139,7 @@ fn set(design: &mut Design, fidelity: FidelityWish, model: BarrierModel) {
 fn coarsen(design: &mut Design) {
     // Longer steps, spheres or pinned ropes save little and err much.
     set(design, FidelityWish::Standard, BarrierModel::SlidingRopes);
-    design.flow.sizes = design.flow.sizes.scaled(COARSE);
+    design.flow.coarsen(COARSE);
 }
 
 /// Packings from which their scatter is told by themselves: the table that k_n is from begins with three.

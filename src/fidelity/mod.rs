@@ -86,7 +86,7 @@ fn stiffest_pairs(design: &Design) -> Pairs {
     let flow = &design.flow;
     let zeta = damping_ratio_for(flow.restitution);
     let mut pairs = Pairs { critical_step: f64::INFINITY, frequency: 0.0 };
-    for body in bodies(flow) {
+    for body in (0..flow.surges()).flat_map(|number| bodies(&flow.alone(number))) {
         let (stiffness, reduced) = (flow.modulus * body.radius, 0.5 * body.mass);
         pairs.critical_step = pairs.critical_step.min(critical_step_of_pair(stiffness, reduced, zeta));
         pairs.frequency = pairs.frequency.max((stiffness / reduced).sqrt());

@@ -11,6 +11,8 @@ use crate::program::PROGRAM;
 use crate::report::measured::Measured;
 use crate::report::spreads::over_packings;
 use crate::simulated::Simulated;
+use crate::stages::{Stage, stages};
+use crate::starts::Spread;
 
 /// Version of this contract.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -30,12 +32,43 @@ pub struct ResultFile {
     pub numerics: Option<NumericsPart>,
     /// The rungs of the ladder that ran, where the design says `fidelity: auto`; the last is what is reported.
     pub rungs: Vec<RungPart>,
+    /// The event surge by surge, where it comes in several and was simulated; means over the packings.
+    pub surges: Vec<SurgePart>,
     /// Observables over all starts.
     pub starts: Vec<SpreadPart>,
     /// Version of the program.
     pub program_version: String,
     /// The program that made this file, with version and commit.
     pub program: String,
+}
+
+/// One surge of several. Forces without partial factors, along the bed.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SurgePart {
+    pub volume_m3: f64,
+    pub depth_m: f64,
+    pub velocity_m_s: f64,
+    /// Depth of the deposit at the barrier before the surge comes, and after.
+    pub deposit_before_m: f64,
+    pub deposit_after_m: f64,
+    pub force_peak_n: f64,
+    /// Standard deviation over the packings; 0 for a single one.
+    pub force_peak_deviation_n: f64,
+    /// By the guideline, over the same deposit.
+    pub force_guideline_n: f64,
+    /// lambda that the force means for the depth and velocity as given, and as measured at the barrier.
+    pub lambda: f64,
+    pub lambda_measured: Option<f64>,
+    pub k_at_rest: Option<f64>,
+    pub level_m: f64,
+    /// Mass that went past the barrier, over that of the surge.
+    pub lost_fraction: f64,
+    pub rope_tension_peak_n: Option<f64>,
+    pub net_tension_peak_n: Option<f64>,
+    pub anchor_force_peak_n: Option<f64>,
+    /// Longest stroke of a dissipator, in all since the first surge, and by this surge.
+    pub brake_stroke_m: Option<f64>,
+    pub brake_stroke_added_m: Option<f64>,
 }
 
 /// A rung of the ladder that ran.
@@ -163,6 +196,9 @@ impl ResultFile {
             simulation: run.simulated.as_ref().map(simulation_part),
             numerics: run.simulated.as_ref().map(numerics_part),
             rungs: run.climb.iter().map(rung_part).collect(),
+            surges: run.simulated.as_ref().map_or_else(Vec::new, |seen| {
+                stages(&run.file.design, seen).iter().map(surge_part).collect()
+            }),
             starts: run.simulated.as_ref().map_or_else(Vec::new, spread_parts),
             program_version: env!("CARGO_PKG_VERSION").to_string(),
             program: PROGRAM.to_string(),
@@ -218,6 +254,30 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
         smoothing_s: facts.smoothing,
         sampling_s: facts.sampling,
         measured: Measured::of(run.first()),
+    }
+}
+
+fn surge_part(stage: &Stage) -> SurgePart {
+    let mean = |spread: Option<Spread>| spread.map(|spread| spread.mean);
+    SurgePart {
+        volume_m3: stage.volume,
+        depth_m: stage.depth,
+        velocity_m_s: stage.velocity,
+        deposit_before_m: stage.before.mean,
+        deposit_after_m: stage.after.mean,
+        force_peak_n: stage.force.mean,
+        force_peak_deviation_n: stage.force.deviation,
+        force_guideline_n: stage.guideline,
+        lambda: stage.lambda.mean,
+        lambda_measured: mean(stage.lambda_measured),
+        k_at_rest: mean(stage.k_at_rest),
+        level_m: stage.level.mean,
+        lost_fraction: stage.lost.mean,
+        rope_tension_peak_n: mean(stage.rope),
+        net_tension_peak_n: mean(stage.net),
+        anchor_force_peak_n: mean(stage.anchor),
+        brake_stroke_m: stage.stroke.map(|[all, _]| all.mean),
+        brake_stroke_added_m: stage.stroke.map(|[_, own]| own.mean),
     }
 }
 

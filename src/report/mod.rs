@@ -23,6 +23,7 @@ pub(crate) mod spreads;
 pub(crate) mod stability_map;
 pub(crate) mod statements;
 pub(crate) mod study;
+pub(crate) mod surges;
 pub mod validation;
 pub mod view;
 pub(crate) mod vtk;

@@ -19,6 +19,7 @@ use crate::report::plots::elevation::class_names;
 use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
 use crate::report::replay::Replay;
 use crate::report::site;
+use crate::report::surges::{self, Surges};
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::report::warnings::{left_by_simulation, warnings};
 use crate::simulated::Simulated;
@@ -69,6 +70,8 @@ pub struct View {
     pub starts: Vec<Row>,
     pub findings: Vec<Row>,
     pub charts: Vec<Chart>,
+    /// The event surge by surge, where it comes in several.
+    pub surges: Option<Surges>,
     /// Side views at a few moments.
     pub views: Vec<Chart>,
     /// The barrier from upstream at its largest load.
@@ -171,6 +174,7 @@ impl View {
             per_width: loads::per_width(run),
             varied: loads::swing_rows(&run.varied),
             starts: run.simulated.as_ref().map_or_else(Vec::new, start_rows),
+            surges: surges::of(run),
             findings: run.simulated.as_ref().map_or_else(Vec::new, |seen| super::findings::rows(run, seen)),
             views: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::views(run, seen)),
             profiles: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::profiles(run, seen)),
@@ -195,6 +199,7 @@ impl View {
         let pictures = self
             .site
             .iter()
+            .chain(self.surges.iter().filter_map(|surges| surges.chart.as_ref()))
             .chain(&self.charts)
             .chain(&self.views)
             .chain(&self.profiles)

@@ -223,11 +223,15 @@ fn slows_on_its_way(run: &Run) -> Option<String> {
 
 fn event_larger_than_the_flow(run: &Run) -> Option<String> {
     let flow = &run.file.design.flow;
-    flow.is_one_of_several().then(|| {
+    flow.is_part_of_its_event().then(|| {
         format!(
-            "The event of {} is more than the flow that is simulated, {}: the simulation is of one surge on the empty barrier. Surges onto a deposit are in the equations alone.",
+            "The event of {} is more than the flow that is simulated, {}: the simulation is of {}. Further surges onto the deposit are in the equations alone.",
             with_unit(flow.event_volume, "m³"),
-            with_unit(flow.volume(), "m³")
+            with_unit(flow.volume_of_all(), "m³"),
+            match flow.surges() {
+                1 => "one surge on the empty barrier".to_string(),
+                several => format!("{several} surges, the first on the empty barrier"),
+            }
         )
     })
 }

@@ -11,6 +11,7 @@ use crate::scene::flow::release::{Block, packed_block, shape};
 use crate::scene::ground::{self, bed_at};
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
+use crate::scene::surges::farthest_upstream;
 use crate::section::{Section, Survey};
 use crate::units::GRAVITY;
 use dem::Vec3;
@@ -38,6 +39,8 @@ pub struct Scene {
     pub packed_share: f64,
     /// Rough time the event takes (s), for telling progress.
     pub expected_time: f64,
+    /// How far upstream of its foot the barrier reaches, with room for the largest grain (m).
+    pub reach: f64,
 }
 
 impl Scene {
@@ -145,6 +148,7 @@ pub fn build_watched(
         rest: REST * time_scale(design),
         packed_share: wanted.area() / block.area(),
         expected_time: expected_time(design),
+        reach,
     })
 }
 
@@ -171,10 +175,16 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
     Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, block))
 }
 
-/// Time of the last grain's arrival, and some falls from the barrier's height to come to rest.
+/// Time in which all surges have come to rest.
 pub fn expected_time(design: &Design) -> f64 {
+    let one = |number: usize| expected_time_of(design, design.flow.alone(number).arrival);
+    (0..design.flow.surges()).map(one).sum()
+}
+
+/// Time of the last grain's arrival, and some falls from the barrier's height to come to rest.
+fn expected_time_of(design: &Design, arrival: Arrival) -> f64 {
     let rest = 4.0 * (barrier_height(design) / GRAVITY).sqrt();
-    rest + match design.flow.arrival {
+    rest + match arrival {
         Arrival::Surge(surge) => {
             let channel = &design.channel;
             let slowed = GRAVITY * (channel.base_friction * libm::cos(channel.slope) - libm::sin(channel.slope));
@@ -265,7 +275,8 @@ fn barrier_height(design: &Design) -> f64 {
 
 /// Ten times the speed of falling from the top of the scene to its outlet, plus the speed it came with.
 fn speed_limit(design: &Design, block: &Block) -> f64 {
-    let drop = block.length - block.front + outlet(design) + block.height;
+    let start = farthest_upstream(design, 0.0).max(block.length - block.front);
+    let drop = start + outlet(design) + block.height;
     10.0 * ((2.0 * GRAVITY * drop).sqrt() + block.velocity)
 }
 
@@ -275,7 +286,11 @@ const MARGIN: f64 = 20.0;
 /// The ground of a surveyed section along the whole of the scene.
 fn terrain_of(design: &Design, survey: &Survey, block: &Block) -> Terrain {
     let channel = &design.channel;
-    let along = [block.front - block.length - MARGIN, outlet(design) + MARGIN];
+    let start = match design.flow.later.is_empty() {
+        true => block.length - block.front,
+        false => farthest_upstream(design, -block.front).max(block.length - block.front),
+    };
+    let along = [-start - MARGIN, outlet(design) + MARGIN];
     let friction = |is_bed: bool| if is_bed { channel.base_friction } else { channel.side_friction };
     ground::ground_of(channel, survey, along, friction)
 }
@@ -409,7 +424,8 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         approaching: window(APPROACHING),
         at_the_barrier: GaugeWindow { near: -bulge, far: lean + INCOMING[0] * height, ..window(INCOMING) },
         deposit: GaugeWindow { near: -bulge, far: lean + DEPOSIT[1] * height, ..window(INCOMING) },
-        mass: design.flow.mass,
+        mass: design.flow.mass_of_all(),
+        at_first: design.flow.mass,
         side_walls: design.channel.wall_height,
         near: height,
     }

@@ -5,8 +5,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::CheckpointStore;
+use crate::design::Design;
 use crate::scene::build::Scene;
+use crate::scene::flow::packing::PackingError;
 use crate::scene::patience::Patience;
+use crate::scene::surges::Next;
 use dem::recorders::histories::{Histories, tail_mean};
 use dem::recorders::recorder::Recorder;
 use dem::simulation::{Simulation, Unstable};
@@ -26,6 +29,8 @@ pub enum Ending {
     /// The longest time allowed was reached first.
     OutOfTime,
     BrokeDown(Unstable),
+    /// A later surge, counted from 0, could not be let go.
+    NotLetGo(usize, PackingError),
     Interrupted,
 }
 
@@ -57,6 +62,11 @@ pub struct Ongoing {
     stretch: usize,
     /// Rough time the event takes (s).
     expected_time: f64,
+    /// How far upstream of its foot the barrier reaches, with room for the largest grain (m).
+    reach: f64,
+    /// Number of the next grain that is let go, and when the surge under way was (s).
+    next_grain: u32,
+    let_go: f64,
 }
 
 /// A finished run.
@@ -74,14 +84,16 @@ pub struct Event {
 impl Ongoing {
     pub fn begin(scene: Scene) -> Self {
         let stretch = scene.samples_of_rest();
-        let Scene { simulation, recorder, expected_time, .. } = scene;
-        Self { simulation, recorder: Recorder::new(recorder), energy_error: 0.0, stretch, expected_time }
+        let Scene { simulation, recorder, expected_time, reach, .. } = scene;
+        let next_grain = simulation.grains.ids.iter().max().map_or(0, |highest| highest + 1);
+        let recorder = Recorder::new(recorder);
+        Self { simulation, recorder, energy_error: 0.0, stretch, expected_time, reach, next_grain, let_go: 0.0 }
     }
 
-    /// Goes on until the event is steady, at `longest` (s), on breakdown or when asked to. At every stop of the simulation `keep` is
+    /// Goes on until the last surge is steady, at the longest time that the design allows each, on breakdown or when asked to. At every stop of the simulation `keep` is
     /// handed the run, and told whether it ends there because it was asked to; a run that nobody keeps, or whose next stop is far, ends
     /// before.
-    pub fn go_on(mut self, longest: f64, watch: &Watch, mut keep: impl FnMut(&Self, bool)) -> Event {
+    pub fn go_on(mut self, design: &Design, seed: u64, watch: &Watch, mut keep: impl FnMut(&Self, bool)) -> Event {
         let mut patience = Patience::default();
         let ending = loop {
             let sampled = match self.recorder.step(&mut self.simulation) {
@@ -89,8 +101,13 @@ impl Ongoing {
                 Ok(sampled) => sampled,
             };
             // Before the run is kept, or what this sample says would be lost with it.
-            if let Some(ending) = sampled.then(|| self.judge(longest, watch)).flatten() {
-                break ending;
+            if let Some(ending) = sampled.then(|| self.judge(design, watch)).flatten() {
+                let next = if ending == Ending::Steady { self.next_surge(design, seed, watch) } else { None };
+                match next {
+                    None => break ending,
+                    Some(Ok(())) => {}
+                    Some(Err(ending)) => break ending,
+                }
             }
             let asked = watch.stop.load(Ordering::Relaxed);
             if self.simulation.at_stop() {
@@ -106,8 +123,26 @@ impl Ongoing {
         Event { histories: recorder.histories, ending, simulation, energy_error, escaped, escaped_share }
     }
 
-    /// Takes in the sample just made; tells whether the run ends with it.
-    fn judge(&mut self, longest: f64, watch: &Watch) -> Option<Ending> {
+    /// Lets the next surge go, if there is one.
+    fn next_surge(&mut self, design: &Design, seed: u64, watch: &Watch) -> Option<Result<(), Ending>> {
+        let number = self.recorder.histories.surges.len() + 1;
+        design.flow.later.get(number - 1)?;
+        let next = Next { design, number, seed, first: self.next_grain, reach: self.reach };
+        Some(match next.grains(&self.simulation, watch.stop) {
+            Ok(grains) => {
+                self.recorder.next_surge(self.next_grain, grains.iter().map(|grain| grain.body.mass).sum());
+                self.next_grain += grains.len() as u32;
+                self.let_go = self.simulation.time;
+                self.simulation.let_in(&grains);
+                Ok(())
+            }
+            Err(PackingError::Interrupted) => Err(Ending::Interrupted),
+            Err(error) => Err(Ending::NotLetGo(number, error)),
+        })
+    }
+
+    /// Takes in the sample just made; tells whether the surge under way ends with it.
+    fn judge(&mut self, design: &Design, watch: &Watch) -> Option<Ending> {
         let histories = &self.recorder.histories;
         let error = self.simulation.ledger.relative_error(&histories.at_release);
         self.energy_error = worse(self.energy_error, error);
@@ -117,10 +152,20 @@ impl Ongoing {
         if watch.store.is_none() && watch.stop.load(Ordering::Relaxed) {
             return Some(Ending::Interrupted);
         }
-        if steady(histories, self.stretch) {
+        let under_way = time - self.let_go;
+        // One that follows at a given time does not wait until the surge before it has come to rest.
+        let follows = design.flow.later.get(histories.surges.len()).and_then(|later| later.after);
+        let over = match follows {
+            Some(after) => under_way >= after,
+            None => {
+                let whole = self.recorder.samples_under_way() >= 2 * self.stretch;
+                whole && steady(histories, self.stretch, self.recorder.share_under_way)
+            }
+        };
+        if over {
             return Some(Ending::Steady);
         }
-        (time >= longest).then_some(Ending::OutOfTime)
+        (under_way >= design.simulation.longest).then_some(Ending::OutOfTime)
     }
 }
 
@@ -129,10 +174,10 @@ fn worse(before: f64, now: f64) -> f64 {
     if now.abs() > before.abs() || now.is_nan() { now } else { before }
 }
 
-/// Whether the last two stretches tell the same.
-fn steady(histories: &Histories, stretch: usize) -> bool {
+/// Whether the last two stretches tell the same; `share` is that of the surge under way in the mass.
+fn steady(histories: &Histories, stretch: usize, share: f64) -> bool {
     let count = histories.time.len();
-    if count < 2 * stretch || !histories.moving.last().is_some_and(|moving| *moving < STEADY_MOVING) {
+    if count < 2 * stretch || !histories.moving.last().is_some_and(|moving| *moving < STEADY_MOVING * share) {
         return false;
     }
     let force: Vec<f64> = histories.force[count - 2 * stretch..].iter().map(|force| force.norm()).collect();
@@ -140,8 +185,8 @@ fn steady(histories: &Histories, stretch: usize) -> bool {
     let dead = (histories.dead[count - 1] - histories.dead[count - stretch]).abs();
     let lost = |index: usize| histories.lost[index].iter().sum::<f64>();
     (after - before).abs() <= STEADY_FORCE * after.max(before)
-        && dead < STEADY_DEAD
-        && lost(count - 1) - lost(count - stretch) < STEADY_LOST
+        && dead < STEADY_DEAD * share
+        && lost(count - 1) - lost(count - stretch) < STEADY_LOST * share
 }
 
 #[cfg(test)]
@@ -159,7 +204,7 @@ mod tests {
             ..Histories::default()
         };
         (10..20).for_each(|sample| change(&mut histories, sample));
-        steady(&histories, 10)
+        steady(&histories, 10, 1.0)
     }
 
     #[test]
@@ -176,7 +221,7 @@ mod tests {
         assert!(after(|histories, sample| histories.dead[sample] += 0.004 * ramp(sample)));
         assert!(after(|histories, sample| histories.lost[sample][3] += 0.001 * ramp(sample)));
         // Nothing is steady before there are two stretches, or where what moves is unknown.
-        assert!(!steady(&Histories::default(), 10));
+        assert!(!steady(&Histories::default(), 10, 1.0));
         assert!(!after(|histories, sample| histories.moving[sample] = f64::NAN));
         assert!(!after(|histories, sample| histories.force[sample].x = f64::NAN));
     }
@@ -206,12 +251,12 @@ mod tests {
             histories
         };
         let quiet = long(&|_| ());
-        assert!(steady(&quiet, 10) && steady(&quiet, 20) && !steady(&quiet, 21));
-        assert!(steady(&long(&|histories| histories.force[..20].fill(dem::Vec3::zeros())), 10));
-        assert!(!steady(&long(&|histories| histories.force[..21].fill(dem::Vec3::zeros())), 10));
-        assert!(steady(&long(&|histories| histories.dead[..30].fill(0.1)), 10));
-        assert!(steady(&long(&|histories| histories.lost[..30].fill([0.0; 4])), 10));
+        assert!(steady(&quiet, 10, 1.0) && steady(&quiet, 20, 1.0) && !steady(&quiet, 21, 1.0));
+        assert!(steady(&long(&|histories| histories.force[..20].fill(dem::Vec3::zeros())), 10, 1.0));
+        assert!(!steady(&long(&|histories| histories.force[..21].fill(dem::Vec3::zeros())), 10, 1.0));
+        assert!(steady(&long(&|histories| histories.dead[..30].fill(0.1)), 10, 1.0));
+        assert!(steady(&long(&|histories| histories.lost[..30].fill([0.0; 4])), 10, 1.0));
         // The mean force of a stretch by a hundredth.
-        assert!(steady(&long(&|histories| histories.force[30..].fill(dem::Vec3::new(101.0, 0.0, 0.0))), 10));
+        assert!(steady(&long(&|histories| histories.force[30..].fill(dem::Vec3::new(101.0, 0.0, 0.0))), 10, 1.0));
     }
 }

@@ -7,3 +7,4 @@ pub mod flow;
 pub(crate) mod ground;
 pub(crate) mod net;
 pub(crate) mod patience;
+pub(crate) mod surges;

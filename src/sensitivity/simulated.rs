@@ -7,17 +7,12 @@ type Change = fn(&mut Design, f64);
 
 /// Name, share, how to change it by a factor.
 const CHANGES: &[(&str, f64, Change)] = &[
-    ("Mass of the flow", 0.2, |design, factor| {
-        design.flow.mass *= factor;
-        match &mut design.flow.arrival {
-            Arrival::DamBreak(block) => block.length *= factor,
-            Arrival::Surge(surge) => surge.length *= factor,
-        }
-    }),
+    ("Mass of the flow", 0.2, |design, factor| design.flow.lengthen(factor)),
     ("Velocity of the surge", 0.1, |design, factor| {
         if let Arrival::Surge(surge) = &mut design.flow.arrival {
             surge.velocity *= factor;
         }
+        design.flow.later.iter_mut().for_each(|later| later.surge.velocity *= factor);
     }),
     ("Density of grains and flow", 0.1, |design, factor| {
         design.flow.mass *= factor;

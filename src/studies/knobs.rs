@@ -104,7 +104,7 @@ impl Knob {
         match self {
             Self::Step | Self::Skin => {}
             Self::Stiffness => design.flow.modulus *= value,
-            Self::CoarseGraining => design.flow.sizes = design.flow.sizes.scaled(value),
+            Self::CoarseGraining => design.flow.coarsen(value),
             Self::Aspect => design.flow.aspect = value,
             Self::BarrierModel => design.simulation.barrier_model = model_of(value),
             Self::ElementLength => {

@@ -61,6 +61,8 @@ pub struct Ledger {
     pub lost_dissipators: f64,
     /// Energy of grains that left the model.
     pub carried_out: f64,
+    /// Energy of grains that came in since the start.
+    pub carried_in: f64,
 }
 
 impl Ledger {
@@ -75,6 +77,7 @@ impl Ledger {
             + self.lost_ropes
             + self.lost_dissipators
             + self.carried_out
+            - self.carried_in
     }
 
     /// Energy dissipated so far.
@@ -83,10 +86,11 @@ impl Ledger {
     }
 
     /// Imbalance against `start`, relative to the energy put in: the kinetic energy at the start plus the potential energy released
-    /// since, less all that departed grains carry, their motion too, so that the share is rather too large. Dashpots that have gained
-    /// count as energy from nowhere. Zero while nothing was put in.
+    /// since, with what grains that came in since have brought, less all that departed grains carry, their motion too, so that the share is
+    /// rather too large. Dashpots that have gained count as energy from nowhere. Zero while nothing was put in.
     pub fn relative_error(&self, start: &Self) -> f64 {
-        let put_in = start.kinetic + (start.potential - self.potential - self.carried_out).max(0.0);
+        let released = start.potential - self.potential - self.carried_out + self.carried_in;
+        let put_in = start.kinetic + released.max(0.0);
         let imbalance = self.total() - start.total() - self.lost_damping.min(0.0);
         match imbalance.is_nan() {
             true => f64::NAN,

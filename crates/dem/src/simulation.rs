@@ -231,6 +231,17 @@ impl Simulation {
         self.neighbours.lose();
     }
 
+    /// Lets grains in, whose numbers must be new to the run, with the energy that they bring.
+    pub fn let_in(&mut self, grains: &[Grain]) {
+        for grain in grains {
+            let [kinetic, _] = grain.kinetic_energy();
+            self.ledger.carried_in += kinetic - grain.body.mass * self.model.gravity.dot(&grain.position);
+        }
+        self.grains.extend(grains);
+        self.stop_every = steps_per_stop(self.grains.members());
+        self.neighbours.lose();
+    }
+
     /// Takes away all surfaces of the given role (opens the gate).
     pub fn remove_surfaces(&mut self, role: SurfaceRole) {
         self.model.surfaces.retain(|surface| surface.role != role);

@@ -11,7 +11,7 @@ use crate::quantities::quantity::Unit;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let Some(seen) = known.seen else { return };
-    let more = largest_force(known.design, known.guideline, &seen) / seen.push;
+    let more = largest_force(known.design, known.guideline, &seen) / seen.largest_push;
     // What stands higher has a longer lever as well, about a base that may lie deeper than the foot of the face.
     let deeper = match &known.design.barrier {
         BarrierDesign::RigidWall(wall) => wall.stability.map_or(0.0, |stability| stability.founding_depth),
@@ -19,11 +19,15 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     };
     let about_the_base = |moment: f64, force: f64| moment + deeper * force / known.guideline.width;
     let lever = about_the_base(known.guideline.face_moment, known.guideline.largest_force)
-        / about_the_base(seen.moment, seen.push);
+        / about_the_base(seen.moment, seen.largest_push);
     let more_moment = larger_or_nan(more, lever);
     let (when, instead) = match known.design.loads.to_the_top {
         true => ("the full barrier", "simulate a larger flow, or say loads.filling: one_event"),
         false => ("the barrier", "give it more resistance"),
+    };
+    let simulated = match known.design.flow.surges() {
+        1 => "the first surge".to_string(),
+        several => format!("{several} surges"),
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let tips = outcome.unit == Unit::NewtonMetrePerMetre || outcome.kind == Kind::OnTheBase;
@@ -41,12 +45,12 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
             true => [larger_or_nan(used, beside(0.0)), larger_or_nan(may_be, beside(seen.force_band))],
             false => [used, may_be],
         };
-        let full = if seen.push > 0.0 {
+        let full = if seen.largest_push > 0.0 {
             format!(
-                "the simulation is of the first surge, and by the guideline {more:.1} times as much presses on {when}"
+                "the simulation is of {simulated}, and by the guideline {more:.1} times as much presses on {when}"
             )
         } else {
-            "the simulated first surge does not push the barrier, and by the guideline the full barrier is pushed"
+            "the simulated flow does not push the barrier, and by the guideline the full barrier is pushed"
                 .into()
         };
         // Written so that a NaN counts as not within.

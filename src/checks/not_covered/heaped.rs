@@ -7,7 +7,7 @@ use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::guideline::{event_fill, height_over_bed};
 
 pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outcome]) {
-    let Some(seen) = seen.filter(|_| design.flow.is_one_of_several()) else { return };
+    let Some(seen) = seen.filter(|_| design.flow.is_part_of_its_event()) else { return };
     let faster = arriving(guideline.input, &seen);
     let heaped = event_fill(design, &faster).reach();
     // Asked as "below", so that what is not a number is not.

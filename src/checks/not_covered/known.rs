@@ -8,9 +8,11 @@ use crate::guideline::Guideline;
 pub struct FirstSurge {
     /// Its largest force along the bed (N).
     pub push: f64,
+    /// The largest of all surges that were simulated (N).
+    pub largest_push: f64,
     /// The same as the next packing may exceed it with a probability of 5 % (N).
     pub hardest_push: f64,
-    /// Its largest moment about the foot of a wall, per width (N m/m).
+    /// Their largest moment about the foot of a wall, per width (N m/m).
     pub moment: f64,
     /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged.
     pub sampled_over_smoothed: f64,

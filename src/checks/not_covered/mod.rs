@@ -60,6 +60,7 @@ pub mod tests {
     pub fn pushing(push: f64) -> FirstSurge {
         FirstSurge {
             push,
+            largest_push: push,
             flux_share: 1.0,
             sampled_over_smoothed: 1.0,
             moment_sampled_over_smoothed: 1.0,

@@ -6,7 +6,7 @@ use crate::checks::outcome::{Kind, Opening, Outcome};
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let (flow, loads) = (&known.design.flow, &known.design.loads);
-    let several = flow.is_one_of_several().then_some("the later surges of the event");
+    let several = flow.is_part_of_its_event().then_some("the later surges of the event");
     let weight = loads.self_weight.map(|_| "the weight of the net as given");
     let of_cases = known.guideline.cases.iter().filter_map(|case| case.not_simulated);
     let missing: Vec<&str> = several.into_iter().chain(of_cases).chain(weight).collect();
@@ -21,7 +21,11 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
             && outcome.kind != Kind::MassHeld
         {
             outcome.leave_open(Opening::NotGiven(format!(
-                "the simulation governs it and covers one surge on the empty barrier; it does not contain {}",
+                "the simulation governs it and covers {}; it does not contain {}",
+                match flow.surges() {
+                    1 => "one surge on the empty barrier".to_string(),
+                    several => format!("{several} surges, the first on the empty barrier"),
+                },
                 missing.join(", ")
             )));
         }

@@ -9,6 +9,7 @@ pub(crate) mod plan;
 pub(crate) mod pressure;
 pub(crate) mod profile;
 pub(crate) mod side_view;
+pub(crate) mod surges;
 pub(crate) mod utilisation;
 
 /// Text as it may stand in SVG.

@@ -80,6 +80,10 @@ pub enum PackingError {
     Unstable(#[from] Unstable),
     #[error("it was interrupted")]
     Interrupted,
+    #[error(
+        "a later surge would start {start:.0} m upstream, behind what lies there, and the ground is modelled up to {known:.0} m; fewer or shorter surges, or a steeper or smoother bed, leave less of them on the way"
+    )]
+    BeyondTheGround { start: f64, known: f64 },
 }
 
 /// How attempts at packing are watched from outside.

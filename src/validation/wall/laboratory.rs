@@ -125,7 +125,7 @@ pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
     let window = SAMPLES_PER_WINDOW as usize;
     let reading = Samples { window, tail: scene.samples_of_rest() };
     let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false), store: None };
-    let event = Ongoing::begin(scene).go_on(design.simulation.longest, &watch, |_, _| ());
+    let event = Ongoing::begin(scene).go_on(&design, 1, &watch, |_, _| ());
     if let Ending::BrokeDown(unstable) = event.ending {
         return Err(unstable.into());
     }

@@ -53,6 +53,12 @@ impl Channels {
         self
     }
 
+    /// Of some samples alone.
+    pub fn part(&self, samples: &std::ops::Range<usize>) -> Self {
+        let cut = |row: &Vec<f64>| row.get(samples.clone()).map_or(Vec::new(), <[f64]>::to_vec);
+        Self(self.0.iter().map(|(name, rows)| (name.clone(), rows.iter().map(cut).collect())).collect())
+    }
+
     /// Whether every row has a value for each of so many samples, or none, and every one of these channels as many rows as the others.
     pub fn is_whole(&self, samples: usize, of_ropes: &[&Channel]) -> bool {
         let rows = self.0.iter().flat_map(|(_, rows)| rows);

@@ -96,6 +96,7 @@ impl Film {
         if self.frames.is_empty() {
             self.introduce(simulation, grains);
         }
+        self.introduce_grains(grains);
         if self.frames.len() >= most_frames(self.looks.len()) {
             let mut place = 0;
             self.frames.retain(|_| {
@@ -110,6 +111,7 @@ impl Film {
 
     /// Takes the last frame, whatever the time since the one before.
     pub fn finish(&mut self, simulation: &Simulation, grains: &[Grain]) {
+        self.introduce_grains(grains);
         if self.frames.last().is_some_and(|frame| frame.time < simulation.time) {
             let frame = self.frame(simulation, grains);
             self.frames.push(frame);
@@ -117,13 +119,23 @@ impl Film {
     }
 
     fn introduce(&mut self, simulation: &Simulation, grains: &[Grain]) {
-        let count = grains.iter().map(|grain| grain.id as usize + 1).max().unwrap_or(0);
-        self.looks = vec![[0.0; 2]; count];
-        for grain in grains {
-            self.looks[grain.id as usize] = [grain.body.radius as f32, grain.body.offset as f32];
-        }
+        self.introduce_grains(grains);
         let strands = simulation.model.barrier.iter().flat_map(Barrier::strands);
         self.ropes = strands.map(|strand| (strand.nodes, strand.kind)).collect();
+    }
+
+    /// Grains with higher numbers than those known so far have come in; in earlier frames they are not there.
+    fn introduce_grains(&mut self, grains: &[Grain]) {
+        let count = grains.iter().map(|grain| grain.id as usize + 1).max().unwrap_or(0);
+        if count <= self.looks.len() {
+            return;
+        }
+        let known = self.looks.len();
+        self.looks.resize(count, [0.0; 2]);
+        for grain in grains.iter().filter(|grain| grain.id as usize >= known) {
+            self.looks[grain.id as usize] = [grain.body.radius as f32, grain.body.offset as f32];
+        }
+        self.frames.iter_mut().for_each(|frame| frame.grains.resize(count, None));
     }
 
     fn frame(&self, simulation: &Simulation, grains: &[Grain]) -> Frame {

@@ -52,6 +52,8 @@ pub struct Histories {
     pub ledger: Vec<Ledger>,
     /// Share of the mass that has come to rest upstream at the end, and does not lean on the barrier.
     pub stopped_upstream: f64,
+    /// Samples at which each surge after the first was let go: their number when it was.
+    pub surges: Vec<usize>,
     /// The scene at a few moments, in their order.
     pub snapshots: Vec<Snapshot>,
     pub film: Film,
@@ -81,7 +83,53 @@ impl Histories {
         ];
         let of_ropes: Vec<&Channel> =
             CHANNELS.iter().copied().filter(|channel| channel.rows == Rows::EachRope).collect();
-        single.into_iter().all(fits) && self.barrier.is_whole(moments, &of_ropes) && self.film.is_whole()
+        let in_order = self.surges.windows(2).all(|pair| pair[0] <= pair[1]);
+        let surges = in_order && self.surges.iter().all(|sample| *sample <= moments);
+        surges && single.into_iter().all(fits) && self.barrier.is_whole(moments, &of_ropes) && self.film.is_whole()
+    }
+}
+
+impl Histories {
+    /// The samples of one surge, counted from 0: from its release to that of the next.
+    pub fn samples_of(&self, surge: usize) -> std::ops::Range<usize> {
+        let start = surge.checked_sub(1).map_or(0, |before| self.surges.get(before).copied().unwrap_or(self.time.len()));
+        start..self.surges.get(surge).copied().unwrap_or(self.time.len())
+    }
+
+    /// The series of one surge alone, without pictures; what had passed before it has not passed in it. What has stopped upstream is told of
+    /// the whole run only.
+    pub fn of_surge(&self, surge: usize) -> Self {
+        let samples = self.samples_of(surge);
+        fn cut<T: Clone>(series: &[T], samples: &std::ops::Range<usize>) -> Vec<T> {
+            series.get(samples.clone()).map_or(Vec::new(), <[T]>::to_vec)
+        }
+        let before = samples.start.checked_sub(1).and_then(|sample| self.lost.get(sample)).copied().unwrap_or_default();
+        let lost = cut(&self.lost, &samples);
+        Self {
+            time: cut(&self.time, &samples),
+            force: cut(&self.force, &samples),
+            force_instant: cut(&self.force_instant, &samples),
+            force_scatter: cut(&self.force_scatter, &samples),
+            barrier: self.barrier.part(&samples),
+            velocity: cut(&self.velocity, &samples),
+            push_at_rest: cut(&self.push_at_rest, &samples),
+            pushes_by_state: cut(&self.pushes_by_state, &samples),
+            dead_depth: cut(&self.dead_depth, &samples),
+            dead: cut(&self.dead, &samples),
+            moving: cut(&self.moving, &samples),
+            lost: lost.into_iter().map(|lost| [0, 1, 2, 3].map(|way| lost[way] - before[way])).collect(),
+            incoming: cut(&self.incoming, &samples),
+            approaching: cut(&self.approaching, &samples),
+            gauges: self.gauges,
+            front: cut(&self.front, &samples),
+            barrier_depth: cut(&self.barrier_depth, &samples),
+            at_release: self.at_release,
+            ledger: cut(&self.ledger, &samples),
+            stopped_upstream: 0.0,
+            surges: Vec::new(),
+            snapshots: Vec::new(),
+            film: Film::default(),
+        }
     }
 }
 

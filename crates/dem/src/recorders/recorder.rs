@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use std::borrow::Cow;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -51,6 +52,11 @@ pub struct Recorder {
     pub escaped_share: f64,
     /// Largest force of which a snapshot was taken (N).
     pictured_force: f64,
+    /// Number of the first grain of the surge that is under way; velocity, front and gauges are of its grains.
+    under_way: u32,
+    /// Share of the mass that has not been let go yet, and of the surge under way.
+    waiting: f64,
+    pub share_under_way: f64,
 }
 
 /// Sums over the steps of one sampling interval.
@@ -84,7 +90,11 @@ impl Recorder {
         let GaugeWindow { near, far, .. } = setup.incoming;
         let middle = 0.5 * (near + far);
         let gauges = [middle + TRACK * (far - near), middle];
+        let first = setup.at_first / setup.mass;
         Self {
+            under_way: 0,
+            waiting: 1.0 - first,
+            share_under_way: first,
             setup,
             histories: Histories { gauges, ..Histories::default() },
             sum: IntervalSum::default(),
@@ -98,6 +108,19 @@ impl Recorder {
             escaped_share: 0.0,
             pictured_force: 0.0,
         }
+    }
+
+    /// Takes note of a surge that is let go: its first grain and its mass (kg).
+    pub fn next_surge(&mut self, first: u32, mass: f64) {
+        self.histories.surges.push(self.histories.time.len());
+        self.under_way = first;
+        self.share_under_way = mass / self.setup.mass;
+        self.waiting = (self.waiting - self.share_under_way).max(0.0);
+    }
+
+    /// Samples since the surge under way was let go.
+    pub fn samples_under_way(&self) -> usize {
+        self.histories.time.len() - self.histories.surges.last().copied().unwrap_or(0)
     }
 
     /// Makes one step and takes it in. Returns whether a sample was completed.
@@ -161,10 +184,14 @@ impl Recorder {
             self.histories.push_at_rest.push(push_at_rest(simulation, &grains, &dead));
         }
         self.histories.pushes_by_state.push(pushes_by_state(simulation, &dead));
-        let slow: Vec<bool> = grains.iter().map(|grain| grain.velocity.norm_squared() <= limit).collect();
-        self.histories.incoming.push(self.setup.incoming.read(&grains, &slow));
-        self.histories.approaching.push(self.setup.approaching.read(&grains, &slow));
-        self.histories.front.push(front(&grains));
+        let coming: Cow<[Grain]> = match self.under_way {
+            0 => Cow::Borrowed(&grains),
+            first => grains.iter().filter(|grain| grain.id >= first).cloned().collect(),
+        };
+        let slow: Vec<bool> = coming.iter().map(|grain| grain.velocity.norm_squared() <= limit).collect();
+        self.histories.incoming.push(self.setup.incoming.read(&coming, &slow));
+        self.histories.approaching.push(self.setup.approaching.read(&coming, &slow));
+        self.histories.front.push(front(&coming));
         let [all, at_rest] = self.setup.deposit.depths(&grains, &dead);
         self.histories.barrier_depth.push(all);
         self.histories.dead_depth.push(at_rest);
@@ -259,8 +286,9 @@ impl Recorder {
     }
 
     fn sample_grains(&mut self, grains: &[Grain]) {
-        let count = grains.len().max(1) as f64;
-        let sum = grains.iter().fold(Vec3::zeros(), |sum, grain| sum + grain.velocity);
+        let coming = grains.iter().filter(|grain| grain.id >= self.under_way);
+        let (sum, count) = coming.fold((Vec3::zeros(), 0.0), |(sum, count), grain| (sum + grain.velocity, count + 1.0));
+        let count = f64::max(count, 1.0);
         self.histories.velocity.push([sum.x / count, sum.z / count]);
         self.highest_velocity = self.highest_velocity.max(sum.x / count);
         let limit = (DEAD_SHARE * self.highest_velocity).powi(2);
@@ -270,7 +298,7 @@ impl Recorder {
             *(if at_rest { &mut dead } else { &mut moving }) += grain.body.mass / self.setup.mass;
         }
         // What is neither here nor known to have passed has left the model between two looks: it is lost all the same.
-        let unseen = 1.0 - dead - moving - self.lost.iter().sum::<f64>();
+        let unseen = 1.0 - self.waiting - dead - moving - self.lost.iter().sum::<f64>();
         if unseen > UNSEEN {
             self.lost[Way::Over as usize] += unseen;
         }

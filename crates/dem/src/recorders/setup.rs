@@ -35,8 +35,9 @@ pub struct RecorderSetup {
     pub at_the_barrier: GaugeWindow,
     /// Where the depth of the deposit at the barrier is sought.
     pub deposit: GaugeWindow,
-    /// Mass of the whole flow (kg).
+    /// Mass of the whole flow, all surges (kg), and what of it is there from the start.
     pub mass: f64,
+    pub at_first: f64,
     /// Height of the side walls, normal to the bed (m).
     pub side_walls: f64,
     /// Length upstream of the barrier within which whatever lies has arrived (m).

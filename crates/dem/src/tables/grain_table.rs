@@ -70,10 +70,13 @@ impl GrainTable {
             bodies: Vec::new(),
             ids: Vec::new(),
         };
-        for grain in grains {
-            table.push(grain);
-        }
+        table.extend(grains);
         table
+    }
+
+    /// Adds grains, whose numbers must be new.
+    pub fn extend(&mut self, grains: &[Grain]) {
+        grains.iter().for_each(|grain| self.push(grain));
     }
 
     fn push(&mut self, grain: &Grain) {

@@ -1,0 +1,102 @@
+//! The event surge by surge: a row for each, a chart of forces, and what they say together.
+
+use serde::Serialize;
+
+use crate::pipeline::Run;
+use crate::report::numbers::{figures, with_scatter, with_unit};
+use crate::report::pictures::Chart;
+use crate::report::plots::surges::{Pair, surges};
+use crate::stages::{Stage, hardest, stages};
+use crate::starts::Spread;
+
+#[derive(Debug, Default, Serialize)]
+pub struct Surges {
+    /// A heading for each column, the surge first.
+    pub columns: Vec<String>,
+    /// For each quantity its name and a value for each surge.
+    pub rows: Vec<Line>,
+    pub chart: Option<Chart>,
+    pub says: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Line {
+    pub name: &'static str,
+    pub values: Vec<String>,
+}
+
+/// Nothing where there is one surge only, or nothing was simulated.
+pub fn of(run: &Run) -> Option<Surges> {
+    let simulated = run.simulated.as_ref()?;
+    let stages = stages(&run.file.design, simulated);
+    if stages.is_empty() {
+        return None;
+    }
+    let columns = (1..=stages.len()).map(|number| format!("surge {number}")).collect();
+    Some(Surges { columns, rows: rows(&stages), chart: Some(chart(&stages)), says: says(run, &stages) })
+}
+
+fn rows(stages: &[Stage]) -> Vec<Line> {
+    let line = |name: &'static str, value: &dyn Fn(&Stage) -> String| Line { name, values: stages.iter().map(value).collect() };
+    let spread = |spread: Spread, unit: &str| match spread.starts {
+        0 | 1 => with_unit(spread.mean, unit),
+        _ => with_scatter(spread.mean, spread.deviation, unit),
+    };
+    let known = |value: Option<Spread>, unit: &str| value.map_or("–".to_string(), |value| spread(value, unit));
+    let mut rows = vec![
+        line("Volume, depth and velocity as given", &|stage| {
+            format!("{}, {}, {}", with_unit(stage.volume, "m³"), with_unit(stage.depth, "m"), with_unit(stage.velocity, "m/s"))
+        }),
+        line("Depth of the deposit before", &|stage| spread(stage.before, "m")),
+        line("Largest force along the bed", &|stage| spread(stage.force, "N")),
+        line("Guideline, over the same deposit", &|stage| with_unit(stage.guideline, "N")),
+        line("Simulation over guideline", &|stage| figures(stage.force.mean / stage.guideline)),
+        line("λ with depth and velocity as given", &|stage| spread(stage.lambda, "")),
+        line("λ with depth and velocity as measured at the barrier", &|stage| known(stage.lambda_measured, "")),
+        line("K of the deposit at rest after it", &|stage| known(stage.k_at_rest, "")),
+        line("Depth of the deposit after", &|stage| spread(stage.after, "m")),
+        line("Highest level at the barrier", &|stage| spread(stage.level, "m")),
+        line("Mass past the barrier, of the surge's", &|stage| spread(stage.lost, "-")),
+    ];
+    let first = &stages[0];
+    if first.rope.is_some() {
+        rows.push(line("Largest tension of a main rope", &|stage| known(stage.rope, "N")));
+        rows.push(line("Largest tension of the net's ropes", &|stage| known(stage.net, "N")));
+        rows.push(line("Largest load of an anchor", &|stage| known(stage.anchor, "N")));
+    }
+    if first.stroke.is_some() {
+        rows.push(line("Longest stroke of a dissipator, in all", &|stage| known(stage.stroke.map(|[all, _]| all), "m")));
+        rows.push(line("of it by this surge", &|stage| known(stage.stroke.map(|[_, own]| own), "m")));
+    }
+    rows
+}
+
+fn chart(stages: &[Stage]) -> Chart {
+    let pair = |stage: &Stage| Pair {
+        guideline: stage.guideline * 1e-3,
+        simulation: stage.force.mean * 1e-3,
+        scatter: (stage.force.starts > 1)
+            .then(|| [-1.0, 1.0].map(|side| (stage.force.mean + side * stage.force.deviation) * 1e-3)),
+    };
+    let pairs: Vec<Pair> = stages.iter().map(pair).collect();
+    Chart::of(
+        "Largest force along the bed, surge by surge",
+        surges(&pairs, "kN"),
+        "Without partial factors. The guideline's stage is that of the deposit that lay there, with the depth and velocity that the design gives the surge; a line: mean ± standard deviation of the packings.",
+    )
+}
+
+fn says(run: &Run, stages: &[Stage]) -> String {
+    let hardest = hardest(stages).map_or(0, |number| number + 1);
+    let [least, most] = stages.iter().map(|stage| stage.force.mean / stage.guideline).fold(
+        [f64::INFINITY, f64::NEG_INFINITY],
+        |[least, most], ratio| [least.min(ratio), most.max(ratio)],
+    );
+    let missing = run.file.design.flow.surges() - stages.len();
+    let missing = if missing > 0 { format!(" {missing} of the surges were not simulated.") } else { String::new() };
+    format!(
+        "The barrier is not emptied between the surges; dissipators keep their strokes, and ropes what they have drawn out. Surge {hardest} pushes hardest, and every check takes the worst moment of all surges. The simulation shows {} to {} times the guideline's force.{missing}",
+        figures(least),
+        figures(most)
+    )
+}

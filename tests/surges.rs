@@ -1,0 +1,106 @@
+//! Surges one after another: what is let in adds up, what happened stays, and nothing passes that was not simulated.
+
+use std::sync::atomic::AtomicBool;
+
+use barrier_check::design::read::{DesignFile, read_design};
+use barrier_check::pipeline::{Run, Verdict, restore, run};
+use barrier_check::quantities::{dissipator, incoming, total_force};
+use barrier_check::scene::event::Watch;
+use barrier_check::stages::{hardest, stages};
+
+const THREE: &str = include_str!("fixtures/tiny_surges.yaml");
+const ONE: &str = include_str!("fixtures/tiny.yaml");
+
+fn file(text: &str) -> DesignFile {
+    read_design("x.yaml", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn simulated(text: &str) -> Run {
+    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    run(file(text), 1, &watch).expect("a run")
+}
+
+#[test]
+fn three_surges_come_one_after_another_onto_what_lies_there() {
+    let run = simulated(THREE);
+    let seen = run.simulated.as_ref().expect("a simulation");
+    let histories = &seen.histories;
+    let flow = &run.file.design.flow;
+    // The second has 0.5 m · 0.6 m · 3 m.
+    assert!((flow.volume_of_all() - (0.9 + 0.9 + 0.8)).abs() < 1e-12);
+    assert_eq!((histories.surges.len(), seen.starts[0].surges.len()), (2, 3));
+    assert!(seen.facts.steady && run.doubts.is_empty(), "{:?}", run.doubts);
+
+    // The mass that is there, at rest, moving or lost, is that of the surges let go.
+    let released = |sample: usize| -> f64 {
+        let gone = histories.surges.iter().filter(|start| sample >= **start).count();
+        (0..=gone).map(|surge| flow.alone(surge).mass).sum::<f64>() / flow.mass_of_all()
+    };
+    for sample in 0..histories.time.len() {
+        // Before the barrier is hit, what is at rest is not told.
+        if histories.force[sample].norm() > 0.0 {
+            let there = histories.dead[sample] + histories.moving[sample] + histories.lost[sample].iter().sum::<f64>();
+            assert!((there - released(sample)).abs() < 1e-6, "{sample}: {there} of {}", released(sample));
+        }
+    }
+    // What comes in brings its energy, and all of it is accounted for.
+    let last = histories.ledger.last().expect("a ledger");
+    assert!(last.carried_in > 0.0 && last.relative_error(&histories.at_release).abs() < 1e-3);
+    assert!(seen.numerics.energy_error.abs() < 1e-3, "{}", seen.numerics.energy_error);
+
+    // The second follows after the time that is given, the third when all rest.
+    let let_go = |surge: usize| histories.time[histories.surges[surge - 1] - 1];
+    assert!((let_go(1) - 0.8).abs() < 2.0 * seen.facts.sampling, "{}", let_go(1));
+    assert!(histories.moving[histories.surges[1] - 1] < 0.02);
+
+    let stages = stages(&run.file.design, seen);
+    assert_eq!(stages.len(), 3);
+    for pair in stages.windows(2) {
+        assert_eq!(pair[0].after, pair[1].before);
+        let [[before, _], [in_all, added]] = [&pair[0], &pair[1]].map(|stage| stage.stroke.expect("dissipators"));
+        assert!(in_all.mean >= before.mean && (in_all.mean - before.mean - added.mean).abs() < 1e-12);
+    }
+    assert!(stages[0].before.mean == 0.0 && stages[2].after.mean > stages[0].after.mean);
+    // Checks take the worst of all surges.
+    let hardest = hardest(&stages).expect("a surge");
+    let push = seen.first().one(&total_force::PUSH);
+    assert!((stages[hardest].force.mean / push - 1.0).abs() < 0.02);
+    let strokes = seen.first().each(&dissipator::STROKE).iter().copied().fold(0.0, f64::max);
+    assert!(strokes > 0.01, "the dissipators of this example work");
+    let [in_all, _] = stages[2].stroke.expect("dissipators");
+    assert!((in_all.mean / strokes - 1.0).abs() < 1e-9);
+    assert_eq!(seen.starts[0].surges[2].one(&incoming::DEPOSIT), seen.first().one(&incoming::DEPOSIT));
+
+    // By hand: λ of the first surge on the empty barrier, R = (½ K ρ g' h² + λ ρ v² h) b.
+    let unit = 1400.0 * 9.81 * 25_f64.to_radians().cos();
+    let by_hand = (stages[0].force.mean / 3.0 - 0.5 * unit * 0.36) / (1400.0 * 4.6_f64.powi(2) * 0.6);
+    assert!((stages[0].lambda.mean / by_hand - 1.0).abs() < 1e-3, "{} {by_hand}", stages[0].lambda.mean);
+
+    // A surge that was given and not simulated is no PASS.
+    let mut cut = seen.clone();
+    cut.starts[0].surges.pop();
+    let told = restore(file(THREE), Some(cut), Vec::new(), Vec::new());
+    assert!(told.doubts.iter().any(|doubt| doubt.contains("surge 3 was not simulated")), "{:?}", told.doubts);
+    assert_ne!(told.verdict, Verdict::Pass);
+}
+
+#[test]
+fn a_list_of_one_surge_is_that_surge() {
+    let listed = ONE
+        .replace("  volume: 1.2 m3                       # with pores; or give the mass instead\n", "")
+        .replace("    surge:  ", "    surges:  ")
+        .replace("      depth: 0.6 m\n      velocity: 4.6 m/s\n", "      - {volume: 1.2 m3, depth: 0.6 m, velocity: 4.6 m/s}\n");
+    let [alone, listed] = [ONE, &listed].map(|text| file(text).design);
+    assert_eq!(alone, listed);
+}
+
+/// The equations alone take the hardest of the surges, whichever it is.
+#[test]
+fn the_equations_take_every_surge() {
+    let largest = |velocity: &str| {
+        let text = THREE.replace("{volume: 0.8 m3, depth: 0.5 m, velocity: 4 m/s", &format!("{{volume: 0.8 m3, depth: 0.5 m, velocity: {velocity}"));
+        barrier_check::guideline::guideline(&file(&text).design).largest_force
+    };
+    assert_eq!(largest("4 m/s"), largest("3 m/s"));
+    assert!(largest("7 m/s") > 1.5 * largest("4 m/s"));
+}
