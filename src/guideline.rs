@@ -50,9 +50,10 @@ pub struct Guideline {
 }
 
 impl Guideline {
-    /// Force of the first surge on the empty barrier, without partial factors (N): what a simulation of one surge is to be compared with.
+    /// Force of the first surge on the empty barrier, without partial factors and wood (N): what a simulation of one surge is to be compared
+    /// with.
     pub fn first_surge(&self) -> f64 {
-        self.cases.first().map_or(0.0, |case| case.total_force(&self.section))
+        later_surge::case(&self.input.without_wood(), 0.0).total_force(&self.section)
     }
 }
 
@@ -175,6 +176,7 @@ pub fn input(design: &Design) -> GuidelineInput {
         gravity_normal: GRAVITY * libm::cos(slope),
         earth_pressure: design.factors.earth_pressure,
         dynamic_pressure: design.factors.dynamic_pressure,
+        wood: design.loads.wood_factor.unwrap_or(1.0),
         depth,
         velocity,
         fill_height: barrier_height,
@@ -309,7 +311,8 @@ fn filled_height(design: &Design) -> f64 {
 /// K of a deposit that fills the barrier and is held by it and by the friction of the bed alone: with its weight W, along the bed
 /// W (sin α − tan φ cos α) = K ρ g cos α S(H), S = ½ b H² in a rectangle. Nothing on a bed that the deposit does not rest on by a slope of its own.
 pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Option<f64> {
-    let (slope, friction) = (design.channel.slope, design.channel.base_friction);
+    // As it comes: what has drained presses less.
+    let (slope, friction) = (design.channel.slope, design.flow.effective(design.channel.base_friction));
     let reservoir = reservoir(design);
     if reservoir.profile.is_some() {
         let height = filled_height(design);
@@ -393,7 +396,7 @@ fn front_velocity(design: &Design, block: &DamBreak) -> f64 {
 /// 2 a s of a body that comes to the barrier from a distance s along the bed, where the slope gives more than friction takes; over reaches of
 /// several slopes 2 g (ΔZ − tan φ ΔX) (m²/s²).
 fn gain_of(design: &Design, distance: f64) -> f64 {
-    let (slope, friction) = (design.channel.slope, design.channel.base_friction);
+    let (slope, friction) = (design.channel.slope, design.flow.effective(design.channel.base_friction));
     match &design.channel.profile {
         None => 2.0 * (GRAVITY * (libm::sin(slope) - friction * libm::cos(slope))).max(0.0) * distance,
         // From wherever on its way it gains most: what comes to rest before that moves again from there.

@@ -38,6 +38,9 @@ pub fn factored(design: &Design) -> Option<Design> {
     for value in [&mut flow.mass, &mut flow.bulk_density, &mut flow.solid_density, &mut flow.modulus] {
         *value *= factor;
     }
+    if let Some(fluid) = &mut flow.pore_fluid {
+        fluid.density *= factor;
+    }
     heavier.factors.load = 1.0;
     Some(heavier)
 }

@@ -9,6 +9,7 @@ pub const EN_1993_1_11: &str =
     "EN 1993-1-11: structures with tension components (the partial factor of ropes; not checked against the original)";
 pub const EN_1997_1: &str = "EN 1997-1: geotechnical design (the partial factor of anchors)";
 pub const OTHER_MODELS: &str = "Other models of impact and rules of detailing: named with their range and how sure we are of them where they are used; none of them decides a check";
+pub const FRIEDL_2025: &str = "Friedl et al. 2025, Engineering Geology 357:108312 (peak force of flows laden with wood on a bridge deck: 1.51 to 2.00 times that without logs, 1.19 to 1.53 times over depth squared; Froude numbers of 0.9 to 1.1)";
 pub const NO_LIMIT: &str = "no limit set; for information";
 pub const NOTHING_BREAKS: &str = "no rope may break";
 pub const DESIGN_LIMIT: &str = "limit of the design file, or its default (see the inputs)";

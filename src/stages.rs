@@ -7,7 +7,9 @@ use crate::loads::cases::later_surge;
 use crate::loads::input::GuidelineInput;
 use crate::quantities::observed::Observed;
 use crate::quantities::quantity::Quantity;
-use crate::quantities::{anchor_load, dissipator, earth_pressure, incoming, other_ropes, rope_tension, run_up, total_force};
+use crate::quantities::{
+    anchor_load, dissipator, earth_pressure, incoming, other_ropes, rope_tension, run_up, total_force,
+};
 use crate::simulated::{Simulated, Start};
 use crate::starts::Spread;
 
@@ -60,13 +62,14 @@ fn stage(design: &Design, simulated: &Simulated, number: usize) -> Stage {
         let values: Option<Vec<f64>> = starts.iter().map(|start| start.surges[number].known(quantity)).collect();
         values.map(|values| Spread::of(&values))
     };
-    let most = |seen: &Observed, quantity: &Quantity| seen.each(quantity).iter().copied().reduce(crate::larger::larger_or_nan);
+    let most =
+        |seen: &Observed, quantity: &Quantity| seen.each(quantity).iter().copied().reduce(crate::larger::larger_or_nan);
     let largest = |quantity: &'static Quantity| {
         let values: Option<Vec<f64>> = starts.iter().map(|start| most(&start.surges[number], quantity)).collect();
         values.map(|values| Spread::of(&values))
     };
     let alone = Design { flow: design.flow.alone(number), ..design.clone() };
-    let flow = input(&alone);
+    let flow = input(&alone).without_wood();
     let of_before = |start: &Start, quantity: &Quantity| {
         number.checked_sub(1).map_or(0.0, |before| start.surges[before].one(quantity))
     };

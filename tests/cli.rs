@@ -249,11 +249,20 @@ fn one_two_and_seven_threads_give_the_same_numbers() {
         run(&[&format!("tests/fixtures/{design}.yaml"), "--threads", threads, "--seeds", "2", "--out", &out]);
         let result = result(&folder);
         let csv = std::fs::read(folder.join("histories.csv")).expect("histories");
-        (result["simulation"].clone(), result["starts"].clone(), result["checks"].clone(), result["surges"].clone(), csv)
+        (
+            result["simulation"].clone(),
+            result["starts"].clone(),
+            result["checks"].clone(),
+            result["surges"].clone(),
+            csv,
+        )
     };
     for design in ["tiny", "tiny_surges"] {
         let one = numbers(design, "1");
-        assert!(one == numbers(design, "2") && one == numbers(design, "7"), "the result of {design} depends on the number of threads");
+        assert!(
+            one == numbers(design, "2") && one == numbers(design, "7"),
+            "the result of {design} depends on the number of threads"
+        );
     }
 }
 

@@ -54,6 +54,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "starts",
         ],
     ),
+    ("stages", &["design", "guideline", "larger", "loads", "quantities", "simulated", "starts"]),
     (
         "pipeline",
         &[
@@ -130,6 +131,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "container",
             "sensitivity",
             "simulated",
+            "stages",
             "sources",
             "starts",
             "studies",

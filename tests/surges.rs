@@ -89,7 +89,10 @@ fn a_list_of_one_surge_is_that_surge() {
     let listed = ONE
         .replace("  volume: 1.2 m3                       # with pores; or give the mass instead\n", "")
         .replace("    surge:  ", "    surges:  ")
-        .replace("      depth: 0.6 m\n      velocity: 4.6 m/s\n", "      - {volume: 1.2 m3, depth: 0.6 m, velocity: 4.6 m/s}\n");
+        .replace(
+            "      depth: 0.6 m\n      velocity: 4.6 m/s\n",
+            "      - {volume: 1.2 m3, depth: 0.6 m, velocity: 4.6 m/s}\n",
+        );
     let [alone, listed] = [ONE, &listed].map(|text| file(text).design);
     assert_eq!(alone, listed);
 }
@@ -98,7 +101,10 @@ fn a_list_of_one_surge_is_that_surge() {
 #[test]
 fn the_equations_take_every_surge() {
     let largest = |velocity: &str| {
-        let text = THREE.replace("{volume: 0.8 m3, depth: 0.5 m, velocity: 4 m/s", &format!("{{volume: 0.8 m3, depth: 0.5 m, velocity: {velocity}"));
+        let text = THREE.replace(
+            "{volume: 0.8 m3, depth: 0.5 m, velocity: 4 m/s",
+            &format!("{{volume: 0.8 m3, depth: 0.5 m, velocity: {velocity}"),
+        );
         barrier_check::guideline::guideline(&file(&text).design).largest_force
     };
     assert_eq!(largest("4 m/s"), largest("3 m/s"));

@@ -123,6 +123,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::File => json!({ "type": "string", "minLength": 1 }),
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Section(keys) => section(keys),
+        Kind::SectionOrNone(keys) => json!({ "anyOf": [{ "const": "none" }, section(keys)] }),
         Kind::Sections(keys) => json!({ "type": "array", "minItems": 1, "items": section(keys) }),
         Kind::OneOf(keys) => {
             let mut schema = section(keys);

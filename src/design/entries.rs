@@ -245,7 +245,8 @@ impl Reader<'_> {
 
     fn value(&mut self, node: &Node, key: &'static Key, path: &str, origin: Origin) {
         match key.kind {
-            Kind::Section(keys) => return self.section(node, keys, path),
+            Kind::SectionOrNone(_) if *node == Node::Text("none".into()) => return,
+            Kind::Section(keys) | Kind::SectionOrNone(keys) => return self.section(node, keys, path),
             Kind::Sections(keys) => return self.sections(node, keys, path),
             Kind::OneOf(keys) => return self.one_of(node, keys, path),
             _ => {}
@@ -280,12 +281,14 @@ impl Reader<'_> {
                 }
             }
             Node::List(items) => {
-                let found = if items.is_empty() { "an empty list".into() } else { format!("a list of {}", items.len()) };
+                let found =
+                    if items.is_empty() { "an empty list".into() } else { format!("a list of {}", items.len()) };
                 self.problems.push(Problem::new(path, found, format!("a list of 1 to {MOST_SECTIONS}")));
             }
             other => {
                 let allowed = Kind::Sections(keys).allowed();
-                self.problems.push(Problem::new(path, other.describe(), allowed).hint("begin each of them with a dash"));
+                self.problems
+                    .push(Problem::new(path, other.describe(), allowed).hint("begin each of them with a dash"));
             }
         }
     }
@@ -340,7 +343,7 @@ fn groups_with(name: &str, keys: &'static [Key], path: &str) -> Vec<String> {
         found.push(if path.is_empty() { "the design itself, without indent".to_string() } else { format!("`{path}`") });
     }
     for key in keys {
-        if let Kind::Section(keys) | Kind::Sections(keys) | Kind::OneOf(keys) = key.kind {
+        if let Kind::Section(keys) | Kind::SectionOrNone(keys) | Kind::Sections(keys) | Kind::OneOf(keys) = key.kind {
             found.extend(groups_with(name, keys, &join(path, key.name)));
         }
     }
@@ -431,7 +434,7 @@ fn understand(node: &Node, kind: &Kind) -> Result<Value, Misunderstood> {
             }
             _ => Err((node.describe(), None)),
         },
-        Kind::Section(_) | Kind::Sections(_) | Kind::OneOf(_) => Err((node.describe(), None)),
+        Kind::Section(_) | Kind::SectionOrNone(_) | Kind::Sections(_) | Kind::OneOf(_) => Err((node.describe(), None)),
     }
 }
 

@@ -46,7 +46,14 @@ pub fn curve_known_from(e: &Entries) -> f64 {
 /// Grains of all surges, as if all were of one curve.
 pub fn grain_count(e: &Entries, curve: &SizeCurve) -> Option<f64> {
     let volume = volume_of_all(e).or_else(|| flow_volume(e))?;
-    Some(curve.count(volume * e.number("flow.bulk_density")? / e.number("flow.solid_density")?))
+    Some(curve.count(volume * solid_share(e)?))
+}
+
+/// Share of the flow's volume that is grains, as [`crate::design::Flow::solid_share`] has it.
+pub fn solid_share(e: &Entries) -> Option<f64> {
+    let (bulk, solid) = (e.number("flow.bulk_density")?, e.number("flow.solid_density")?);
+    let fluid = e.number("flow.pore_fluid.density").unwrap_or(0.0);
+    Some((bulk - fluid) / (solid - fluid))
 }
 
 /// Grains to which `coarsen: auto` cuts a curve down: what runs in minutes.

@@ -82,6 +82,8 @@ pub enum Kind {
     File,
     Choice(&'static [&'static str]),
     Section(&'static [Key]),
+    /// The same, or the word `none`.
+    SectionOrNone(&'static [Key]),
     /// A list of sections, one or more.
     Sections(&'static [Key]),
     /// A section that holds exactly one of several sections.
@@ -161,6 +163,7 @@ impl Kind {
             Self::File => "the name of a file, taken from the folder of the design".into(),
             Self::Choice(words) => format!("one of {}", words.join(", ")),
             Self::Section(keys) => format!("a group of keys: {}", names(keys)),
+            Self::SectionOrNone(keys) => format!("none, or a group of keys: {}", names(keys)),
             Self::Sections(keys) => format!("a list of groups of keys, each with {}", names(keys)),
             Self::OneOf(keys) => format!("exactly one of {}", names(keys)),
         }

@@ -18,6 +18,7 @@ pub(crate) mod rules;
 pub(crate) mod schema;
 pub(crate) mod section_file;
 pub(crate) mod show;
+pub(crate) mod size_rules;
 pub(crate) mod sizes;
 pub(crate) mod surge_entries;
 pub(crate) mod surge_rules;
@@ -128,10 +129,23 @@ pub struct Flow {
     pub restitution: f64,
     /// Contact modulus of the grains (Pa).
     pub modulus: f64,
+    /// What is in its pores; nothing in a dry flow.
+    pub pore_fluid: Option<PoreFluid>,
     /// How it comes; where it comes in several surges, the first of them, whose mass is `mass`.
     pub arrival: Arrival,
     /// The surges that come after the first, in their order.
     pub later: Vec<LaterSurge>,
+}
+
+/// Water, or mud with the finest of the flow, in the pores: it moves with the grains and carries a part of the pressure between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoreFluid {
+    /// kg/m³
+    pub density: f64,
+    /// r_u, pore pressure over the total pressure, as the flow arrives.
+    pub pressure_ratio: f64,
+    /// Time in which the pressure of the fluid falls to 37 % where the flow rests (s).
+    pub drains_in: f64,
 }
 
 /// A surge that comes onto what those before it have left.
@@ -184,6 +198,24 @@ impl Flow {
     /// How many surges there are.
     pub fn surges(&self) -> usize {
         1 + self.later.len()
+    }
+
+    /// Share of the volume that is grains: of a dry flow ρ/ρ_s, with a fluid in all pores (ρ − ρ_f)/(ρ_s − ρ_f).
+    pub fn solid_share(&self) -> f64 {
+        match self.pore_fluid {
+            None => self.bulk_density / self.solid_density,
+            Some(fluid) => (self.bulk_density - fluid.density) / (self.solid_density - fluid.density),
+        }
+    }
+
+    /// Density of the grains as they are simulated, with the fluid that moves with them (kg/m³).
+    pub fn grain_density(&self) -> f64 {
+        if self.pore_fluid.is_some() { self.bulk_density / self.solid_share() } else { self.solid_density }
+    }
+
+    /// Friction (tan φ) as it acts on the flow as it comes, (1 − r_u) tan φ.
+    pub fn effective(&self, friction: f64) -> f64 {
+        self.pore_fluid.map_or(friction, |fluid| (1.0 - fluid.pressure_ratio) * friction)
     }
 
     /// Makes all grains so many times as large.
@@ -523,6 +555,8 @@ pub struct OtherLoads {
     pub point_load: Option<(f64, f64)>,
     /// Pa
     pub snow_pressure: Option<f64>,
+    /// On the dynamic pressure, for wood in the flow.
+    pub wood_factor: Option<f64>,
     /// Weight of the net per area (N/m²).
     pub self_weight: Option<f64>,
     /// Height of the filled barrier over its first.

@@ -11,8 +11,8 @@ use crate::design::surge_entries::{surges, volume_of, volume_of_all};
 use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
-    Factors, FidelityWish, FlexibleNet, Flow, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, Project,
-    LaterSurge, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    Factors, FidelityWish, FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange,
+    PoreFluid, Project, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -77,8 +77,24 @@ fn flow(e: &Entries) -> Option<Flow> {
         grain_friction: value("grain_friction").map_or(f64::NAN, libm::tan),
         restitution: value("restitution")?,
         modulus: value("contact_modulus")?,
+        pore_fluid: pore_fluid(e),
         arrival: arrival(e)?,
     })
+}
+
+fn pore_fluid(e: &Entries) -> Option<PoreFluid> {
+    let value = |key: &str| e.number(&format!("flow.pore_fluid.{key}"));
+    Some(PoreFluid {
+        density: value("density")?,
+        pressure_ratio: value("pressure_ratio")?,
+        drains_in: value("drains_in")?,
+    })
+}
+
+/// tan φ between grains as it acts on the flow as it comes; 0 where it is not given.
+fn acting_friction(e: &Entries) -> f64 {
+    let acts = pore_fluid(e).map_or(1.0, |fluid| 1.0 - fluid.pressure_ratio);
+    acts * libm::tan(e.number("flow.grain_friction").unwrap_or(0.0))
 }
 
 /// Way that a surge runs before it meets the barrier, over its depth, where the design says none: a block as it is packed moves as one
@@ -87,10 +103,10 @@ pub const RUN_IN: f64 = 4.0;
 /// Flattest front that is taken where the design says none (rad): 15 degrees.
 const FLATTEST_FRONT: f64 = 0.261_799_387_799_149_4;
 
-/// Angle to the bed of the front of a granular flow, tan = tan φ − tan α, with the friction angle φ of the grains and the slope α
+/// Angle to the bed of the front of a granular flow, tan = tan φ − tan α, with the friction tan φ of the grains and the slope α
 /// (Pouliquen 1999, for the thin tip of a front on a rough bed).
 pub fn granular_front(friction: f64, slope: f64) -> f64 {
-    libm::atan(libm::tan(friction) - libm::tan(slope)).max(FLATTEST_FRONT)
+    libm::atan(friction - libm::tan(slope)).max(FLATTEST_FRONT)
 }
 
 fn arrival(e: &Entries) -> Option<Arrival> {
@@ -117,8 +133,7 @@ fn surge(e: &Entries, path: &str, volume: f64) -> Option<Surge> {
         length: volume / section(e)?.area(depth),
         depth,
         velocity: value("velocity")?,
-        front_angle: value("front_angle")
-            .unwrap_or(granular_front(e.number("flow.grain_friction").unwrap_or(0.0), e.number("channel.slope")?)),
+        front_angle: value("front_angle").unwrap_or(granular_front(acting_friction(e), e.number("channel.slope")?)),
         run_in: value("run_in").unwrap_or(RUN_IN * depth),
     })
 }
@@ -307,6 +322,7 @@ fn loads(e: &Entries) -> Option<OtherLoads> {
         drained: pair("drained.earth_pressure_k", "drained.density"),
         point_load: pair("point_load.force", "point_load.height"),
         snow_pressure: value("snow_pressure"),
+        wood_factor: value("wood_factor"),
         self_weight: value("self_weight"),
         filled_height: value("filled_height")?,
         deposit_slope: value("deposit_slope")?,

@@ -3,12 +3,12 @@
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section};
 use crate::design::entries::Entries;
-use crate::design::flow_entries::{MOST_CUT, SIZES, coarsened, flow_volume, grain_count, quantiles, size_curve};
+use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, size_curve, solid_share};
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
-use crate::design::{channel_rules, net_rules, surge_rules, wall_rules};
+use crate::design::{channel_rules, net_rules, size_rules, surge_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -44,9 +44,9 @@ pub const RULES: &[Rule] = &[
     mass_or_volume,
     event_is_no_less_than_the_flow,
     solid_is_denser_than_bulk,
-    sizes_have_an_order,
-    curve_has_two_quantiles,
-    curve_increases,
+    size_rules::sizes_have_an_order,
+    size_rules::curve_has_two_quantiles,
+    size_rules::curve_increases,
     dam_break_height_agrees,
     surge_length_agrees,
     surge_rules::surges_have_one_size,
@@ -90,6 +90,7 @@ pub const RULES: &[Rule] = &[
 /// Rules that only a simulation needs.
 pub const GRAIN_RULES: &[Rule] = &[
     packing_is_possible,
+    mixture_is_possible,
     grains_fit_the_channel,
     grain_count_is_bearable,
     block_larger_than_the_grains,
@@ -138,55 +139,51 @@ fn solid_is_denser_than_bulk(e: &Entries) -> Option<Problem> {
 }
 
 fn packing_is_possible(e: &Entries) -> Option<Problem> {
-    let share = e.number("flow.bulk_density")? / e.number("flow.solid_density")?;
-    (0.63..1.0).contains(&share).then(|| {
+    if e.has_section("flow.pore_fluid") {
+        return None;
+    }
+    let share = solid_share(e)?;
+    (MOST_SOLID..1.0).contains(&share).then(|| {
         let found = format!("bulk over solid density {share:.2}, a packing of {:.0} % grains", 100.0 * share);
-        let hint = "a mixture with water in its pores is denser than grains alone can pack: raise flow.solid_density to \
-                    bulk density over 0.6, so that mass and volume stay right";
+        let hint =
+            "a mixture with water in its pores is denser than grains alone can pack: describe it with flow.pore_fluid";
         Problem::new("flow.bulk_density", found, "at most 63 % of the solid density").hint(hint)
     })
 }
 
-fn sizes_have_an_order(e: &Entries) -> Option<Problem> {
-    sizes_have_an_order_at(e, SIZES)
-}
+/// Largest share of grains that can be packed, and the smallest of a mixture whose grains touch.
+const MOST_SOLID: f64 = 0.63;
+const LEAST_SOLID: f64 = 0.4;
 
-/// Of the grain sizes at a path.
-pub fn sizes_have_an_order_at(e: &Entries, sizes: &str) -> Option<Problem> {
-    let [low, high] = ["min", "max"].map(|key| format!("{sizes}.uniform.{key}"));
-    (e.number(&low)? > e.number(&high)?).then(|| {
-        let found = format!("`{}`, above max `{}`", e.typed(&low), e.typed(&high));
-        Problem::new(low, found, format!("at most {high}"))
-    })
-}
-
-fn curve_has_two_quantiles(e: &Entries) -> Option<Problem> {
-    curve_has_two_quantiles_at(e, SIZES)
-}
-
-/// Of the grain sizes at a path.
-pub fn curve_has_two_quantiles_at(e: &Entries, sizes: &str) -> Option<Problem> {
-    let (path, count) = (format!("{sizes}.curve"), quantiles(e, sizes).len());
-    (e.has_section(&path) && count < 2)
-        .then(|| Problem::new(path, format!("{count} quantile(s)"), "two or more of d1 … d100"))
-}
-
-fn curve_increases(e: &Entries) -> Option<Problem> {
-    curve_increases_at(e, SIZES)
-}
-
-/// Of the grain sizes at a path.
-pub fn curve_increases_at(e: &Entries, sizes: &str) -> Option<Problem> {
-    let points = quantiles(e, sizes);
-    let pair = points.windows(2).find(|pair| pair[1].1 <= pair[0].1)?;
-    let name = |share: f64| format!("d{:.0}", 100.0 * share);
-    let found =
-        format!("{} = {}, not above {} = {}", name(pair[1].0), length(pair[1].1), name(pair[0].0), length(pair[0].1));
-    Some(Problem::new(
-        format!("{sizes}.curve.{}", name(pair[1].0)),
-        found,
-        "diameters that increase with the share",
-    ))
+/// With a fluid in all pores.
+fn mixture_is_possible(e: &Entries) -> Option<Problem> {
+    let fluid = e.number("flow.pore_fluid.density")?;
+    let (bulk, solid) = (e.number("flow.bulk_density")?, e.number("flow.solid_density")?);
+    let share = solid_share(e)?;
+    if fluid < bulk && bulk < solid && (LEAST_SOLID..MOST_SOLID).contains(&share) {
+        return None;
+    }
+    let path = "flow.pore_fluid.density";
+    let show = |density: f64| Dimension::Density.show(density);
+    if fluid >= bulk {
+        let found = format!("{} in a flow of {}", show(fluid), show(bulk));
+        return Some(Problem::new(path, found, "less than flow.bulk_density"));
+    }
+    let fluid_of = |share: f64| (bulk - share * solid) / (1.0 - share);
+    let (found, hint) = (
+        format!("a mixture of {:.0} % grains, (ρ − ρ_f)/(ρ_s − ρ_f)", 100.0 * share),
+        match share >= MOST_SOLID {
+            true => format!(
+                "grains alone cannot be packed so densely: the fines in suspension belong to the fluid, which then has {} or more",
+                show(fluid_of(MOST_SOLID).ceil())
+            ),
+            false => format!(
+                "so few grains do not touch each other: a mud is no flow of grains; a fluid of {} or less leaves more of them",
+                show(fluid_of(LEAST_SOLID).floor())
+            ),
+        },
+    );
+    (bulk < solid).then(|| Problem::new(path, found, "40 to 63 % grains").hint(hint))
 }
 
 /// Width of the surface of the flow as it is let go (m).

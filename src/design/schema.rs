@@ -174,7 +174,30 @@ const FLOW: &[Key] = &[
         "0.1 GPa",
         "modulus E of grain contacts: k = 2 E r1 r2/(r1 + r2)",
     ),
+    Key::optional(
+        "pore_fluid",
+        Kind::SectionOrNone(PORE_FLUID),
+        "water and mud in the pores, which move with the grains and lower their friction; none, the default, is a dry flow",
+    ),
     Key::required("arrival", Kind::OneOf(ARRIVAL), "how the flow comes"),
+];
+
+const PORE_FLUID: &[Key] = &[
+    Key::required(
+        "density",
+        quantity(D::Density, 900.0, 1800.0),
+        "density of the fluid; the finest of the flow, in suspension, belong to it",
+    ),
+    Key::required(
+        "pressure_ratio",
+        Kind::Number { low: 0.0, high: 1.0 },
+        "pore pressure over the total pressure as the flow arrives, r_u: friction at the bed, at the banks and between grains is (1 - r_u) tan(phi); density over bulk_density for a fluid at rest, 1 for a flow that floats",
+    ),
+    Key::required(
+        "drains_in",
+        quantity(D::Time, 0.001, 1e6),
+        "time in which that pressure falls to 37 % where the flow rests",
+    ),
 ];
 
 const GRAIN_SIZES: &[Key] = &[
@@ -638,6 +661,11 @@ const LOADS: &[Key] = &[
     Key::optional("drained", Kind::Section(DRAINED), "the deposit once it has drained"),
     Key::optional("point_load", Kind::Section(POINT_LOAD), "a boulder or log, added to every surge"),
     Key::optional("snow_pressure", quantity(D::Pressure, 1.0, 1e6), "uniform pressure of snow on the barrier"),
+    Key::optional(
+        "wood_factor",
+        Kind::Number { low: 1.0, high: 5.0 },
+        "factor on the dynamic pressure for wood in the flow; 1.2 to 1.5 at the same depth in 40 tests with logs against a bridge deck (Friedl et al. 2025)",
+    ),
     Key::optional("self_weight", quantity(D::Pressure, 0.1, 1e5), "weight of the net per area, hung on the top rope"),
     Key::default(
         "filled_height",

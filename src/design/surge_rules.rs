@@ -3,8 +3,8 @@
 use crate::design::channel_entries::{section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::size_curve_at;
-use crate::design::rules::{curve_increases_at, curve_has_two_quantiles_at, sizes_have_an_order_at};
 use crate::design::show::length;
+use crate::design::size_rules::{curve_has_two_quantiles_at, curve_increases_at, sizes_have_an_order_at};
 use crate::design::surge_entries::{SURGES, surge, surges, volume_of};
 use crate::problem::Problem;
 
@@ -40,8 +40,12 @@ pub fn surges_make_the_flow(e: &Entries) -> Option<Problem> {
 pub fn first_surge_comes_first(e: &Entries) -> Option<Problem> {
     let path = format!("{}.after", surge(0));
     e.mentions(&path).then(|| {
-        Problem::new(&path, format!("`{}` of the first surge", e.typed(&path)), "a time for the second surge and later ones")
-            .hint("it is counted from the release of the surge before")
+        Problem::new(
+            &path,
+            format!("`{}` of the first surge", e.typed(&path)),
+            "a time for the second surge and later ones",
+        )
+        .hint("it is counted from the release of the surge before")
     })
 }
 
@@ -93,7 +97,8 @@ pub fn later_surges_larger_than_their_grains(e: &Entries) -> Option<Problem> {
         let long = volume_of(e, path)? / section.area(depth);
         let width = section.width(depth);
         if depth.min(long) < 1.2 * largest {
-            let found = format!("a surge {} long and {} deep of grains up to {}", length(long), length(depth), length(largest));
+            let found =
+                format!("a surge {} long and {} deep of grains up to {}", length(long), length(depth), length(largest));
             return Some(Problem::new(path, found, "a surge longer and deeper than 1.2 times its largest grains"));
         }
         (3.0 * largest > width).then(|| {

@@ -11,6 +11,8 @@ pub struct GuidelineInput {
     pub earth_pressure: f64,
     /// λ
     pub dynamic_pressure: f64,
+    /// Factor on the dynamic pressure for wood in the flow, f_w; 1 without.
+    pub wood: f64,
     /// Depth of the moving flow h (m).
     pub depth: f64,
     /// Velocity of the moving flow v (m/s).
@@ -32,9 +34,14 @@ impl GuidelineInput {
         self.earth_pressure * self.density * self.gravity_normal
     }
 
-    /// λ ρ v² (Pa).
+    /// f_w λ ρ v² (Pa).
     pub fn impact_pressure(&self) -> f64 {
-        self.dynamic_pressure * self.density * self.velocity.powi(2)
+        self.wood * self.dynamic_pressure * self.density * self.velocity.powi(2)
+    }
+
+    /// The same flow without its wood, as it is simulated.
+    pub fn without_wood(&self) -> Self {
+        Self { wood: 1.0, ..*self }
     }
 
     /// Depth of the flow, no more than what the barrier holds (m).

@@ -196,9 +196,10 @@ impl ResultFile {
             simulation: run.simulated.as_ref().map(simulation_part),
             numerics: run.simulated.as_ref().map(numerics_part),
             rungs: run.climb.iter().map(rung_part).collect(),
-            surges: run.simulated.as_ref().map_or_else(Vec::new, |seen| {
-                stages(&run.file.design, seen).iter().map(surge_part).collect()
-            }),
+            surges: run
+                .simulated
+                .as_ref()
+                .map_or_else(Vec::new, |seen| stages(&run.file.design, seen).iter().map(surge_part).collect()),
             starts: run.simulated.as_ref().map_or_else(Vec::new, spread_parts),
             program_version: env!("CARGO_PKG_VERSION").to_string(),
             program: PROGRAM.to_string(),

@@ -37,7 +37,10 @@ pub fn of(run: &Run) -> Option<Surges> {
 }
 
 fn rows(stages: &[Stage]) -> Vec<Line> {
-    let line = |name: &'static str, value: &dyn Fn(&Stage) -> String| Line { name, values: stages.iter().map(value).collect() };
+    let line = |name: &'static str, value: &dyn Fn(&Stage) -> String| Line {
+        name,
+        values: stages.iter().map(value).collect(),
+    };
     let spread = |spread: Spread, unit: &str| match spread.starts {
         0 | 1 => with_unit(spread.mean, unit),
         _ => with_scatter(spread.mean, spread.deviation, unit),
@@ -45,7 +48,12 @@ fn rows(stages: &[Stage]) -> Vec<Line> {
     let known = |value: Option<Spread>, unit: &str| value.map_or("–".to_string(), |value| spread(value, unit));
     let mut rows = vec![
         line("Volume, depth and velocity as given", &|stage| {
-            format!("{}, {}, {}", with_unit(stage.volume, "m³"), with_unit(stage.depth, "m"), with_unit(stage.velocity, "m/s"))
+            format!(
+                "{}, {}, {}",
+                with_unit(stage.volume, "m³"),
+                with_unit(stage.depth, "m"),
+                with_unit(stage.velocity, "m/s")
+            )
         }),
         line("Depth of the deposit before", &|stage| spread(stage.before, "m")),
         line("Largest force along the bed", &|stage| spread(stage.force, "N")),
@@ -65,7 +73,9 @@ fn rows(stages: &[Stage]) -> Vec<Line> {
         rows.push(line("Largest load of an anchor", &|stage| known(stage.anchor, "N")));
     }
     if first.stroke.is_some() {
-        rows.push(line("Longest stroke of a dissipator, in all", &|stage| known(stage.stroke.map(|[all, _]| all), "m")));
+        rows.push(line("Longest stroke of a dissipator, in all", &|stage| {
+            known(stage.stroke.map(|[all, _]| all), "m")
+        }));
         rows.push(line("of it by this surge", &|stage| known(stage.stroke.map(|[_, own]| own), "m")));
     }
     rows
@@ -88,10 +98,10 @@ fn chart(stages: &[Stage]) -> Chart {
 
 fn says(run: &Run, stages: &[Stage]) -> String {
     let hardest = hardest(stages).map_or(0, |number| number + 1);
-    let [least, most] = stages.iter().map(|stage| stage.force.mean / stage.guideline).fold(
-        [f64::INFINITY, f64::NEG_INFINITY],
-        |[least, most], ratio| [least.min(ratio), most.max(ratio)],
-    );
+    let [least, most] = stages
+        .iter()
+        .map(|stage| stage.force.mean / stage.guideline)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], ratio| [least.min(ratio), most.max(ratio)]);
     let missing = run.file.design.flow.surges() - stages.len();
     let missing = if missing > 0 { format!(" {missing} of the surges were not simulated.") } else { String::new() };
     format!(

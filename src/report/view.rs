@@ -19,8 +19,8 @@ use crate::report::plots::elevation::class_names;
 use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
 use crate::report::replay::Replay;
 use crate::report::site;
-use crate::report::surges::{self, Surges};
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
+use crate::report::surges::{self, Surges};
 use crate::report::warnings::{left_by_simulation, warnings};
 use crate::simulated::Simulated;
 use crate::sources::VOLKWEIN_2014;
@@ -414,7 +414,10 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
         (set, "") => format!("of the set {set}"),
         (set, typed) => format!("of the set {set}, but for what is typed in the design: {typed}"),
     };
-    vec![
+    let wood = (input.wood != 1.0).then(|| {
+        row("Wood factor f_w", figures(input.wood), "on the dynamic pressure, f_w λ ρ v²; the simulation holds no wood")
+    });
+    let mut rows = vec![
         row(
             "K",
             figures(input.earth_pressure),
@@ -432,7 +435,11 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
         row("g'", with_unit(input.gravity_normal, "m/s²"), "g cos α, α being the slope of the bed"),
         row("Height of filling", with_unit(input.fill_height, "m"), filling),
         row("Partial factors", factors, &factor_remark),
-    ]
+    ];
+    if let Some(wood) = wood {
+        rows.insert(2, wood);
+    }
+    rows
 }
 
 fn start_named(run: &Simulated) -> String {
@@ -488,7 +495,7 @@ fn derived_rows(run: &Run) -> Vec<Row> {
     let design = &run.file.design;
     let flow = &design.flow;
     let row = |name: &str, value: String, remark: String| Row { name: name.into(), value, remark };
-    let solid = flow.volume() * flow.bulk_density / flow.solid_density;
+    let solid = flow.volume() * flow.bulk_density / flow.grain_density();
     // The equations alone need not be told of the grains.
     let told = |known: bool, text: String| if known { text } else { "not given".into() };
     let sizes = [0.3, 0.5, 0.9].map(|share| flow.sizes.named(share));

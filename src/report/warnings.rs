@@ -281,7 +281,7 @@ const SCALED: f64 = 0.01;
 fn grains_scaled_to_the_mass(run: &Run) -> Option<String> {
     run.simulated.as_ref()?;
     let flow = &run.file.design.flow;
-    let (grains, scale) = flow.sizes.whole_grains(flow.mass, flow.solid_density);
+    let (grains, scale) = flow.sizes.whole_grains(flow.mass, flow.grain_density());
     let many = if grains.len() == 1 { "grain".to_string() } else { format!("{} grains", grains.len()) };
     ((scale - 1.0).abs() > SCALED).then(|| {
         format!(

@@ -23,6 +23,7 @@ use dem::recorders::setup::RecorderSetup;
 use dem::simulation::Simulation;
 use dem::tables::barrier::Barrier;
 use dem::tables::grains::Grain;
+use dem::tables::pores::Pores;
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
 use dem::tables::terrain::Terrain;
 use dem::tables::wall::WallShape;
@@ -70,6 +71,8 @@ const PASSAGE: f64 = 0.2;
 fn smoothing(design: &Design) -> f64 {
     SMOOTHING.min(SMOOTHING_SHARE * time_scale(design))
 }
+/// Speed below which grains rest, as far as the fluid between them drains, over √(g D50).
+const RESTS_BELOW: f64 = 0.1;
 /// Settling time over √(block height/g), and its drag times that time.
 const SETTLING: f64 = 1.2;
 const SETTLING_DRAG: f64 = 2.5;
@@ -167,6 +170,11 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
             tangential_ratio: 2.0 / 7.0,
             friction: flow.grain_friction,
         },
+        pores: flow.pore_fluid.map(|fluid| Pores {
+            ratio: fluid.pressure_ratio,
+            drains_in: fluid.drains_in,
+            rests_below: RESTS_BELOW * (GRAVITY * flow.sizes.quantile(0.5)).sqrt(),
+        }),
         gravity: gravity(design.channel.slope),
         wall: wall_shape(design),
         outlet: outlet(design),
@@ -187,12 +195,14 @@ fn expected_time_of(design: &Design, arrival: Arrival) -> f64 {
     rest + match arrival {
         Arrival::Surge(surge) => {
             let channel = &design.channel;
-            let slowed = GRAVITY * (channel.base_friction * libm::cos(channel.slope) - libm::sin(channel.slope));
+            let friction = design.flow.effective(channel.base_friction);
+            let slowed = GRAVITY * (friction * libm::cos(channel.slope) - libm::sin(channel.slope));
             tail_time(surge.length + surge.run_in, surge.velocity, slowed)
         }
         Arrival::DamBreak(DamBreak { length, distance, .. }) => {
             let slope = design.channel.slope;
-            let acceleration = GRAVITY * (libm::sin(slope) - design.channel.base_friction * libm::cos(slope));
+            let friction = design.flow.effective(design.channel.base_friction);
+            let acceleration = GRAVITY * (libm::sin(slope) - friction * libm::cos(slope));
             (2.0 * (distance + length) / acceleration.max(0.1)).sqrt()
         }
     }

@@ -70,7 +70,7 @@ const BOX: f64 = 0.0215;
 /// Estimates a start of `design`, modelled as finely as `fidelity` says. To a factor of two: how dense the flow gets is not known.
 pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
     let flow = &design.flow;
-    let count = |flow: Flow| flow.sizes.count(flow.mass / flow.solid_density);
+    let count = |flow: Flow| flow.sizes.count(flow.mass / flow.grain_density());
     let grains: f64 = (0..flow.surges()).map(|number| count(flow.alone(number))).sum();
     let spheres = grains * if flow.aspect > 1.0 { 2.0 } else { 1.0 };
     let bends = design.simulation.barrier_model == BarrierModel::Cylinders;
@@ -85,7 +85,7 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
     let simulated = expected_time(design).min(design.simulation.longest * flow.surges() as f64);
     let steps = simulated / fidelity.time_step;
     let of_elements = elements * if bends { PARTS * CYLINDER } else { SEGMENT };
-    let packed = if flow.bulk_density / flow.solid_density > NEARLY_JAMMED { PACKED_DENSE } else { PACKED };
+    let packed = if flow.bulk_density / flow.grain_density() > NEARLY_JAMMED { PACKED_DENSE } else { PACKED };
     Estimate {
         grains,
         spheres,

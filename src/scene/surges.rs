@@ -63,7 +63,8 @@ const LONGER: f64 = 1.6;
 
 /// How far upstream the surges of a design may start (m): each behind the others, had these come to rest as long as they were.
 pub fn farthest_upstream(design: &Design, reach: f64) -> f64 {
-    let later = design.flow.later.iter().map(|later| LONGER * later.surge.length + later.surge.run_in + later.surge.depth);
+    let later =
+        design.flow.later.iter().map(|later| LONGER * later.surge.length + later.surge.run_in + later.surge.depth);
     let first = match design.flow.arrival {
         crate::design::Arrival::Surge(surge) => LONGER * surge.length + surge.run_in + surge.depth,
         crate::design::Arrival::DamBreak(block) => LONGER * block.length + block.distance,

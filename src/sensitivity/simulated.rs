@@ -18,6 +18,9 @@ const CHANGES: &[(&str, f64, Change)] = &[
         design.flow.mass *= factor;
         design.flow.bulk_density *= factor;
         design.flow.solid_density *= factor;
+        if let Some(fluid) = &mut design.flow.pore_fluid {
+            fluid.density *= factor;
+        }
     }),
     ("Friction on the bed", 0.2, |design, factor| design.channel.base_friction *= factor),
     ("Friction between grains", 0.2, |design, factor| design.flow.grain_friction *= factor),

@@ -6,6 +6,7 @@ use crate::Vec3;
 use crate::tables::barrier::Barrier;
 use crate::tables::fixed::Fixed;
 use crate::tables::grains::{Grain, GrainShape};
+use crate::tables::pores::Pores;
 use crate::tables::surfaces::Surface;
 use crate::tables::terrain::Terrain;
 use crate::tables::wall::WallShape;
@@ -36,6 +37,8 @@ pub struct Model {
     pub terrain: Option<Terrain>,
     pub barrier: Option<Barrier>,
     pub material: Material,
+    /// Fluid in the pores of the grains; none in a dry flow.
+    pub pores: Option<Pores>,
     /// m/s², in the channel frame.
     pub gravity: Vec3,
     /// How forces on a rigid wall are told apart.
@@ -59,6 +62,7 @@ impl Model {
             terrain: None,
             barrier: None,
             material: Material { modulus: 1e8, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 },
+            pores: None,
             gravity: Vec3::zeros(),
             wall: WallShape::default(),
             outlet: f64::INFINITY,

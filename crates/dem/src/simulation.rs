@@ -15,6 +15,7 @@ use crate::tables::fixed::FixedTouch;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::grains::Grain;
 use crate::tables::load_sheets::LoadSheets;
+use crate::tables::pores::STEPS_BETWEEN;
 use crate::tables::surfaces::SurfaceRole;
 use crate::time::integrate::Stretch;
 use crate::time::links::Linked;
@@ -147,7 +148,10 @@ impl Simulation {
     /// assert!((simulation.snapshot()[0].velocity.z + 0.981).abs() < 1e-9);
     /// ```
     pub fn new(mut model: Model, time_step: f64, skin: f64, speed_limit: f64) -> Self {
-        let grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
+        let mut grains = GrainTable::of(model.shape, &std::mem::take(&mut model.grains));
+        if let Some(pores) = &model.pores {
+            grains.grip.resize(grains.len(), pores.grip());
+        }
         Self {
             stop_every: steps_per_stop(grains.members()),
             grains,
@@ -238,6 +242,9 @@ impl Simulation {
             self.ledger.carried_in += kinetic - grain.body.mass * self.model.gravity.dot(&grain.position);
         }
         self.grains.extend(grains);
+        if let Some(pores) = &self.model.pores {
+            self.grains.grip.resize(self.grains.len(), pores.grip());
+        }
         self.stop_every = steps_per_stop(self.grains.members());
         self.neighbours.lose();
     }
@@ -248,8 +255,11 @@ impl Simulation {
         self.neighbours.forget_surfaces();
     }
 
-    /// Restarts clock, energy account and extremes: what follows is the event itself.
+    /// Restarts clock, energy account and extremes: what follows is the event itself. What has drained in preparation has not.
     pub fn start_account(&mut self) {
+        if let Some(pores) = &self.model.pores {
+            self.grains.grip.fill(pores.grip());
+        }
         self.time = 0.0;
         self.ledger = Ledger::default();
         self.lost_since = [0.0; 3];
@@ -413,6 +423,9 @@ impl Simulation {
         self.neighbours.tick(&paces, time.step, fastest_node);
         self.steps += 1;
         self.time += self.time_step;
+        if let Some(pores) = self.model.pores.filter(|_| self.steps.is_multiple_of(STEPS_BETWEEN)) {
+            pores.drain(&mut self.grains, STEPS_BETWEEN as f64 * self.time_step);
+        }
     }
 
     /// Moves the barrier under its own forces at the start of the step, `net`, and those of the grains; returns the largest speed of

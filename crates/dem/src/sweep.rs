@@ -38,8 +38,10 @@ pub fn sweep(
 ) -> (NetForces, Vec<Pace>) {
     let Neighbours { blocks, outboxes, drift, .. } = neighbours;
     let outboxes = &*outboxes;
+    // No step changes it: it is read while rows are moved.
+    let grip = std::mem::take(&mut grains.grip);
     let rows = RowsInMotion::of(grains, drift);
-    let forces = BlockForces { model, grains: rows.seen(), law, workers: workers::count() };
+    let forces = BlockForces { model, grains: rows.seen(), law, grip: &grip, workers: workers::count() };
     let mut net = None;
     let mut paces = vec![Pace::default(); blocks.len()];
     let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &barrier_law, &mut net));
@@ -70,6 +72,7 @@ pub fn sweep(
             }
         },
     );
+    grains.grip = grip;
     (net.unwrap_or_default(), paces)
 }
 
@@ -107,6 +110,8 @@ struct BlockForces<'a> {
     model: &'a Model,
     grains: GrainRows<'a>,
     law: LawConstants,
+    /// Share of the friction that acts on each grain; empty in a dry flow.
+    grip: &'a [f64],
     /// Threads that share the blocks.
     workers: usize,
 }
@@ -130,7 +135,8 @@ impl<'a> BlockForces<'a> {
         let clocks = block.clocks;
         let material = &model.material;
         outbox.clear();
-        let constants = PairConstants { law, modulus: material.modulus, friction: material.friction };
+        let (modulus, friction) = (material.modulus, material.friction);
+        let constants = PairConstants { law, modulus, friction, grip: self.grip };
         let pairs = |clock| PairContext { grains, constants, clock };
         let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, prefetcher);
         sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
@@ -140,6 +146,7 @@ impl<'a> BlockForces<'a> {
             law,
             modulus: material.modulus,
             grain_friction: material.friction,
+            grip: self.grip,
             clock: clocks.fixed,
             wall: &model.wall,
         };

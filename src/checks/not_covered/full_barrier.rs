@@ -27,7 +27,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     };
     let simulated = match known.design.flow.surges() {
         1 => "the first surge".to_string(),
-        several => format!("{several} surges"),
+        several => format!("an event of {several} surges"),
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let tips = outcome.unit == Unit::NewtonMetrePerMetre || outcome.kind == Kind::OnTheBase;
@@ -46,12 +46,11 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
             false => [used, may_be],
         };
         let full = if seen.largest_push > 0.0 {
-            format!(
-                "the simulation is of {simulated}, and by the guideline {more:.1} times as much presses on {when}"
-            )
+            format!("the simulation is of {simulated}, and by the guideline {more:.1} times as much presses on {when}")
         } else {
-            "the simulated flow does not push the barrier, and by the guideline the full barrier is pushed"
-                .into()
+            format!(
+                "the simulation is of {simulated}, which does not push the barrier, and by the guideline the full barrier is pushed"
+            )
         };
         // Written so that a NaN counts as not within.
         let within = |used: f64| used <= 1.0;
@@ -243,7 +242,7 @@ mod tests {
             let net = outcomes.into_iter().find(|outcome| outcome.id == "net_tension").expect("a check");
             net.open.expect("a reason").words().to_string()
         };
-        assert!(why(0.0).starts_with("the simulated first surge does not push the barrier"));
+        assert!(why(0.0).starts_with("the simulation is of the first surge, which does not push the barrier"));
         assert!(why(guideline.largest_force / 3.0).contains("3.0 times as much presses on the full barrier"));
     }
 

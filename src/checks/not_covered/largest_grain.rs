@@ -41,7 +41,7 @@ pub fn leave_open(Known { design, guideline, .. }: Known, outcomes: &mut [Outcom
 /// Largest force (N) of an elastic hit of the largest grain on a wall, v √(k m) with k = E r: the dashpot makes it somewhat less.
 fn hit(design: &Design, velocity: f64) -> f64 {
     let diameter = design.flow.sizes.quantile(1.0);
-    let mass = design.flow.solid_density * std::f64::consts::PI / 6.0 * diameter.powi(3);
+    let mass = design.flow.grain_density() * std::f64::consts::PI / 6.0 * diameter.powi(3);
     velocity * (design.flow.modulus * 0.5 * diameter * mass).sqrt()
 }
 

@@ -1,5 +1,5 @@
 //! What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
-//! later surges of a larger event, a boulder, snow, a flow over the full barrier.
+//! later surges of a larger event, a boulder, wood, snow, a flow over the full barrier.
 
 use super::known::Known;
 use crate::checks::outcome::{Kind, Opening, Outcome};
@@ -9,7 +9,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let several = flow.is_part_of_its_event().then_some("the later surges of the event");
     let weight = loads.self_weight.map(|_| "the weight of the net as given");
     let of_cases = known.guideline.cases.iter().filter_map(|case| case.not_simulated);
-    let missing: Vec<&str> = several.into_iter().chain(of_cases).chain(weight).collect();
+    let wood = loads.wood_factor.filter(|factor| *factor > 1.0).map(|_| "the wood in the flow");
+    let missing: Vec<&str> = several.into_iter().chain(of_cases).chain(weight).chain(wood).collect();
     if missing.is_empty() {
         return;
     }

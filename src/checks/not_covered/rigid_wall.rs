@@ -8,7 +8,7 @@ use crate::design::{Arrival, BarrierDesign, Design};
 /// Whether the design has a surge hit with a steeper front, or after a shorter way, than it would have by default.
 fn hits_as_a_block(design: &Design) -> bool {
     let Arrival::Surge(surge) = design.flow.arrival else { return false };
-    let front = granular_front(libm::atan(design.flow.grain_friction), design.channel.slope);
+    let front = granular_front(design.flow.effective(design.flow.grain_friction), design.channel.slope);
     // Asked as "like the default", so that what is not a number is not; where nothing is said of the grains the front is not known.
     let like_the_default = surge.front_angle <= front + 1e-6 && surge.run_in >= RUN_IN * surge.depth * (1.0 - 1e-6);
     !like_the_default && !design.flow.grain_friction.is_nan()

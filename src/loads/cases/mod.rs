@@ -59,6 +59,7 @@ pub mod tests {
             gravity_normal: 9.81 * libm::cos(20_f64.to_radians()),
             earth_pressure: 1.0,
             dynamic_pressure: 1.0,
+            wood: 1.0,
             depth: 1.0,
             velocity: 6.0,
             fill_height: 4.0,

@@ -35,8 +35,12 @@ pub fn of_a_surge(input: &GuidelineInput, diagram: &Diagram, deposit: f64, movin
     } else {
         format!("½ · {unit:.3} · {height:.3}² + {block:.3} · {moving:.3}")
     };
+    let (symbol, wood) = match input.wood == 1.0 {
+        true => ("", String::new()),
+        false => ("f_w ", format!("{:.2} · ", input.wood)),
+    };
     let dynamic = format!(
-        "λ ρ v² = {:.2} · {:.0} · {:.2}² = {:.1} kPa",
+        "{symbol}λ ρ v² = {wood}{:.2} · {:.0} · {:.2}² = {:.1} kPa",
         input.dynamic_pressure,
         input.density,
         input.velocity,

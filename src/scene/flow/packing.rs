@@ -160,6 +160,7 @@ fn relaxing(grains: Vec<Grain>, shape: GrainShape) -> Model {
         terrain: None,
         barrier: None,
         material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
+        pores: None,
         gravity: Vec3::zeros(),
         wall: WallShape::default(),
         outlet: f64::INFINITY,

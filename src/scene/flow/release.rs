@@ -57,16 +57,13 @@ impl Block {
                 // On a raster the section where the surge starts is another one than that at the barrier.
                 let length = if channel.relief.is_some() { flow.volume() / section.area(depth) } else { length };
                 let nose = (depth / libm::tan(front_angle)).clamp(0.0, 2.0 * LONGEST_NOSE * length);
+                let friction = flow.effective(channel.base_friction);
                 let gain = match &channel.profile {
-                    None => {
-                        2.0 * GRAVITY
-                            * (libm::sin(channel.slope) - channel.base_friction * libm::cos(channel.slope))
-                            * run_in
-                    }
+                    None => 2.0 * GRAVITY * (libm::sin(channel.slope) - friction * libm::cos(channel.slope)) * run_in,
                     // Fast enough to cross what is flat on its way.
                     Some(profile) => {
-                        let gain = profile.gain(run_in, channel.base_friction);
-                        let crosses = profile.largest_gain(run_in, channel.base_friction) - gain;
+                        let gain = profile.gain(run_in, friction);
+                        let crosses = profile.largest_gain(run_in, friction) - gain;
                         2.0 * GRAVITY * gain.min(CROSSING * velocity * velocity / (2.0 * GRAVITY) - crosses)
                     }
                 };
@@ -117,8 +114,8 @@ fn higher(section: &Section, height: f64, thin: f64) -> f64 {
 
 /// The bodies of all grains, from the design's size curve.
 pub fn bodies(flow: &Flow) -> Vec<GrainBody> {
-    let diameters = flow.sizes.grains(flow.mass, flow.solid_density);
-    diameters.iter().map(|&diameter| GrainBody::clump(diameter, flow.aspect, flow.solid_density)).collect()
+    let diameters = flow.sizes.grains(flow.mass, flow.grain_density());
+    diameters.iter().map(|&diameter| GrainBody::clump(diameter, flow.aspect, flow.grain_density())).collect()
 }
 
 /// One or two spheres to a grain.

@@ -27,8 +27,7 @@ const STEPS: [f64; 3] = [0.02, 0.1, 0.4];
 /// Radius of the large balls (m).
 const LARGE: f64 = 0.025;
 const DENSITY: f64 = 2600.0;
-const MATERIAL: Material =
-    Material { modulus: 1e6, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 };
+const MATERIAL: Material = Material { modulus: 1e6, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 };
 /// From where it rolls, from the top (deg).
 const FROM: f64 = 1.0;
 /// Where its speed is asked, from the middle of the neck down, over the radius of the circle on which it went.
@@ -134,7 +133,9 @@ impl Neck {
 /// Puts the large balls back, as if nothing pulled at them.
 fn hold(simulation: &mut Simulation, places: &[Vec3; 2]) {
     for row in 0..simulation.grains.len() {
-        let Some(place) = (simulation.grains.ids[row] as usize).checked_sub(1).map(|large| places[large]) else { continue };
+        let Some(place) = (simulation.grains.ids[row] as usize).checked_sub(1).map(|large| places[large]) else {
+            continue;
+        };
         simulation.grains.place[row].set_vector(&place);
         simulation.grains.motion[row].set_vector(&Vec3::zeros());
     }

@@ -123,6 +123,7 @@ fn identity() -> Result<Vec<Finding>, Broken> {
             gravity_normal: GRAVITY * libm::cos(slope.to_radians()),
             earth_pressure: 1.2,
             dynamic_pressure: 0.7,
+            wood: 1.0,
             depth,
             velocity,
             fill_height: 4.0,

@@ -23,7 +23,7 @@ use crate::tables::grains::GrainShape;
 /// Everything that [`load_inner`] and [`load_border`] read besides the list itself.
 pub struct PairContext<'a> {
     pub grains: GrainRows<'a>,
-    pub constants: PairConstants,
+    pub constants: PairConstants<'a>,
     /// Closing distance since the lists were made (m).
     pub clock: Clock,
 }

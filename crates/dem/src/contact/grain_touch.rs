@@ -10,11 +10,13 @@ use crate::tables::grain_table::side;
 
 /// What the grain contacts of a run have in common.
 #[derive(Clone, Copy, Debug)]
-pub struct PairConstants {
+pub struct PairConstants<'a> {
     pub law: LawConstants,
     /// Contact modulus of the grains (Pa).
     pub modulus: f64,
     pub friction: f64,
+    /// Of each grain; empty in a dry flow ([`crate::tables::grain_table::GrainTable::grip`]).
+    pub grip: &'a [f64],
 }
 
 /// Signs that turn the sum of two rows into the difference of their vectors and the sum of their fourth entries.
@@ -107,7 +109,13 @@ impl<E: Eight, const CLUMPS: bool> GrainTouch<E, CLUMPS> {
                 frequency,
                 impedance: frequency * (but_distance * (sum * product)),
             },
-            friction: E::all(constants.friction),
+            friction: if constants.grip.is_empty() {
+                E::all(constants.friction)
+            } else {
+                let grip = |lane: usize, party: usize| constants.grip[row(lane, party)];
+                let both = E::from_lanes(each_lane!(|lane| grip(lane, 0) + grip(lane, 1)));
+                both * (0.5 * constants.friction)
+            },
         };
         // 1/min(r₁, r₂) = 2E max(r₁, r₂)/Y.
         let inverse_radius = r1.or_larger(r2) * (2.0 * constants.modulus) * (but_spring * sum);

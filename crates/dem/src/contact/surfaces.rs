@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::Vec3;
-use crate::contact::lane_sums::LaneSums;
 use crate::contact::grain_touch::turning;
+use crate::contact::lane_sums::LaneSums;
 use crate::contact::law::{ContactPoint, LawConstants, Response, Spring, normal_before, respond};
 use crate::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::ledger::ContactSums;
@@ -28,6 +28,8 @@ pub struct SurfaceContext<'a> {
     pub law: LawConstants,
     pub modulus: f64,
     pub grain_friction: f64,
+    /// Of each grain; empty in a dry flow.
+    pub grip: &'a [f64],
     /// Way that the block's grains and all nodes can have gone since the lists were made (m).
     pub clock: Clock,
     pub wall: &'a WallShape,
@@ -186,7 +188,13 @@ impl<E: Eight> SurfaceTouch<E> {
             let touch = context.fixed.touch(*number, &centre, radius);
             towards[lane] = Quad::new(&touch.towards, radius);
             let from_grain = touch.towards + centre - grains.place(*member as usize / members).vector();
-            lever[lane] = Quad::new(&from_grain, touch.friction.min(context.grain_friction));
+            let friction = touch.friction.min(context.grain_friction);
+            // A barrier lets the fluid through: on it the whole friction acts.
+            let grip = match touch.role {
+                SurfaceRole::Wall => 1.0,
+                _ => context.grip.get(*member as usize / members).copied().unwrap_or(1.0),
+            };
+            lever[lane] = Quad::new(&from_grain, friction * grip);
             (role[lane], square[lane]) = (touch.role, touch.square);
             (share[lane], height[lane]) = (touch.share, touch.height);
             if let Some(axis) = touch.hinge {

@@ -92,7 +92,8 @@ impl Histories {
 impl Histories {
     /// The samples of one surge, counted from 0: from its release to that of the next.
     pub fn samples_of(&self, surge: usize) -> std::ops::Range<usize> {
-        let start = surge.checked_sub(1).map_or(0, |before| self.surges.get(before).copied().unwrap_or(self.time.len()));
+        let start =
+            surge.checked_sub(1).map_or(0, |before| self.surges.get(before).copied().unwrap_or(self.time.len()));
         start..self.surges.get(surge).copied().unwrap_or(self.time.len())
     }
 

@@ -56,6 +56,8 @@ pub struct GrainTable {
     pub bodies: Vec<GrainBody>,
     /// Numbers given at creation; they survive reordering and removal.
     pub ids: Vec<u32>,
+    /// Share of its friction that acts on a grain, 1 − r_u ([`crate::tables::pores`]); empty in a dry flow, where all of it does.
+    pub grip: Vec<f64>,
 }
 
 impl GrainTable {
@@ -69,6 +71,7 @@ impl GrainTable {
             momentum: Vec::new(),
             bodies: Vec::new(),
             ids: Vec::new(),
+            grip: Vec::new(),
         };
         table.extend(grains);
         table
@@ -145,6 +148,7 @@ impl GrainTable {
         pick(&mut self.momentum, order);
         pick(&mut self.bodies, order);
         pick(&mut self.ids, order);
+        pick(&mut self.grip, order);
     }
 }
 

@@ -8,6 +8,7 @@ pub mod grains;
 pub(crate) mod load_sheets;
 pub(crate) mod moving_rows;
 pub mod nodes;
+pub mod pores;
 pub mod prefetch;
 pub mod surfaces;
 pub mod terrain;
