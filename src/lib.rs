@@ -14,6 +14,7 @@
 //! | a format of terrain rasters | [`raster`]; how it is turned into the barrier's directions in `design::terrain_file` and [`relief`] |
 //! | a file that a design names | a key of the kind `File`, and `design::attached` |
 //! | a contradiction between keys | a function and a line in [`design::rules`], a fixture in `tests/bad_designs` |
+//! | a key of a surge, or another way for the flow to come | its key in [`design::schema`], what it makes in `design::surge_entries` and `Flow`; it is let go by [`scene::surges`], told surge by surge in [`stages`] and [`report::surges`] |
 //! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes, and its springs by `law::Spring`, from which the stable step and what is shown go as well; its damping in [`dem::contact::restitution`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
