@@ -192,6 +192,7 @@ impl State {
             terrain,
             barrier: None,
             material: Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 1.327 },
+            pores: None,
             gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * 9.81,
             wall: WallShape::default(),
             outlet: f64::INFINITY,
