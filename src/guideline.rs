@@ -147,15 +147,16 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     }
 }
 
-/// The flow of each surge: of the first as it is given, of later ones with their own depth and velocity, both by as much more as those of the
-/// first are more than the design's.
+/// The flow of each surge: the first as it is asked, later ones with their own depth and velocity, changed as those of the first are from the
+/// design's; so is the height to which they fill the barrier.
 pub fn flows(design: &Design, first: GuidelineInput) -> Vec<GuidelineInput> {
     let (depth, velocity) = incoming(design);
-    let more = |ratio: f64| larger_or_nan(ratio, 1.0);
+    let fills = first.fill_height / filled(design, first).fill_height;
     let later = design.flow.later.iter().map(|later| {
-        let depth = later.surge.depth * more(first.depth / depth);
-        let velocity = later.surge.velocity * more(first.velocity / velocity);
-        filled(design, GuidelineInput { depth, velocity, ..first })
+        let depth = later.surge.depth * first.depth / depth;
+        let velocity = later.surge.velocity * first.velocity / velocity;
+        let flow = filled(design, GuidelineInput { depth, velocity, ..first });
+        GuidelineInput { fill_height: (flow.fill_height * fills).min(flow.barrier_height), ..flow }
     });
     std::iter::once(first).chain(later).collect()
 }

@@ -31,7 +31,7 @@
 //! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
-//! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, beside `pipeline::slower_than_designed` |
+//! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, a function of `arriving` or one beside it |
 //! | a warning to the reviewer | a function and a line in [`report::warnings`]; a usual range of an input in [`checks::implausible`] |
 //! | a field of `result.json` | [`report::json`]; raise its `schema_version` where one changes or goes |
 //! | where a rule is from | [`sources`] |
@@ -77,6 +77,7 @@
 // The map above is for those who work on the crate.
 #![allow(rustdoc::private_intra_doc_links)]
 
+mod arriving;
 mod checkpoint;
 pub mod checks;
 pub mod commands;

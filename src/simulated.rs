@@ -11,7 +11,9 @@ use crate::demand::Seen;
 use crate::design::{Arrival, Design};
 use crate::fidelity::Fidelity;
 use crate::guideline::Guideline;
+use crate::larger::larger_or_nan;
 use crate::program::PROGRAM;
+use crate::quantities::earth_pressure;
 use crate::quantities::observed::Observed;
 use crate::quantities::reading::Samples;
 use crate::scene::build::{Prepared, Preparing, SAMPLES_PER_WINDOW, build_watched};
@@ -249,6 +251,7 @@ pub fn simulate(
         }
         facts.take(&event);
         facts.wall_clock = spent();
+        facts.packed_share = event.packed_share;
         let numerics = Numerics {
             packing_shortfall: 1.0 - facts.packed_share,
             stored_at_release: match design.flow.arrival {
@@ -260,8 +263,10 @@ pub fn simulate(
         };
         let [window, tail] = samples;
         let samples = Samples { window, tail };
-        let observed = Observed::read(&event.histories, design, guideline, samples);
         let surges = surges_of(&event.histories, design, samples);
+        let observed = Observed::read(&event.histories, design, guideline, samples);
+        // What comes, and the λ that it means, are told of the first surge on the empty barrier.
+        let observed = surges.iter().take(1).fold(observed, |all, first| all.arriving_as(first));
         let histories = match detail {
             Detail::Full => event.histories,
             Detail::Observed => Histories::default(),
@@ -283,7 +288,10 @@ fn surges_of(histories: &Histories, design: &Design, samples: Samples) -> Vec<Ob
     }
     let one = |number: usize| {
         let alone = Design { flow: design.flow.alone(number), ..design.clone() };
-        Observed::read(&histories.of_surge(number), &alone, &crate::guideline::guideline(&alone), samples)
+        let seen = Observed::read(&histories.of_surge(number), &alone, &crate::guideline::guideline(&alone), samples);
+        // What is followed before it has come to rest shows no K at rest.
+        let followed = design.flow.later.get(number).is_some_and(|next| next.after.is_some());
+        if followed { seen.without(&[&earth_pressure::AT_REST, &earth_pressure::OF_ANY_DEPTH]) } else { seen }
     };
     (0..=histories.surges.len()).map(one).collect()
 }
@@ -299,7 +307,12 @@ pub fn numerics(event: &Event) -> Numerics {
         escaped_share: event.escaped_share,
         packing_shortfall: 0.0,
         stored_at_release: 0.0,
-        stopped_upstream: event.histories.stopped_upstream,
+        stopped_upstream: event
+            .histories
+            .stopped_of
+            .iter()
+            .copied()
+            .fold(event.histories.stopped_upstream, larger_or_nan),
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
             Ending::NotLetGo(surge, error) => Some(format!("surge {} could not be let go: {error}", surge + 1)),

@@ -1,7 +1,7 @@
 //! An event surge by surge: what the simulation shows of each, beside the guideline's stage for the deposit that lay there, the depth and the
 //! velocity of that surge.
 
-use crate::design::{Arrival, Design};
+use crate::design::Design;
 use crate::guideline::input;
 use crate::loads::cases::later_surge;
 use crate::loads::input::GuidelineInput;
@@ -10,6 +10,7 @@ use crate::quantities::quantity::Quantity;
 use crate::quantities::{
     anchor_load, dissipator, earth_pressure, incoming, other_ropes, rope_tension, run_up, total_force,
 };
+use crate::section::Section;
 use crate::simulated::{Simulated, Start};
 use crate::starts::Spread;
 
@@ -36,8 +37,9 @@ pub struct Stage {
     pub stroke: Option<[Spread; 2]>,
     /// Mass that went past the barrier, over that of the surge.
     pub lost: Spread,
-    /// λ that its largest force means for the depth and velocity that the design gives, over the deposit that lay there, with the design's K.
-    pub lambda: Spread,
+    /// λ that its largest force means for the depth and velocity that the design gives, over the deposit that lay there, with the design's K;
+    /// nothing where less than half of the flow hits the barrier over that deposit.
+    pub lambda: Option<Spread>,
     /// The same with what was measured just upstream of the barrier, and K of the deposit at rest after it, where every packing tells them.
     pub lambda_measured: Option<Spread>,
     pub k_at_rest: Option<Spread>,
@@ -54,6 +56,48 @@ pub fn hardest(stages: &[Stage]) -> Option<usize> {
     (0..stages.len()).max_by(|a, b| stages[*a].force.mean.total_cmp(&stages[*b].force.mean))
 }
 
+/// The surges of a design as the equations see them, without wood, as it is simulated.
+struct Equations {
+    flow: GuidelineInput,
+    section: Section,
+}
+
+impl Equations {
+    fn of(design: &Design, number: usize) -> Self {
+        let alone = Design { flow: design.flow.alone(number), ..design.clone() };
+        Self { flow: input(&alone).without_wood(), section: design.channel.section() }
+    }
+
+    /// Force along the bed over a deposit of a depth (m), with a λ (N).
+    fn force(&self, deposit: f64, lambda: f64) -> f64 {
+        let flow = GuidelineInput { dynamic_pressure: lambda, ..self.flow };
+        later_surge::case(&flow, deposit).total_force(&self.section)
+    }
+
+    /// λ that a push (N) over a deposit (m) means; nothing where less than half of the flow hits the barrier over it.
+    fn lambda(&self, deposit: f64, push: f64) -> Option<f64> {
+        let [without, once] = [0.0, 1.0].map(|lambda| self.force(deposit, lambda));
+        let hits = self.flow.barrier_height - deposit >= 0.5 * self.flow.depth;
+        hits.then(|| (push - without) / (once - without))
+    }
+}
+
+/// Depth of the deposit that a surge of a start finds at the barrier (m).
+fn deposit_before(start: &Start, number: usize) -> f64 {
+    number.checked_sub(1).map_or(0.0, |before| start.surges[before].one(&incoming::DEPOSIT))
+}
+
+/// The push (N) of a surge of a start, counted from 0, as it would be on the empty barrier with the λ that it shows; nothing where it shows
+/// none. `led` is the design led by it.
+pub fn push_on_empty(led: &Design, start: &Start, number: usize) -> Option<f64> {
+    let Some(seen) = start.surges.get(number).filter(|_| number > 0) else {
+        return Some(start.first_surge().one(&total_force::PUSH));
+    };
+    let equations = Equations::of(led, 0);
+    let lambda = equations.lambda(deposit_before(start, number), seen.one(&total_force::PUSH))?;
+    Some(equations.force(0.0, lambda))
+}
+
 fn stage(design: &Design, simulated: &Simulated, number: usize) -> Stage {
     let starts = &simulated.starts;
     let over = |value: &dyn Fn(&Start) -> f64| Spread::of(&starts.iter().map(value).collect::<Vec<_>>());
@@ -68,32 +112,21 @@ fn stage(design: &Design, simulated: &Simulated, number: usize) -> Stage {
         let values: Option<Vec<f64>> = starts.iter().map(|start| most(&start.surges[number], quantity)).collect();
         values.map(|values| Spread::of(&values))
     };
-    let alone = Design { flow: design.flow.alone(number), ..design.clone() };
-    let flow = input(&alone).without_wood();
-    let of_before = |start: &Start, quantity: &Quantity| {
-        number.checked_sub(1).map_or(0.0, |before| start.surges[before].one(quantity))
-    };
-    let deposit = |start: &Start| of_before(start, &incoming::DEPOSIT);
-    let section = design.channel.section();
-    let by_guideline = |flow: &GuidelineInput, deposit: f64| later_surge::case(flow, deposit).total_force(&section);
-    let before = over(&deposit);
-    let lambda = |start: &Start| {
-        let at = |lambda: f64| by_guideline(&GuidelineInput { dynamic_pressure: lambda, ..flow }, deposit(start));
-        (start.surges[number].one(&total_force::PUSH) - at(0.0)) / (at(1.0) - at(0.0))
-    };
-    let share = alone.flow.mass / design.flow.mass_of_all();
+    let equations = Equations::of(design, number);
+    let flow = equations.flow;
+    let before = over(&|start| deposit_before(start, number));
+    let lambda =
+        |start: &Start| equations.lambda(deposit_before(start, number), start.surges[number].one(&total_force::PUSH));
+    let lambda: Option<Vec<f64>> = starts.iter().map(lambda).collect();
     let added = |start: &Start| {
         let stroke = |surge: usize| most(&start.surges[surge], &dissipator::STROKE).unwrap_or(0.0);
         stroke(number) - number.checked_sub(1).map_or(0.0, stroke)
     };
     Stage {
-        volume: alone.flow.volume(),
+        volume: design.flow.alone(number).volume(),
         depth: flow.depth,
-        velocity: match alone.flow.arrival {
-            Arrival::Surge(surge) => surge.velocity,
-            Arrival::DamBreak(_) => flow.velocity,
-        },
-        guideline: by_guideline(&flow, before.mean),
+        velocity: flow.velocity,
+        guideline: equations.force(before.mean, flow.dynamic_pressure),
         before,
         after: one(&incoming::DEPOSIT),
         force: one(&total_force::PUSH),
@@ -102,8 +135,8 @@ fn stage(design: &Design, simulated: &Simulated, number: usize) -> Stage {
         net: known(&other_ropes::NET).filter(|net| net.mean > 0.0),
         anchor: largest(&anchor_load::PEAK),
         stroke: largest(&dissipator::STROKE).map(|in_all| [in_all, over(&added)]),
-        lost: over(&|start| start.surges[number].lost().iter().sum::<f64>() / share),
-        lambda: over(&lambda),
+        lost: over(&|start| start.surges[number].lost().iter().sum::<f64>()),
+        lambda: lambda.map(|lambda| Spread::of(&lambda)),
         lambda_measured: known(&earth_pressure::DYNAMIC),
         k_at_rest: known(&earth_pressure::AT_REST),
     }

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 const DESIGN: &str = "tests/fixtures/tiny.yaml";
 const SURGES: &str = "tests/fixtures/tiny_surges.yaml";
+const WET: &str = "tests/fixtures/tiny_wet.yaml";
 
 fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_barrier-check"))
@@ -132,6 +133,14 @@ fn surges_that_are_killed_and_resumed_end_with_the_same_bits() {
     kill_and_resume(SURGES, "surges_killed", 6, &[], 3);
     assert_eq!(whole, numbers(&folder_of("surges_killed")));
     assert_eq!(whole.0["surges"].as_array().map(Vec::len), Some(3));
+}
+
+/// While its pores drain.
+#[test]
+fn a_wet_flow_that_is_killed_and_resumed_ends_with_the_same_bits() {
+    let whole = undisturbed(WET, "whole_wet", &[]);
+    kill_and_resume(WET, "wet_killed", 4, &[], 4);
+    assert_eq!(whole, numbers(&folder_of("wet_killed")));
 }
 
 /// Several starts side by side, and a barrier of cylinders.

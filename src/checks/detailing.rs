@@ -1,7 +1,8 @@
 //! Rules of detailing, and the range in which the guideline has been used. They warn; they do not fail a design.
 
 use crate::design::{BarrierDesign, Bottom, Design, FlexibleNet, LateralTo};
-use crate::guideline::{Guideline, event_fill, height_over_bed};
+use crate::guideline::{Guideline, event_fill, flows, height_over_bed};
+use crate::larger::larger_or_nan;
 use crate::loads::estimates::peak_discharge;
 use crate::loads::fill::Retention;
 use crate::loads::input::GuidelineInput;
@@ -72,15 +73,8 @@ const SPECIAL: &str = "outside the range the guideline was made for: a special d
 
 /// All rules that apply to the design.
 pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
-    let input = &guideline.input;
-    let mut rules = of_pressures(design, input);
+    let mut rules = of_worst_surge(design, guideline);
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
-        let special = |title, found, limit, unit| Rule {
-            bearing: Bearing::Pressures,
-            ..most(title, found, limit, unit, RANGE, SPECIAL)
-        };
-        rules.push(special("Depth of the flow", input.depth, 2.0, "m"));
-        rules.push(special("Velocity of the flow", input.velocity, 10.0, "m/s"));
         rules.extend(of_net(design, net));
         rules.extend(of_sag(guideline));
         rules.extend(guideline.retention.map(of_volume));
@@ -100,6 +94,28 @@ pub fn rules(design: &Design, guideline: &Guideline) -> Vec<Rule> {
     rules.push(of_discharge(design, guideline));
     // What hangs on grains of which nothing is said.
     rules.retain(|rule| !rule.most.is_some_and(f64::is_nan));
+    rules
+}
+
+/// Of each rule on a flow what one surge breaks, or else what it finds of the first.
+fn of_worst_surge(design: &Design, guideline: &Guideline) -> Vec<Rule> {
+    let of_surges = flows(design, guideline.input).into_iter().map(|flow| of_flow(design, &flow));
+    let worse = |known: Rule, next: Rule| if known.holds() && !next.holds() { next } else { known };
+    of_surges
+        .reduce(|known, next| known.into_iter().zip(next).map(|(known, next)| worse(known, next)).collect())
+        .unwrap_or_default()
+}
+
+fn of_flow(design: &Design, flow: &GuidelineInput) -> Vec<Rule> {
+    let mut rules = of_pressures(design, flow);
+    if let BarrierDesign::FlexibleNet(_) = &design.barrier {
+        let special = |title, found, limit, unit| Rule {
+            bearing: Bearing::Pressures,
+            ..most(title, found, limit, unit, RANGE, SPECIAL)
+        };
+        rules.push(special("Depth of the flow", flow.depth, 2.0, "m"));
+        rules.push(special("Velocity of the flow", flow.velocity, 10.0, "m/s"));
+    }
     rules
 }
 
@@ -208,10 +224,11 @@ fn tilt_of(design: &Design) -> f64 {
 
 /// What one event may heap up against the barrier, run-up included, stays below its top.
 fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
-    let input = &guideline.input;
+    let heaped =
+        flows(design, guideline.input).iter().map(|flow| event_fill(design, flow).height()).fold(0.0, larger_or_nan);
     least(
         "Barrier over the heaped deposit of one event",
-        input.barrier_height - event_fill(design, input).height(),
+        guideline.input.barrier_height - heaped,
         0.0,
         "m",
         "derived: barrier less the event heaped up against it at the angle of repose, no higher than it runs up: an upper bound",
@@ -225,11 +242,12 @@ const LIKE_DISCHARGES: f64 = 3.0;
 /// b h v of the design flow, or A v in another section, against what flows of the event's volume discharge (Rickenmann 1999): a volume that is one surge of several,
 /// or a wrong depth or velocity, shows here.
 fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
-    let input = &guideline.input;
     let [estimate, ..] = peak_discharge(design.flow.event_volume);
+    let discharge = |flow: &GuidelineInput| guideline.section.area(flow.depth) * flow.velocity;
+    let largest = flows(design, guideline.input).iter().map(discharge).fold(0.0, larger_or_nan);
     Rule {
         title: "Discharge (width × depth × velocity) over the estimate from the event volume",
-        found: guideline.section.area(input.depth) * input.velocity / estimate.value,
+        found: largest / estimate.value,
         least: Some(1.0 / LIKE_DISCHARGES),
         most: Some(LIKE_DISCHARGES),
         unit: "",

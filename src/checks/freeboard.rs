@@ -4,8 +4,9 @@ use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{Design, RunUp};
-use crate::guideline::{Guideline, guideline, height_over_bed};
+use crate::guideline::{Guideline, flows, guideline, height_over_bed};
 use crate::larger::larger_or_nan;
+use crate::loads::input::GuidelineInput;
 use crate::loads::run_up::{by_energy, by_jump};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{height, run_up};
@@ -45,10 +46,11 @@ pub fn has_room(design: &Design, asked: &Guideline, found: &Outcome) -> bool {
     asked.level_is_known && asked.level <= room && asked.level <= sagged
 }
 
-/// Whether the energy balance gives no less than the jump does.
+/// Whether the energy balance gives no less than the jump does, of any surge.
 fn energy_is_enough(design: &Design) -> bool {
     let guideline = guideline(design);
-    by_energy(&guideline.input) >= by_jump(&guideline.input, &guideline.section)
+    let enough = |flow: &GuidelineInput| by_energy(flow) >= by_jump(flow, &guideline.section);
+    flows(design, guideline.input).iter().all(enough)
 }
 
 /// Height of the barrier over the bed, normal to it, that a net keeps when it sags: by the equations or in the simulation, whichever is

@@ -4,8 +4,10 @@ use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, Flow};
-use crate::guideline::{event_fill, guideline, height_over_bed, held, held_below, input};
+use crate::guideline::{event_fill, flows, guideline, height_over_bed, held, held_below, input};
+use crate::larger::larger_or_nan;
 use crate::loads::fill::Surface;
+use crate::loads::input::GuidelineInput;
 use crate::quantities::mass;
 use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
@@ -22,42 +24,53 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![outcome]
 }
 
-/// What the simulation cannot have seen get lost: surges that were not simulated, and grains that were made too coarse for mesh and gap.
+/// What the simulation cannot have seen get lost: grains that were made too coarse for mesh and gap, and surges that were not simulated.
 fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
+    unseen_fines(design, held_in_simulation).or_else(|| unseen_volume(design))
+}
+
+fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let flow = &design.flow;
+    let surges: Vec<Flow> = (0..flow.surges()).map(|number| flow.alone(number)).collect();
+    // Of all surges together.
+    let share = |of: &dyn Fn(&Flow) -> f64| {
+        surges.iter().map(|surge| of(surge) * surge.volume()).sum::<f64>() / flow.volume_of_all()
+    };
     let allowed = 1.0 - design.limits.retained_mass;
-    if let (Some(cut), BarrierDesign::FlexibleNet(net)) = (&flow.cut, &design.barrier) {
-        let finer = cut.whole.finer_than(net.mesh_opening.max(net.bottom.gap()));
-        let lost = 1.0 - held_in_simulation.unwrap_or(1.0);
-        // Asked as "within", so that what is not a number is not.
-        let within = finer + lost <= allowed;
-        if !within {
-            return Some(Opening::NotGiven(format!(
-                "{:.0} % of the real flow is finer than the openings of the net and was not simulated as it is (simulation.coarsen), so that what of it gets through is not known",
-                100.0 * finer
-            )));
-        }
+    let lost = 1.0 - held_in_simulation.unwrap_or(1.0);
+    let opening = net.mesh_opening.max(net.bottom.gap());
+    let finer = share(&|surge| surge.cut.as_ref().map_or(0.0, |cut| cut.whole.finer_than(opening)));
+    // Asked as "within", so that what is not a number is not.
+    let within = finer + lost <= allowed;
+    if flow.cut.is_some() && !within {
+        return Some(Opening::NotGiven(format!(
+            "{:.0} % of the real flow is finer than the openings of the net and was not simulated as it is (simulation.coarsen), so that what of it gets through is not known",
+            100.0 * finer
+        )));
     }
-    if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) && flow.known_from > 0.0 {
-        // All of it may pass, beside what the simulation shows to be lost.
-        let lost = 1.0 - held_in_simulation.unwrap_or(1.0);
-        let within = flow.known_from + lost <= allowed + 1e-9;
-        if !within {
-            return Some(Opening::NotGiven(format!(
-                "the finest {:.0} % of the flow are not given, and finer grains pass a net: with the {:.1} % lost in the simulation more may be lost than the {:.0} % allowed (give flow.grain_sizes.curve from its fine end, as d5 or d1)",
-                100.0 * flow.known_from,
-                100.0 * lost,
-                100.0 * allowed
-            )));
-        }
+    let unknown = share(&|surge| surge.known_from);
+    // All of it may pass, beside what the simulation shows to be lost.
+    let within = unknown + lost <= allowed + 1e-9;
+    if unknown > 0.0 && !within {
+        return Some(Opening::NotGiven(format!(
+            "the finest {:.0} % of the flow are not given, and finer grains pass a net: with the {:.1} % lost in the simulation more may be lost than the {:.0} % allowed (give flow.grain_sizes.curve from its fine end, as d5 or d1{})",
+            100.0 * unknown,
+            100.0 * lost,
+            100.0 * allowed,
+            if flow.later.iter().any(|later| later.own.is_some()) { ", and so those of each surge" } else { "" }
+        )));
     }
-    if let (None, BarrierDesign::FlexibleNet(net)) = (&flow.cut, &design.barrier)
-        && flow.sizes.quantile(0.1) > net.mesh_opening
-    {
-        return Some(Opening::NotGiven(
+    let none_passes = |surge: &Flow| surge.cut.is_none() && surge.sizes.quantile(0.1) > net.mesh_opening;
+    surges.iter().any(none_passes).then(|| {
+        Opening::NotGiven(
             "nine tenths of the simulated grains are larger than the mesh and cannot pass it, and whether the real flow has finer ones is not said (give the whole curve, with simulation.coarsen: auto where it has too many grains)".into(),
-        ));
-    }
+        )
+    })
+}
+
+fn unseen_volume(design: &Design) -> Option<Opening> {
+    let flow = &design.flow;
     // What the barrier does not store is held by friction upstream of it, as long as the flow is no wetter than the simulated one.
     let behind = stored(design);
     if behind.is_none() && design.channel.profile.is_some() {
@@ -77,7 +90,8 @@ fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
     if !flow.is_part_of_its_event() {
         return None;
     }
-    let heaped = event_fill(design, &input(design)).reach();
+    let reach = |flow: &GuidelineInput| event_fill(design, flow).reach();
+    let heaped = flows(design, input(design)).iter().map(reach).fold(0.0, larger_or_nan);
     if heaped > height_over_bed(design) {
         return Some(Opening::NotGiven(format!(
             "{} was simulated, and the last of the event's {:.0} m³ may run up to {heaped:.1} m, from what the others leave, over the barrier's {:.1} m, so that what of the later surges is held is not known",

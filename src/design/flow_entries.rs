@@ -38,9 +38,9 @@ pub fn size_curve_at(e: &Entries, sizes: &str) -> Option<SizeCurve> {
     (points.len() >= 2 && rises).then(|| SizeCurve::through(&points))
 }
 
-/// The lowest share of the mass of which the design gives a size.
-pub fn curve_known_from(e: &Entries) -> f64 {
-    quantiles(e, SIZES).first().map_or(0.0, |(share, _)| *share)
+/// The lowest share of the mass of which the grain sizes at a path give a size.
+pub fn curve_known_from(e: &Entries, sizes: &str) -> f64 {
+    quantiles(e, sizes).first().map_or(0.0, |(share, _)| *share)
 }
 
 /// Grains of all surges, as if all were of one curve.

@@ -6,6 +6,7 @@ pub(crate) mod channel_rules;
 pub(crate) mod document;
 pub mod entries;
 pub(crate) mod factor_sets;
+pub mod flow;
 pub(crate) mod flow_entries;
 pub(crate) mod grain_lengths;
 pub(crate) mod grain_multiple;
@@ -26,8 +27,9 @@ pub(crate) mod terrain_file;
 pub(crate) mod wall_rules;
 pub(crate) mod yaml_faults;
 
-use self::sizes::SizeCurve;
 use std::sync::Arc;
+
+pub use self::flow::{Arrival, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
 
 use crate::profile::Profile;
 use crate::relief::Relief;
@@ -44,6 +46,13 @@ pub struct Design {
     pub factors: Factors,
     pub loads: OtherLoads,
     pub simulation: SimulationWishes,
+}
+
+impl Design {
+    /// The same event with another of its surges first, and the others after it: what is asked of the first is asked of that one.
+    pub fn led_by(&self, number: usize) -> Self {
+        Self { flow: self.flow.led_by(number), ..self.clone() }
+    }
 }
 
 /// Who and what the report is about.
@@ -105,185 +114,6 @@ impl Channel {
         let walls = || vec![[0.0, high], [0.0, 0.0], [width, 0.0], [width, high]];
         self.survey.as_ref().map_or_else(walls, |survey| survey.points().to_vec())
     }
-}
-
-/// The design flow.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Flow {
-    pub mass: f64,
-    /// With pores, of the whole event; the flow is one surge of it, or all (m³).
-    pub event_volume: f64,
-    /// kg/m³, grains with pores.
-    pub bulk_density: f64,
-    /// kg/m³, grains alone.
-    pub solid_density: f64,
-    /// As simulated.
-    pub sizes: SizeCurve,
-    /// Share of the mass below which nothing is given of the curve: it is continued from there.
-    pub known_from: f64,
-    /// What of the design's curve was made coarser, if anything was.
-    pub cut: Option<CurveCut>,
-    /// Length over width of a grain, 1 (sphere) to 2.
-    pub aspect: f64,
-    pub grain_friction: f64,
-    pub restitution: f64,
-    /// Contact modulus of the grains (Pa).
-    pub modulus: f64,
-    /// What is in its pores; nothing in a dry flow.
-    pub pore_fluid: Option<PoreFluid>,
-    /// How it comes; where it comes in several surges, the first of them, whose mass is `mass`.
-    pub arrival: Arrival,
-    /// The surges that come after the first, in their order.
-    pub later: Vec<LaterSurge>,
-}
-
-/// Water, or mud with the finest of the flow, in the pores: it moves with the grains and carries a part of the pressure between them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PoreFluid {
-    /// kg/m³
-    pub density: f64,
-    /// r_u, pore pressure over the total pressure, as the flow arrives.
-    pub pressure_ratio: f64,
-    /// Time in which the pressure of the fluid falls to 37 % where the flow rests (s).
-    pub drains_in: f64,
-}
-
-/// A surge that comes onto what those before it have left.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LaterSurge {
-    /// With pores (m³).
-    pub volume: f64,
-    pub surge: Surge,
-    /// Its grains, where they are others than the flow's.
-    pub sizes: Option<SizeCurve>,
-    /// Time from the release of the surge before it to its own (s); nothing where it waits until that has come to rest.
-    pub after: Option<f64>,
-}
-
-/// The fine end of a grain-size curve that is not simulated as it is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CurveCut {
-    /// Share of the mass below the cut.
-    pub share: f64,
-    /// The whole curve.
-    pub whole: SizeCurve,
-}
-
-impl Flow {
-    /// Whether its event is more than the first surge: more than rounding lies between their volumes.
-    pub fn is_one_of_several(&self) -> bool {
-        self.event_volume > 1.001 * self.volume()
-    }
-
-    /// Whether its event is more than all surges that are given.
-    pub fn is_part_of_its_event(&self) -> bool {
-        self.event_volume > 1.001 * self.volume_of_all()
-    }
-
-    /// Volume of the flow with its pores, of the first surge where there are several (m³).
-    pub fn volume(&self) -> f64 {
-        self.mass / self.bulk_density
-    }
-
-    /// Volume of all surges with their pores (m³).
-    pub fn volume_of_all(&self) -> f64 {
-        self.volume() + self.later.iter().map(|later| later.volume).sum::<f64>()
-    }
-
-    /// Mass of all surges (kg).
-    pub fn mass_of_all(&self) -> f64 {
-        self.mass + self.later.iter().map(|later| later.volume * self.bulk_density).sum::<f64>()
-    }
-
-    /// How many surges there are.
-    pub fn surges(&self) -> usize {
-        1 + self.later.len()
-    }
-
-    /// Share of the volume that is grains: of a dry flow ρ/ρ_s, with a fluid in all pores (ρ − ρ_f)/(ρ_s − ρ_f).
-    pub fn solid_share(&self) -> f64 {
-        match self.pore_fluid {
-            None => self.bulk_density / self.solid_density,
-            Some(fluid) => (self.bulk_density - fluid.density) / (self.solid_density - fluid.density),
-        }
-    }
-
-    /// Density of the grains as they are simulated, with the fluid that moves with them (kg/m³).
-    pub fn grain_density(&self) -> f64 {
-        if self.pore_fluid.is_some() { self.bulk_density / self.solid_share() } else { self.solid_density }
-    }
-
-    /// Friction (tan φ) as it acts on the flow as it comes, (1 − r_u) tan φ.
-    pub fn effective(&self, friction: f64) -> f64 {
-        self.pore_fluid.map_or(friction, |fluid| (1.0 - fluid.pressure_ratio) * friction)
-    }
-
-    /// Makes all grains so many times as large.
-    pub fn coarsen(&mut self, factor: f64) {
-        self.sizes = self.sizes.scaled(factor);
-        for sizes in self.later.iter_mut().filter_map(|later| later.sizes.as_mut()) {
-            *sizes = sizes.scaled(factor);
-        }
-    }
-
-    /// Makes all surges so many times as long.
-    pub fn lengthen(&mut self, factor: f64) {
-        self.mass *= factor;
-        match &mut self.arrival {
-            Arrival::DamBreak(block) => block.length *= factor,
-            Arrival::Surge(surge) => surge.length *= factor,
-        }
-        for later in &mut self.later {
-            later.volume *= factor;
-            later.surge.length *= factor;
-        }
-    }
-
-    /// One surge alone, counted from 0.
-    pub fn alone(&self, number: usize) -> Self {
-        let alone = Self { later: Vec::new(), ..self.clone() };
-        match number.checked_sub(1).and_then(|number| self.later.get(number)) {
-            None => alone,
-            Some(later) => Self {
-                mass: later.volume * self.bulk_density,
-                sizes: later.sizes.clone().unwrap_or_else(|| self.sizes.clone()),
-                arrival: Arrival::Surge(later.surge),
-                ..alone
-            },
-        }
-    }
-}
-
-/// How the flow comes to the barrier.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Arrival {
-    DamBreak(DamBreak),
-    Surge(Surge),
-}
-
-/// A body of grains upstream of the barrier, already moving down the channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surge {
-    /// Of the even flow with its volume (m); with a sloping front it is longer at the bed and shorter at the surface.
-    pub length: f64,
-    pub depth: f64,
-    pub velocity: f64,
-    /// Angle between the front face and the bed (rad).
-    pub front_angle: f64,
-    /// From the foot of the front to the most upstream point of the barrier at the release (m).
-    pub run_in: f64,
-}
-
-/// A block at rest behind a gate that opens at once.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DamBreak {
-    pub length: f64,
-    pub height: f64,
-    /// From the gate to the barrier's foot.
-    pub distance: f64,
-    /// Depth and velocity on arrival, for the guideline loads, where the designer knows them.
-    pub depth_at_barrier: Option<f64>,
-    pub velocity_at_barrier: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

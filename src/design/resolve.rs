@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
-use crate::design::flow_entries::{coarsened, curve_known_from, flow_volume, size_curve, size_curve_at};
+use crate::design::flow_entries::{SIZES, coarsened, curve_known_from, flow_volume, size_curve, size_curve_at};
 use crate::design::net_rules::rope_heights;
 use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
@@ -12,7 +12,7 @@ use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
     Factors, FidelityWish, FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange,
-    PoreFluid, Project, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    OwnSizes, PoreFluid, Project, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -71,7 +71,7 @@ fn flow(e: &Entries) -> Option<Flow> {
         solid_density: value("solid_density").unwrap_or(f64::NAN),
         later: later_surges(e, cut.as_ref())?,
         sizes: cut.as_ref().map_or(whole, |cut| cut.whole.cut_below(cut.share)),
-        known_from: curve_known_from(e),
+        known_from: curve_known_from(e, SIZES),
         cut,
         aspect: value("grain_aspect")?,
         grain_friction: value("grain_friction").map_or(f64::NAN, libm::tan),
@@ -88,7 +88,13 @@ fn pore_fluid(e: &Entries) -> Option<PoreFluid> {
         density: value("density")?,
         pressure_ratio: value("pressure_ratio")?,
         drains_in: value("drains_in")?,
+        drains_to: value("drains_to").unwrap_or(ratio_at_rest(e)?.min(value("pressure_ratio")?)),
     })
+}
+
+/// r_u of a fluid at rest in all pores, ρ_f/ρ.
+fn ratio_at_rest(e: &Entries) -> Option<f64> {
+    Some(e.number("flow.pore_fluid.density")? / e.number("flow.bulk_density")?)
 }
 
 /// tan φ between grains as it acts on the flow as it comes; 0 where it is not given.
@@ -141,13 +147,13 @@ fn surge(e: &Entries, path: &str, volume: f64) -> Option<Surge> {
 fn later_surges(e: &Entries, cut: Option<&CurveCut>) -> Option<Vec<LaterSurge>> {
     let later = |path: &String| {
         let volume = volume_of(e, path)?;
-        let own = size_curve_at(e, &format!("{path}.grain_sizes"));
-        Some(LaterSurge {
-            volume,
-            surge: surge(e, path, volume)?,
-            sizes: own.map(|own| cut.map_or(own.clone(), |cut| own.cut_below(cut.share))),
-            after: e.number(&format!("{path}.after")),
-        })
+        let sizes = format!("{path}.grain_sizes");
+        let own = size_curve_at(e, &sizes).map(|whole| OwnSizes {
+            known_from: curve_known_from(e, &sizes),
+            cut: cut.map(|cut| CurveCut { share: cut.share, whole: whole.clone() }),
+            sizes: cut.map_or(whole.clone(), |cut| whole.cut_below(cut.share)),
+        });
+        Some(LaterSurge { volume, surge: surge(e, path, volume)?, own, after: e.number(&format!("{path}.after")) })
     };
     surges(e).iter().skip(1).map(later).collect()
 }

@@ -91,6 +91,7 @@ pub const RULES: &[Rule] = &[
 pub const GRAIN_RULES: &[Rule] = &[
     packing_is_possible,
     mixture_is_possible,
+    pressure_falls_as_it_drains,
     grains_fit_the_channel,
     grain_count_is_bearable,
     block_larger_than_the_grains,
@@ -148,6 +149,19 @@ fn packing_is_possible(e: &Entries) -> Option<Problem> {
         let hint =
             "a mixture with water in its pores is denser than grains alone can pack: describe it with flow.pore_fluid";
         Problem::new("flow.bulk_density", found, "at most 63 % of the solid density").hint(hint)
+    })
+}
+
+/// What drains does not rise.
+fn pressure_falls_as_it_drains(e: &Entries) -> Option<Problem> {
+    let path = "flow.pore_fluid.drains_to";
+    let (to, from) = (e.number(path)?, e.number("flow.pore_fluid.pressure_ratio")?);
+    (to > from).then(|| {
+        Problem::new(
+            path,
+            format!("`{to}`, above the pressure_ratio `{from}`"),
+            "at most flow.pore_fluid.pressure_ratio",
+        )
     })
 }
 
@@ -339,7 +353,9 @@ fn slope_lets_a_dam_break_flow(e: &Entries) -> Option<Problem> {
     if !e.has_section("flow.arrival.dam_break") {
         return None;
     }
-    let (slope, friction) = (e.number("channel.slope")?, e.number("channel.base_friction")?);
+    let (slope, whole) = (e.number("channel.slope")?, e.number("channel.base_friction")?);
+    let acts = 1.0 - e.number("flow.pore_fluid.pressure_ratio").unwrap_or(0.0);
+    let friction = libm::atan(acts * libm::tan(whole));
     if let Some(bed) = profile(e) {
         let value = |key: &str| e.number(&format!("flow.arrival.dam_break.{key}"));
         let stops = bed.gain(value("distance")? + 0.5 * value("length")?, libm::tan(friction)) <= 0.0;

@@ -196,7 +196,12 @@ const PORE_FLUID: &[Key] = &[
     Key::required(
         "drains_in",
         quantity(D::Time, 0.001, 1e6),
-        "time in which that pressure falls to 37 % where the flow rests",
+        "time in which what it has above drains_to falls to 37 % where the flow rests",
+    ),
+    Key::optional(
+        "drains_to",
+        Kind::Number { low: 0.0, high: 1.0 },
+        "pore pressure ratio that stays; by default that of the fluid at rest, density over bulk_density, or pressure_ratio if that is less; 0 where the fluid runs off through the barrier",
     ),
 ];
 
@@ -308,7 +313,7 @@ const SURGE: &[Key] = &[
 const FRONT_ANGLE: Key = Key::optional(
     "front_angle",
     quantity(D::Angle, 5.0 * DEGREE, 90.0 * DEGREE),
-    "angle between the front face of the surge and the bed; by default that of a granular front, tan = tan(grain_friction) - tan(slope), at least 15 deg (Pouliquen 1999); 90 deg is a vertical face, which hits a barrier everywhere at once",
+    "angle between the front face of the surge and the bed; by default that of a granular front, tan = (1 - r_u) tan(grain_friction) - tan(slope), r_u being flow.pore_fluid.pressure_ratio, at least 15 deg (Pouliquen 1999); 90 deg is a vertical face, which hits a barrier everywhere at once",
 );
 
 const SURGES: &[Key] = &[

@@ -70,6 +70,8 @@ pub const QUANTITIES: &[&Quantity] = &[
     &incoming::DEPTH,
     &incoming::VELOCITY,
     &incoming::FRONT,
+    &incoming::ON_DEPOSIT,
+    &incoming::FLUX_ON_DEPOSIT,
     &incoming::THICKNESS_AT_PEAK,
     &incoming::VELOCITY_AT_PEAK,
     &incoming::DEPOSIT,

@@ -9,7 +9,7 @@ use crate::guideline::Guideline;
 use crate::quantities::coefficients::Coefficients;
 use crate::quantities::quantity::{Of, Quantity};
 use crate::quantities::reading::{Reading, Samples};
-use crate::quantities::{QUANTITIES, height, mass};
+use crate::quantities::{QUANTITIES, earth_pressure, height, incoming, mass};
 use dem::recorders::gauge::Gauge;
 use dem::recorders::histories::Histories;
 
@@ -49,6 +49,20 @@ impl Observed {
     /// The same with other values of a quantity.
     pub fn with(mut self, quantity: &Quantity, values: &[f64]) -> Self {
         self.values.insert(quantity.id.to_string(), values.to_vec());
+        self
+    }
+
+    /// The same without some of what a run may not tell.
+    pub fn without(self, quantities: &[&Quantity]) -> Self {
+        quantities.iter().fold(self, |seen, quantity| seen.with(quantity, &[]))
+    }
+
+    /// The same with what another part of the run tells of the flow that comes, and of its λ.
+    pub fn arriving_as(mut self, first: &Self) -> Self {
+        for quantity in [&incoming::DEPTH, &incoming::VELOCITY, &incoming::FRONT, &earth_pressure::DYNAMIC] {
+            self = self.with(quantity, first.each(quantity));
+        }
+        self.incoming = first.incoming;
         self
     }
 

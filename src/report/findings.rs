@@ -29,7 +29,8 @@ fn per_width(force: f64, design: &Design) -> String {
 }
 
 fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
-    let weight = design.flow.mass * GRAVITY;
+    let of_all = design.flow.mass_of_all();
+    let weight = of_all * GRAVITY;
     let downhill = with_unit(weight * libm::sin(design.channel.slope), "N");
     let incoming =
         format!("{} deep, {}", with_unit(seen.incoming.depth, "m"), with_unit(seen.incoming.velocity, "m/s"));
@@ -37,14 +38,21 @@ fn flow_rows(design: &Design, seen: &Observed) -> Vec<Row> {
     vec![
         row(
             "Mass of the flow",
-            with_unit(design.flow.mass, "kg"),
+            with_unit(of_all, "kg"),
             format!(
                 "weight {}, its component along the bed {downhill}{}",
                 with_unit(weight, "N"),
                 if design.channel.profile.is_some() { " on the slope at the barrier" } else { "" }
             ),
         ),
-        row("Highest mean velocity of all grains", with_unit(seen.one(&mass::VELOCITY), "m/s"), fastest),
+        row(
+            match design.flow.surges() {
+                1 => "Highest mean velocity of all grains",
+                _ => "Highest mean velocity of the grains of a surge",
+            },
+            with_unit(seen.one(&mass::VELOCITY), "m/s"),
+            fastest,
+        ),
         row(
             "Incoming flow",
             incoming,
@@ -107,7 +115,7 @@ fn extension_row(seen: &Observed) -> Option<Row> {
 
 /// The force at rest beside the weight of what is held.
 fn at_rest_remark(design: &Design, seen: &Observed) -> String {
-    let downhill = seen.one(&mass::RETAINED) * design.flow.mass * GRAVITY * libm::sin(design.channel.slope);
+    let downhill = seen.one(&mass::RETAINED) * design.flow.mass_of_all() * GRAVITY * libm::sin(design.channel.slope);
     let springs = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let along = seen.one(&total_force::PUSH_RESIDUAL);
     let why = if along > downhill && springs {

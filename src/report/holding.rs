@@ -38,8 +38,9 @@ pub fn rows(run: &Run) -> Vec<Row> {
             "Storage capacity, in design surges",
             figures(held.surges),
             format!(
-                "of {} each, the design flow; the event has {}",
+                "of {} each{}; the event has {}",
                 with_unit(design.flow.volume(), "m³"),
+                if design.flow.later.is_empty() { ", the design flow" } else { ", the first" },
                 with_unit(design.flow.event_volume, "m³")
             ),
         ));

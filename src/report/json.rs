@@ -56,8 +56,9 @@ pub struct SurgePart {
     pub force_peak_deviation_n: f64,
     /// By the guideline, over the same deposit.
     pub force_guideline_n: f64,
-    /// lambda that the force means for the depth and velocity as given, and as measured at the barrier.
-    pub lambda: f64,
+    /// lambda that the force means for the depth and velocity as given, where the deposit leaves room for the flow, and as measured at the
+    /// barrier.
+    pub lambda: Option<f64>,
     pub lambda_measured: Option<f64>,
     pub k_at_rest: Option<f64>,
     pub level_m: f64,
@@ -269,7 +270,7 @@ fn surge_part(stage: &Stage) -> SurgePart {
         force_peak_n: stage.force.mean,
         force_peak_deviation_n: stage.force.deviation,
         force_guideline_n: stage.guideline,
-        lambda: stage.lambda.mean,
+        lambda: mean(stage.lambda),
         lambda_measured: mean(stage.lambda_measured),
         k_at_rest: mean(stage.k_at_rest),
         level_m: stage.level.mean,

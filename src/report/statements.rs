@@ -27,7 +27,8 @@ const EITHER: &str = "may err either way";
 pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let design = &run.file.design;
     let simulated = run.simulated.is_some();
-    let list = of_the_model(design, simulated).into_iter().chain(of_the_equations(design));
+    let of_grains = if simulated { of_the_grains(design) } else { Vec::new() };
+    let list = of_grains.into_iter().chain(of_the_model(design, simulated)).chain(of_the_equations(design));
     let kept = list.filter(|(applies, ..)| *applies);
     let kept = kept.map(|(_, text, safe)| Assumption { text: text.to_string(), safe });
     let of_net = [of_ropes(design).map(str::to_string), of_gap(design)].into_iter().flatten().filter(|_| simulated);
@@ -37,35 +38,13 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
 /// A statement: whether it applies, what it says, on which side it errs.
 type Statement = (bool, &'static str, &'static str);
 
-/// What the simulation rests on, and net and channel in it.
+/// What is taken of net and channel, in the simulation and for it.
 fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let raster = design.channel.relief.is_some();
-    let wet = design.flow.pore_fluid.is_some();
     let (rectangular, even) = (design.channel.survey.is_none(), design.channel.profile.is_none());
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     vec![
-        (
-            simulated,
-            "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a non-adhesive dashpot, and Coulomb friction with the smaller of the two friction angles.",
-            EITHER,
-        ),
-        (simulated && !wet, "The flow is dry: no water pressure, no cohesion, no breakage of grains.", UNSAFE),
-        (
-            simulated && wet,
-            "Grains and the fluid in their pores are one mixture: the fluid's mass moves with the grains, at the bulk density given, and its pressure, the share r_u of the whole, leaves (1 − r_u) tan φ of the friction at the bed, at the banks and between grains; on the barrier, which lets the fluid through, the whole friction acts. No cohesion, no breakage of grains.",
-            EITHER,
-        ),
-        (
-            simulated && wet,
-            "The barrier bears the whole weight, as if nothing of the fluid ran off through it: buoyancy is in the pressure ratio alone.",
-            SAFE,
-        ),
-        (
-            simulated && wet,
-            "The pressure ratio is the same everywhere in the flow as it comes, falls where grains rest, and does not rise again when they move. What comes to rest settles to the density to which its grains pack, so that the deposit is somewhat denser and less deep than the flow. Where r_u is near 1 grains keep a strength of their own of some 6°, and press at rest up to a fifth less than a fluid.",
-            UNSAFE,
-        ),
         (
             rectangular && even,
             "The channel is straight, plane and of rectangular section; its base continues downstream of the barrier.",
@@ -130,6 +109,34 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             simulated && matches!(design.flow.arrival, Arrival::Surge(_)),
             "A surge is released upstream of the barrier as a body of even depth with a sloping front, every grain with the same velocity and none pressed on another, and runs in before it hits (flow.arrival.surge.front_angle and run_in). A vertical front without a run-in would hit the whole barrier at once, and the contact modulus of the grains would decide how hard.",
             EITHER,
+        ),
+    ]
+}
+
+/// What the simulation takes the flow for.
+fn of_the_grains(design: &Design) -> Vec<Statement> {
+    let wet = design.flow.pore_fluid.is_some();
+    vec![
+        (
+            true,
+            "Grains are two equal overlapping spheres (or spheres, for an aspect of 1), rigid but for a linear contact spring with a non-adhesive dashpot, and Coulomb friction with the smaller of the two friction angles.",
+            EITHER,
+        ),
+        (!wet, "The flow is dry: no water pressure, no cohesion, no breakage of grains.", UNSAFE),
+        (
+            wet,
+            "Grains and the fluid in their pores are one mixture: the fluid's mass moves with the grains, at the bulk density given, and its pressure, the share r_u of the whole, leaves (1 − r_u) tan φ of the friction at the bed, at the banks, on a wall and between grains; on ropes, between which the fluid runs off, the whole friction acts. No cohesion, no breakage of grains.",
+            EITHER,
+        ),
+        (
+            wet,
+            "The barrier bears the whole weight, as if nothing of the fluid ran off through it: buoyancy is in the pressure ratio alone.",
+            SAFE,
+        ),
+        (
+            wet,
+            "The pressure ratio is the same everywhere in the flow as it comes, falls where grains rest, towards the ratio that stays, and does not rise again when they move. What comes to rest settles to the density to which its grains pack, so that the deposit is somewhat denser and less deep than the flow. The contacts carry the pressure of the fluid as well, so that what rests presses on the barrier with up to a quarter less than fluid and grains together would, r_u + (1 − r_u) K of the grains; the guideline's K of 1 is no less than that.",
+            UNSAFE,
         ),
     ]
 }

@@ -59,7 +59,7 @@ fn rows(stages: &[Stage]) -> Vec<Line> {
         line("Largest force along the bed", &|stage| spread(stage.force, "N")),
         line("Guideline, over the same deposit", &|stage| with_unit(stage.guideline, "N")),
         line("Simulation over guideline", &|stage| figures(stage.force.mean / stage.guideline)),
-        line("λ with depth and velocity as given", &|stage| spread(stage.lambda, "")),
+        line("λ with depth and velocity as given", &|stage| known(stage.lambda, "")),
         line("λ with depth and velocity as measured at the barrier", &|stage| known(stage.lambda_measured, "")),
         line("K of the deposit at rest after it", &|stage| known(stage.k_at_rest, "")),
         line("Depth of the deposit after", &|stage| spread(stage.after, "m")),

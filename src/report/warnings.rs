@@ -194,10 +194,11 @@ fn gully_turns(run: &Run) -> Option<String> {
 fn slows_on_its_way(run: &Run) -> Option<String> {
     let design = &run.file.design;
     let Arrival::Surge(surge) = design.flow.arrival else { return None };
-    let (slope, friction) = (design.channel.slope, libm::atan(design.channel.base_friction));
+    let acts = design.flow.effective(design.channel.base_friction);
+    let (slope, friction) = (design.channel.slope, libm::atan(acts));
     // On the whole of its way to the barrier.
     let slows = match &design.channel.profile {
-        Some(profile) => profile.gain(surge.run_in, design.channel.base_friction) < 0.0,
+        Some(profile) => profile.gain(surge.run_in, acts) < 0.0,
         None => friction > slope,
     };
     let seen = run.simulated.as_ref().map_or(String::new(), |seen| {
@@ -307,7 +308,7 @@ fn escaped(run: &Run) -> Option<String> {
 
 fn force_beyond_the_guideline(run: &Run) -> Option<String> {
     let (design, simulated) = (&run.file.design, run.simulated.as_ref()?);
-    let simulated = simulated.spread(|seen| seen.one(&total_force::PUSH)).mean;
+    let simulated = simulated.spread_of_first(|seen| seen.one(&total_force::PUSH)).mean;
     let guideline = run.guideline.first_surge();
     let ratio = simulated / guideline;
     let later = if design.loads.to_the_top {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::{Arrival, BarrierDesign, DamBreak, Design};
+use crate::design::{Arrival, BarrierDesign, DamBreak, Design, Flow};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, packed_block, shape};
@@ -73,6 +73,8 @@ fn smoothing(design: &Design) -> f64 {
 }
 /// Speed below which grains rest, as far as the fluid between them drains, over √(g D50).
 const RESTS_BELOW: f64 = 0.1;
+/// The same over the velocity of the slowest surge.
+const RESTS_BELOW_OF_VELOCITY: f64 = 0.05;
 /// Settling time over √(block height/g), and its drag times that time.
 const SETTLING: f64 = 1.2;
 const SETTLING_DRAG: f64 = 2.5;
@@ -155,6 +157,16 @@ pub fn build_watched(
     })
 }
 
+/// Speed below which grains rest (m/s): in no surge that still flows.
+fn rests_below(flow: &Flow) -> f64 {
+    let velocity = |number: usize| match flow.alone(number).arrival {
+        Arrival::Surge(surge) => surge.velocity,
+        Arrival::DamBreak(_) => f64::INFINITY,
+    };
+    let slowest = (0..flow.surges()).map(velocity).fold(f64::INFINITY, f64::min);
+    (RESTS_BELOW * (GRAVITY * flow.sizes.quantile(0.5)).sqrt()).min(RESTS_BELOW_OF_VELOCITY * slowest)
+}
+
 /// The packed flow in its channel, without the barrier.
 fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block) -> Simulation {
     let flow = &design.flow;
@@ -173,7 +185,8 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
         pores: flow.pore_fluid.map(|fluid| Pores {
             ratio: fluid.pressure_ratio,
             drains_in: fluid.drains_in,
-            rests_below: RESTS_BELOW * (GRAVITY * flow.sizes.quantile(0.5)).sqrt(),
+            drains_to: fluid.drains_to,
+            rests_below: rests_below(flow),
         }),
         gravity: gravity(design.channel.slope),
         wall: wall_shape(design),
@@ -248,7 +261,8 @@ fn reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
 
 /// The same with room for the largest grain.
 fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
-    reach(design, net) + 0.5 * design.flow.sizes.quantile(1.0)
+    let largest = |number: usize| design.flow.alone(number).sizes.quantile(1.0);
+    reach(design, net) + 0.5 * (0..design.flow.surges()).map(largest).fold(0.0, f64::max)
 }
 
 /// Lets the block settle behind the gate under gravity, slowed by drag; handed to `keep` at its stops.

@@ -9,7 +9,7 @@ use crate::design::Design;
 use crate::scene::build::Scene;
 use crate::scene::flow::packing::PackingError;
 use crate::scene::patience::Patience;
-use crate::scene::surges::Next;
+use crate::scene::surges::{Next, Ready};
 use dem::recorders::histories::{Histories, tail_mean};
 use dem::recorders::recorder::Recorder;
 use dem::simulation::{Simulation, Unstable};
@@ -67,6 +67,8 @@ pub struct Ongoing {
     /// Number of the next grain that is let go, and when the surge under way was (s).
     next_grain: u32,
     let_go: f64,
+    /// Density of the loosest packing of all surges over the one asked for.
+    packed_share: f64,
 }
 
 /// A finished run.
@@ -79,15 +81,27 @@ pub struct Event {
     /// Grains that have left the channel through its bed or a side wall, and their share of the mass.
     pub escaped: u32,
     pub escaped_share: f64,
+    /// Density of the loosest packing of all surges over the one asked for.
+    pub packed_share: f64,
 }
 
 impl Ongoing {
     pub fn begin(scene: Scene) -> Self {
         let stretch = scene.samples_of_rest();
-        let Scene { simulation, recorder, expected_time, reach, .. } = scene;
+        let Scene { simulation, recorder, expected_time, reach, packed_share, .. } = scene;
         let next_grain = simulation.grains.ids.iter().max().map_or(0, |highest| highest + 1);
         let recorder = Recorder::new(recorder);
-        Self { simulation, recorder, energy_error: 0.0, stretch, expected_time, reach, next_grain, let_go: 0.0 }
+        Self {
+            simulation,
+            recorder,
+            energy_error: 0.0,
+            stretch,
+            expected_time,
+            reach,
+            next_grain,
+            let_go: 0.0,
+            packed_share,
+        }
     }
 
     /// Goes on until the last surge is steady, at the longest time that the design allows each, on breakdown or when asked to. At every stop of the simulation `keep` is
@@ -118,9 +132,9 @@ impl Ongoing {
             }
         };
         self.recorder.finish(&self.simulation);
-        let Self { simulation, recorder, energy_error, .. } = self;
+        let Self { simulation, recorder, energy_error, packed_share, .. } = self;
         let (escaped, escaped_share) = (recorder.escaped.len() as u32, recorder.escaped_share);
-        Event { histories: recorder.histories, ending, simulation, energy_error, escaped, escaped_share }
+        Event { histories: recorder.histories, ending, simulation, energy_error, escaped, escaped_share, packed_share }
     }
 
     /// Lets the next surge go, if there is one.
@@ -128,9 +142,11 @@ impl Ongoing {
         let number = self.recorder.histories.surges.len() + 1;
         design.flow.later.get(number - 1)?;
         let next = Next { design, number, seed, first: self.next_grain, reach: self.reach };
-        Some(match next.grains(&self.simulation, watch.stop) {
-            Ok(grains) => {
-                self.recorder.next_surge(self.next_grain, grains.iter().map(|grain| grain.body.mass).sum());
+        Some(match next.ready(&self.simulation, watch.stop) {
+            Ok(Ready { grains, last, packed_share }) => {
+                let mass = grains.iter().map(|grain| grain.body.mass).sum();
+                self.recorder.next_surge(self.next_grain, mass, last);
+                self.packed_share = self.packed_share.min(packed_share);
                 self.next_grain += grains.len() as u32;
                 self.let_go = self.simulation.time;
                 self.simulation.let_in(&grains);

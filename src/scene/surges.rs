@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::design::{Channel, Design};
+use crate::design::{Arrival, Channel, Design};
 use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, packed_block};
 use crate::scene::ground::bed_at;
@@ -25,13 +25,31 @@ pub struct Next<'a> {
 /// Bits of a seed that the attempts at packing leave alone.
 const SEED_OF_A_SURGE: u32 = 40;
 
+/// A surge as it is let go.
+pub struct Ready {
+    pub grains: Vec<Grain>,
+    /// Where the last grain lies that is there (m, downstream positive): before it comes to that the surge is gauged.
+    pub last: f64,
+    /// Density of its packing over the one asked for.
+    pub packed_share: f64,
+}
+
+/// Share of the mass that lies there beyond what is called its tail: a few grains that stopped on the way are no deposit.
+const STRAYED: f64 = 0.02;
+
 impl Next<'_> {
-    /// Its grains, packed and moving, the foot of their front its run-in upstream of the barrier, or of the last grain that is there.
-    pub fn grains(&self, simulation: &Simulation, stop: &AtomicBool) -> Result<Vec<Grain>, PackingError> {
-        let (flow, channel) = (self.design.flow.alone(self.number), &self.design.channel);
-        let last = simulation.grains.place.iter().map(|place| place.0[0] - place.fourth()).fold(0.0, f64::min);
-        let behind = 0.5 * flow.sizes.quantile(1.0) + along_the_bed(channel, last);
-        let block = Block::of(&flow, channel, self.reach.max(behind));
+    /// Its grains, packed and moving. They start the run-in upstream of the last grain that is there, with the velocity with which they come as
+    /// fast to the tail of what lies there as the design says.
+    pub fn ready(&self, simulation: &Simulation, stop: &AtomicBool) -> Result<Ready, PackingError> {
+        let (mut flow, channel) = (self.design.flow.alone(self.number), &self.design.channel);
+        let room = 0.5 * flow.sizes.quantile(1.0);
+        let [last, tail] = ends_of(simulation);
+        let [strays, meets] = [last, tail].map(|x| self.reach.max(room + along_the_bed(channel, x)));
+        if let Arrival::Surge(surge) = &mut flow.arrival {
+            surge.run_in += strays - meets;
+        }
+        let block = Block::of(&flow, channel, meets);
+        let wanted = block.area();
         let seed = self.seed.wrapping_add((self.number as u64) << SEED_OF_A_SURGE);
         let attempts = Attempts { stop, failed: 0, next: &mut |_| () };
         let (mut grains, block) = packed_block(&flow, channel, &block, seed, attempts)?;
@@ -41,8 +59,25 @@ impl Next<'_> {
             return Err(PackingError::BeyondTheGround { start, known });
         }
         grains.iter_mut().zip(self.first..).for_each(|(grain, id)| grain.id = id);
-        Ok(grains)
+        Ok(Ready { grains, last, packed_share: wanted / block.area() })
     }
+}
+
+/// Along the channel (m): the upstream end of the last grain, and where the tail of all that is upstream of the barrier ends.
+fn ends_of(simulation: &Simulation) -> [f64; 2] {
+    let places = simulation.grains.place.iter().zip(&simulation.grains.bodies);
+    let mut places: Vec<[f64; 2]> = places
+        .map(|(place, body)| [place.0[0] - body.radius - body.offset, body.mass])
+        .filter(|[x, _]| *x < 0.0)
+        .collect();
+    places.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+    let strayed = STRAYED * places.iter().map(|[_, mass]| mass).sum::<f64>();
+    let mut beyond = 0.0;
+    let tail = places.iter().find(|[_, mass]| {
+        beyond += mass;
+        beyond >= strayed
+    });
+    [places.first(), tail].map(|place| place.map_or(0.0, |[x, _]| *x))
 }
 
 /// How far up along its bed a place of the channel's frame is, given by its x (m).
@@ -66,8 +101,8 @@ pub fn farthest_upstream(design: &Design, reach: f64) -> f64 {
     let later =
         design.flow.later.iter().map(|later| LONGER * later.surge.length + later.surge.run_in + later.surge.depth);
     let first = match design.flow.arrival {
-        crate::design::Arrival::Surge(surge) => LONGER * surge.length + surge.run_in + surge.depth,
-        crate::design::Arrival::DamBreak(block) => LONGER * block.length + block.distance,
+        Arrival::Surge(surge) => LONGER * surge.length + surge.run_in + surge.depth,
+        Arrival::DamBreak(block) => LONGER * block.length + block.distance,
     };
     reach + first + later.sum::<f64>()
 }

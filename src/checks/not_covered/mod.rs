@@ -1,4 +1,4 @@
-//! Loads and courses of the event that neither the equations nor the simulation of the first surge cover, one file each: checks that
+//! Loads and courses of the event that neither the equations nor the simulation cover, one file each: checks that
 //! would pass without them stay open, whatever `limits.outside_range` says, because that lets formulas stand, not gaps.
 
 pub(crate) mod drag;
@@ -10,6 +10,7 @@ pub(crate) mod known;
 pub(crate) mod largest_grain;
 pub(crate) mod load_factor;
 pub(crate) mod not_simulated;
+pub(crate) mod pore_fluid;
 pub(crate) mod rigid_wall;
 pub(crate) mod short_peaks;
 pub(crate) mod side_strips;
@@ -32,6 +33,7 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
     not_simulated::leave_open,
     side_strips::leave_open,
     drag::leave_open,
+    pore_fluid::leave_open,
 ];
 
 /// Leaves open what would hold only because something is not covered.

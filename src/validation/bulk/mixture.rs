@@ -44,7 +44,7 @@ pub const PRESSES: Case = Case {
 };
 
 fn pores(ratio: f64, drains_in: f64) -> Pores {
-    Pores { ratio, drains_in, rests_below: 0.05 }
+    Pores { ratio, drains_in, drains_to: 0.0, rests_below: 0.05 }
 }
 
 fn slides() -> Result<Vec<Finding>, Broken> {

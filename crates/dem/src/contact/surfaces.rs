@@ -189,11 +189,7 @@ impl<E: Eight> SurfaceTouch<E> {
             towards[lane] = Quad::new(&touch.towards, radius);
             let from_grain = touch.towards + centre - grains.place(*member as usize / members).vector();
             let friction = touch.friction.min(context.grain_friction);
-            // A barrier lets the fluid through: on it the whole friction acts.
-            let grip = match touch.role {
-                SurfaceRole::Wall => 1.0,
-                _ => context.grip.get(*member as usize / members).copied().unwrap_or(1.0),
-            };
+            let grip = context.grip.get(*member as usize / members).copied().unwrap_or(1.0);
             lever[lane] = Quad::new(&from_grain, friction * grip);
             (role[lane], square[lane]) = (touch.role, touch.square);
             (share[lane], height[lane]) = (touch.share, touch.height);

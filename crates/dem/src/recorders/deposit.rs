@@ -8,9 +8,10 @@ const THIN: f64 = 0.25;
 /// Stretches that are told apart; what lies farther lies in the last.
 const FARTHEST: usize = 1 << 16;
 
-/// Mass (kg) beyond the first gap in the deposit: a stretch of two grains' length that is less than a quarter of a grain deep, at least
-/// `near` (m) upstream. `grains` gives how far upstream of the barrier each lies (m), and its mass (kg).
-pub fn beyond_the_first_gap(grains: impl Iterator<Item = (f64, f64)>, window: &GaugeWindow, near: f64) -> f64 {
+/// How far upstream the first gap in the deposit begins (m): a stretch of two grains' length that is less than a quarter of a grain deep, at
+/// least `near` (m) upstream; beyond all grains where there is none. `grains` gives how far upstream of the barrier each lies (m), and its mass
+/// (kg).
+pub fn first_gap(grains: impl Iterator<Item = (f64, f64)>, window: &GaugeWindow, near: f64) -> f64 {
     let cell = STRETCH * window.mean_diameter;
     let mut cells: Vec<f64> = Vec::new();
     for (upstream, mass) in grains {
@@ -21,7 +22,7 @@ pub fn beyond_the_first_gap(grains: impl Iterator<Item = (f64, f64)>, window: &G
     let thin = window.across.mass_at(THIN * window.mean_diameter, window.bulk_density, cell);
     let first = (near / cell).ceil() as usize;
     let gap = (first.min(cells.len())..cells.len()).find(|&place| cells[place] < thin).unwrap_or(cells.len());
-    cells[gap..].iter().fold(0.0, |sum, mass| sum + mass)
+    gap as f64 * cell
 }
 
 #[cfg(test)]
@@ -35,8 +36,9 @@ mod tests {
         GaugeWindow { near: 0.0, far: 1.0, across: Across::Even(1.0), bulk_density: 2000.0, mean_diameter: 0.5 };
 
     fn beyond(masses: &[f64], near: f64) -> f64 {
-        let grains = masses.iter().enumerate().map(|(place, mass)| (place as f64 + 0.5, *mass));
-        beyond_the_first_gap(grains, &WINDOW, near)
+        let grains = || masses.iter().enumerate().map(|(place, mass)| (place as f64 + 0.5, *mass));
+        let gap = first_gap(grains(), &WINDOW, near);
+        grains().filter(|(upstream, _)| *upstream >= gap).map(|(_, mass)| mass).sum()
     }
 
     #[test]

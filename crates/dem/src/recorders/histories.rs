@@ -54,6 +54,11 @@ pub struct Histories {
     pub stopped_upstream: f64,
     /// Samples at which each surge after the first was let go: their number when it was.
     pub surges: Vec<usize>,
+    /// Share of each surge in the mass, and of its own mass that came to rest upstream at the end without leaning on the barrier.
+    pub shares: Vec<f64>,
+    pub stopped_of: Vec<f64>,
+    /// The surge under way just upstream of what lay there when it was let go; zeros for the first.
+    pub on_deposit: Vec<Gauge>,
     /// The scene at a few moments, in their order.
     pub snapshots: Vec<Snapshot>,
     pub film: Film,
@@ -77,6 +82,7 @@ impl Histories {
             self.lost.len(),
             self.incoming.len(),
             self.approaching.len(),
+            self.on_deposit.len(),
             self.front.len(),
             self.barrier_depth.len(),
             self.ledger.len(),
@@ -84,7 +90,10 @@ impl Histories {
         let of_ropes: Vec<&Channel> =
             CHANNELS.iter().copied().filter(|channel| channel.rows == Rows::EachRope).collect();
         let in_order = self.surges.windows(2).all(|pair| pair[0] <= pair[1]);
-        let surges = in_order && self.surges.iter().all(|sample| *sample <= moments);
+        let told = |series: &[f64], count: usize| series.is_empty() || series.len() == count;
+        let several = self.surges.len() + 1;
+        let told = told(&self.shares, several) && told(&self.stopped_of, several);
+        let surges = in_order && told && self.surges.iter().all(|sample| *sample <= moments);
         surges && single.into_iter().all(fits) && self.barrier.is_whole(moments, &of_ropes) && self.film.is_whole()
     }
 }
@@ -97,8 +106,8 @@ impl Histories {
         start..self.surges.get(surge).copied().unwrap_or(self.time.len())
     }
 
-    /// The series of one surge alone, without pictures; what had passed before it has not passed in it. What has stopped upstream is told of
-    /// the whole run only.
+    /// The series of one surge alone, without pictures. Shares of what is lost and what stopped are of its own mass; what had passed before it
+    /// has not passed in it.
     pub fn of_surge(&self, surge: usize) -> Self {
         let samples = self.samples_of(surge);
         fn cut<T: Clone>(series: &[T], samples: &std::ops::Range<usize>) -> Vec<T> {
@@ -106,6 +115,7 @@ impl Histories {
         }
         let before = samples.start.checked_sub(1).and_then(|sample| self.lost.get(sample)).copied().unwrap_or_default();
         let lost = cut(&self.lost, &samples);
+        let share = self.shares.get(surge).copied().unwrap_or(1.0);
         Self {
             time: cut(&self.time, &samples),
             force: cut(&self.force, &samples),
@@ -118,16 +128,19 @@ impl Histories {
             dead_depth: cut(&self.dead_depth, &samples),
             dead: cut(&self.dead, &samples),
             moving: cut(&self.moving, &samples),
-            lost: lost.into_iter().map(|lost| [0, 1, 2, 3].map(|way| lost[way] - before[way])).collect(),
+            lost: lost.into_iter().map(|lost| [0, 1, 2, 3].map(|way| (lost[way] - before[way]) / share)).collect(),
             incoming: cut(&self.incoming, &samples),
             approaching: cut(&self.approaching, &samples),
+            on_deposit: cut(&self.on_deposit, &samples),
             gauges: self.gauges,
             front: cut(&self.front, &samples),
             barrier_depth: cut(&self.barrier_depth, &samples),
             at_release: self.at_release,
             ledger: cut(&self.ledger, &samples),
-            stopped_upstream: 0.0,
+            stopped_upstream: self.stopped_of.get(surge).copied().unwrap_or(0.0),
             surges: Vec::new(),
+            shares: Vec::new(),
+            stopped_of: Vec::new(),
             snapshots: Vec::new(),
             film: Film::default(),
         }

@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::Vec3;
 use crate::recorders::body::BodyRecorder;
 use crate::recorders::dead_zone::{push_at_rest, pushes_by_state};
-use crate::recorders::deposit::beyond_the_first_gap;
-use crate::recorders::gauge::{GaugeWindow, front};
+use crate::recorders::deposit::first_gap;
+use crate::recorders::gauge::{Gauge, GaugeWindow, front};
 use crate::recorders::histories::Histories;
 use crate::recorders::of_anchors::OfAnchors;
 use crate::recorders::of_dissipators::OfDissipators;
@@ -54,6 +54,10 @@ pub struct Recorder {
     pictured_force: f64,
     /// Number of the first grain of the surge that is under way; velocity, front and gauges are of its grains.
     under_way: u32,
+    /// The same of the surges before it.
+    before: Vec<u32>,
+    /// Where a later surge is gauged as it comes to what lies there.
+    on_deposit: Option<GaugeWindow>,
     /// Share of the mass that has not been let go yet, and of the surge under way.
     waiting: f64,
     pub share_under_way: f64,
@@ -93,10 +97,12 @@ impl Recorder {
         let first = setup.at_first / setup.mass;
         Self {
             under_way: 0,
+            before: Vec::new(),
+            on_deposit: None,
             waiting: 1.0 - first,
             share_under_way: first,
             setup,
-            histories: Histories { gauges, ..Histories::default() },
+            histories: Histories { gauges, shares: vec![first], ..Histories::default() },
             sum: IntervalSum::default(),
             bodies: Bodies::default(),
             highest_velocity: 0.0,
@@ -110,9 +116,15 @@ impl Recorder {
         }
     }
 
-    /// Takes note of a surge that is let go: its first grain and its mass (kg).
-    pub fn next_surge(&mut self, first: u32, mass: f64) {
+    /// Takes note of a surge that is let go: its first grain, its mass (kg), and where the last grain lies that is there (m).
+    pub fn next_surge(&mut self, first: u32, mass: f64, last: f64) {
         self.histories.surges.push(self.histories.time.len());
+        // As long as the one before the barrier, and as far before what lies there, which dams the surge up as soon as it comes to it.
+        let GaugeWindow { near, far, .. } = self.setup.incoming;
+        let (near, far) = (far - near - last, 2.0 * (far - near) - last);
+        self.on_deposit = Some(GaugeWindow { near, far, ..self.setup.incoming.clone() });
+        self.histories.shares.push(mass / self.setup.mass);
+        self.before.push(self.under_way);
         self.under_way = first;
         self.share_under_way = mass / self.setup.mass;
         self.waiting = (self.waiting - self.share_under_way).max(0.0);
@@ -191,6 +203,8 @@ impl Recorder {
         let slow: Vec<bool> = coming.iter().map(|grain| grain.velocity.norm_squared() <= limit).collect();
         self.histories.incoming.push(self.setup.incoming.read(&coming, &slow));
         self.histories.approaching.push(self.setup.approaching.read(&coming, &slow));
+        let on_deposit = self.on_deposit.as_ref().map_or(Gauge::default(), |window| window.read(&coming, &slow));
+        self.histories.on_deposit.push(on_deposit);
         self.histories.front.push(front(&coming));
         let [all, at_rest] = self.setup.deposit.depths(&grains, &dead);
         self.histories.barrier_depth.push(all);
@@ -228,7 +242,7 @@ impl Recorder {
         let grains = simulation.snapshot();
         self.keep(Moment::End, simulation, &grains);
         self.histories.film.finish(simulation, &grains);
-        self.histories.stopped_upstream = self.stopped_upstream(simulation, &grains);
+        self.note_what_stopped_upstream(simulation, &grains);
         self.histories.snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
     }
 
@@ -274,15 +288,24 @@ impl Recorder {
         }
     }
 
-    /// Share of the mass that lies upstream without leaning on the barrier, at rest or not.
-    fn stopped_upstream(&self, simulation: &Simulation, grains: &[Grain]) -> f64 {
+    /// Notes the share of the mass, and of each surge's, that lies upstream without leaning on the barrier, at rest or not.
+    fn note_what_stopped_upstream(&mut self, simulation: &Simulation, grains: &[Grain]) {
         let face = match &simulation.model.barrier {
             Some(barrier) => barrier.nodes.iter().map(|node| node.position.x).fold(0.0, f64::min),
             None => 0.0,
         };
-        let here = grains.iter().filter(|grain| !self.passed.contains_key(&grain.id));
-        let here = here.map(|grain| (face - grain.position.x, grain.body.mass));
-        beyond_the_first_gap(here, &self.setup.incoming, self.setup.near) / self.setup.mass
+        let here: Vec<&Grain> = grains.iter().filter(|grain| !self.passed.contains_key(&grain.id)).collect();
+        let upstream = |grain: &Grain| face - grain.position.x;
+        let places = here.iter().map(|grain| (upstream(grain), grain.body.mass));
+        let gap = first_gap(places, &self.setup.incoming, self.setup.near);
+        let stopped = |of: std::ops::Range<u32>| {
+            let beyond = here.iter().filter(|grain| of.contains(&grain.id) && upstream(grain) >= gap);
+            beyond.fold(0.0, |sum, grain| sum + grain.body.mass) / self.setup.mass
+        };
+        self.histories.stopped_upstream = stopped(0..u32::MAX);
+        let starts: Vec<u32> = self.before.iter().copied().chain([self.under_way, u32::MAX]).collect();
+        let of_each = starts.windows(2).zip(&self.histories.shares);
+        self.histories.stopped_of = of_each.map(|(pair, share)| stopped(pair[0]..pair[1]) / share).collect();
     }
 
     fn sample_grains(&mut self, grains: &[Grain]) {
