@@ -69,12 +69,12 @@ fn main_ropes() {
     at(NET, "neither count nor heights", count, "# ", count);
     let without_bolts = said(NET, &[("bed_bolt_spacing: 0.28 m ", "# ")]);
     assert!(without_bolts.contains("a resistance of one bolt without their distance"), "{without_bolts}");
-    assert_eq!(said(NET, &[("bed_bolt_resistance: 550 kN ", "# ")]), "");
-    let twice = "bed_resistance: 1 MN\n      bed_bolt_resistance: 550 kN ";
+    assert_eq!(said(NET, &[("bed_bolt_resistance: 800 kN ", "# ")]), "");
+    let twice = "bed_resistance: 1 MN\n      bed_bolt_resistance: 800 kN ";
     at(
         NET,
         "the resistance of all bolts and that of one",
-        "bed_bolt_resistance: 550 kN ",
+        "bed_bolt_resistance: 800 kN ",
         twice,
         "bed_resistance: 1 MN ",
     );
@@ -112,7 +112,7 @@ fn cylinders() {
 #[test]
 fn ropes_that_draw_out_and_dissipators() {
     for (load, part) in
-        [("150", "breaking_load: 150 kN "), ("372", "breaking_load: 372 kN "), ("249", "breaking_load: 249 kN ")]
+        [("249", "breaking_load: 249 kN "), ("602", "breaking_load: 602 kN "), ("443", "breaking_load: 443 kN ")]
     {
         let with = |limit: &str| format!("elastic_limit: {limit}\n      {part}");
         at(NET, &format!("with a breaking load of {load} kN"), part, &with(&format!("{load} kN")), &with("140 kN"));
@@ -232,11 +232,11 @@ fn blocks_and_surges() {
     speaks(WALL, "a gate", &[normal, (distance, "distance: 0.28 m ")], &[normal, (distance, "distance: 0.29 m ")]);
 }
 
-/// A rope breaks at no more than 2 GPa over the circle of its diameter: 307.9, 760.3 and 508.9 kN of 14, 22 and 18 mm.
+/// A rope breaks at no more than 2 GPa over the circle of its diameter: 508.9, 1231.5 and 904.8 kN of 18, 28 and 24 mm.
 #[test]
 fn ropes() {
     for (load, beyond, within) in
-        [("150 kN ", "309 kN ", "307 kN "), ("372 kN ", "762 kN ", "759 kN "), ("249 kN ", "510 kN ", "508 kN ")]
+        [("249 kN ", "510 kN ", "508 kN "), ("602 kN ", "1232 kN ", "1231 kN "), ("443 kN ", "906 kN ", "904 kN ")]
     {
         let of = |load: &str| format!("breaking_load: {load}");
         at(NET, "error", &of(load), &of(beyond), &of(within));
