@@ -103,7 +103,8 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     let (width, section) = (design.channel.width, design.channel.section());
     let flows = flows(design, input);
     let stages: Vec<LoadCase> = flows.iter().flat_map(|flow| envelope(flow, &extras)).collect();
-    let level = flows.iter().map(|flow| level_reached(design, flow)).reduce(higher).unwrap_or(Ok(0.0));
+    let event = EventFill::of(design);
+    let level = flows.iter().map(|flow| level_reached(design, &event, flow)).reduce(higher).unwrap_or(Ok(0.0));
     // A point load spreads along no more of a wall than there is at its height.
     let hit = extras.point.map_or(width, |point| width.min(section.width(point.height)));
     let ropes = match &design.barrier {
@@ -147,15 +148,17 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
     }
 }
 
-/// The flow of each surge: the first as it is asked, later ones with their own depth and velocity, changed as those of the first are from the
+/// The flow of each surge, or of each of the hardest rows of a hydrograph: the first as it is asked, later ones with their own depth and velocity, changed as those of the first are from the
 /// design's; so is the height to which they fill the barrier.
 pub fn flows(design: &Design, first: GuidelineInput) -> Vec<GuidelineInput> {
     let (depth, velocity) = incoming(design);
-    let fills = first.fill_height / filled(design, first).fill_height;
-    let later = design.flow.later.iter().map(|later| {
-        let depth = later.surge.depth * first.depth / depth;
-        let velocity = later.surge.velocity * first.velocity / velocity;
-        let flow = filled(design, GuidelineInput { depth, velocity, ..first });
+    let event = EventFill::of(design);
+    let fills = first.fill_height / event.filled(design, first).fill_height;
+    let surges = design.flow.later.iter().map(|later| [later.surge.depth, later.surge.velocity]);
+    let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.hardest().into_iter().skip(1));
+    let later = surges.chain(rows.map(|row| [row.depth, row.velocity])).map(|own| {
+        let [depth, velocity] = [own[0] * first.depth / depth, own[1] * first.velocity / velocity];
+        let flow = event.filled(design, GuidelineInput { depth, velocity, ..first });
         GuidelineInput { fill_height: (flow.fill_height * fills).min(flow.barrier_height), ..flow }
     });
     std::iter::once(first).chain(later).collect()
@@ -189,11 +192,7 @@ pub fn input(design: &Design) -> GuidelineInput {
 /// The same flow with the height to which it fills the barrier: that of one event follows from its velocity and depth, because it heaps up no
 /// higher than it runs up.
 pub fn filled(design: &Design, flow: GuidelineInput) -> GuidelineInput {
-    if design.loads.to_the_top || design.loads.overflow_depth.is_some() {
-        return flow;
-    }
-    let event = event_fill(design, &flow);
-    GuidelineInput { fill_height: flow.barrier_height.min(event.height().max(flow.depth)), ..flow }
+    EventFill::of(design).filled(design, flow)
 }
 
 /// How high one event may fill behind the barrier, normal to the bed (m).
@@ -212,6 +211,39 @@ pub struct EventFill {
 }
 
 impl EventFill {
+    /// Of the event of a design, without what its flow runs up to.
+    fn of(design: &Design) -> Self {
+        let width = design.channel.width;
+        let event = design.flow.event_volume / width;
+        let repose = libm::atan(design.flow.grain_friction);
+        let reservoir = reservoir(design);
+        // The smaller the last surge is, the more lies there already.
+        let later = design.flow.later.iter().map(|later| later.volume);
+        let last = later.fold(design.flow.volume(), f64::min);
+        let before = (event - last / width).max(0.0);
+        Self {
+            level: reservoir.height(event, 0.0),
+            heap: reservoir.height(event, repose),
+            run_up: 0.0,
+            several: design.flow.is_one_of_several(),
+            before_last: reservoir.height(before, 0.0),
+        }
+    }
+
+    /// The same with what a flow runs up to at the most.
+    fn run_up_by(self, design: &Design, flow: &GuidelineInput) -> Self {
+        Self { run_up: run_up::bound(flow, &design.channel.section()), ..self }
+    }
+
+    /// A flow with the height to which it fills the barrier.
+    fn filled(&self, design: &Design, flow: GuidelineInput) -> GuidelineInput {
+        if design.loads.to_the_top || design.loads.overflow_depth.is_some() {
+            return flow;
+        }
+        let height = self.run_up_by(design, &flow).height();
+        GuidelineInput { fill_height: flow.barrier_height.min(height.max(flow.depth)), ..flow }
+    }
+
     /// To where the last of several surges may go up from what lies there, which says whether it goes over.
     pub fn reach(&self) -> f64 {
         larger_or_nan(self.level, self.before_last + self.run_up)
@@ -230,33 +262,20 @@ impl EventFill {
 ///
 /// # Errors
 /// A lower bound of it, where its deposit reaches beyond what is known of the channel.
-pub fn level_reached(design: &Design, input: &GuidelineInput) -> Result<f64, f64> {
+pub fn level_reached(design: &Design, event: &EventFill, input: &GuidelineInput) -> Result<f64, f64> {
     let section = design.channel.section();
     let run_up = match design.limits.run_up {
         RunUp::Larger => run_up::bound(input, &section),
         RunUp::MomentumJump => run_up::by_jump(input, &section),
         RunUp::Energy => run_up::by_energy(input),
     };
-    let reached = EventFill { run_up, ..event_fill(design, input) }.reach();
+    let reached = EventFill { run_up, ..*event }.reach();
     if reached.is_infinite() { Err(larger_or_nan(run_up, reservoir(design).higher_than())) } else { Ok(reached) }
 }
 
+/// How high the event of a design fills, with what a flow of it runs up to.
 pub fn event_fill(design: &Design, input: &GuidelineInput) -> EventFill {
-    let width = design.channel.width;
-    let event = design.flow.event_volume / width;
-    let repose = libm::atan(design.flow.grain_friction);
-    let reservoir = reservoir(design);
-    // The smaller the last surge is, the more lies there already.
-    let later = design.flow.later.iter().map(|later| later.volume);
-    let last = later.fold(design.flow.volume(), f64::min);
-    let before = (event - last / width).max(0.0);
-    EventFill {
-        level: reservoir.height(event, 0.0),
-        heap: reservoir.height(event, repose),
-        run_up: run_up::bound(input, &reservoir.section),
-        several: design.flow.is_one_of_several(),
-        before_last: reservoir.height(before, 0.0),
-    }
+    EventFill::of(design).run_up_by(design, input)
 }
 
 /// Spaces between the bolts of the lowest rope, where their distance is known.

@@ -21,6 +21,7 @@ use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
 use crate::scene::flow::packing::PackingError;
 use crate::starts::Spread;
+use crate::units::GRAVITY;
 use dem::ledger::Ledger;
 use dem::recorders::histories::Histories;
 use dem::simulation::Simulation;
@@ -254,6 +255,7 @@ pub fn simulate(
         facts.packed_share = event.packed_share;
         let numerics = Numerics {
             packing_shortfall: 1.0 - facts.packed_share,
+            pushed_in: pushed_in(design, &event),
             stored_at_release: match design.flow.arrival {
                 Arrival::Surge(_) => stored_at_release(&event.histories.at_release),
                 // One at rest leans on its gate and is to store what it does.
@@ -313,14 +315,25 @@ pub fn numerics(event: &Event) -> Numerics {
             .iter()
             .copied()
             .fold(event.histories.stopped_upstream, larger_or_nan),
+        pushed_in: 0.0,
         broke_down: match &event.ending {
             Ending::BrokeDown(unstable) => Some(unstable.to_string()),
+            Ending::NotLetGo(0, error) => Some(format!("the flow could not come in: {error}")),
             Ending::NotLetGo(surge, error) => Some(format!("surge {} could not be let go: {error}", surge + 1)),
             _ => None,
         },
         missed: event.ending == Ending::Steady && event.histories.force.iter().all(|force| force.norm() == 0.0),
         unfinished: event.ending == Ending::OutOfTime,
     }
+}
+
+/// Work with which what stands behind an inlet pushes on, over that of the static pressure of the flow as it passes, ∫ ρ g cos α S(h) v dt.
+fn pushed_in(design: &Design, event: &Event) -> f64 {
+    let Some((inlet, hydrograph)) = event.simulation.model.inlet.as_ref().zip(design.flow.hydrograph.as_ref()) else {
+        return 0.0;
+    };
+    let unit = design.flow.bulk_density * GRAVITY * libm::cos(design.channel.slope);
+    inlet.pushed / (unit * hydrograph.moment(&design.channel.section(), event.simulation.time))
 }
 
 /// Energy stored in the contacts of a moving flow, over its energy of motion.
@@ -331,6 +344,8 @@ fn stored_at_release(ledger: &Ledger) -> f64 {
 impl Facts {
     fn take(&mut self, event: &Event) {
         let simulation = &event.simulation;
+        self.grains = event.grains as usize;
+        self.spheres = self.grains * simulation.grains.shape.members();
         if let Some(barrier) = &simulation.model.barrier {
             self.barrier_nodes = barrier.nodes.len();
             self.barrier_elements = barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len();

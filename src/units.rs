@@ -17,6 +17,8 @@ pub enum Dimension {
     MomentPerWidth,
     Angle,
     Velocity,
+    /// Volume in a time.
+    Discharge,
     Time,
     /// A share of a whole, written in percent.
     Share,
@@ -81,6 +83,8 @@ const UNITS: &[(&str, Dimension, f64)] = &[
     ("m/s", Dimension::Velocity, 1.0),
     ("cm/s", Dimension::Velocity, 1e-2),
     ("km/h", Dimension::Velocity, 1.0 / 3.6),
+    ("m3/s", Dimension::Discharge, 1.0),
+    ("l/s", Dimension::Discharge, 1e-3),
     ("s", Dimension::Time, 1.0),
     ("ms", Dimension::Time, 1e-3),
     ("min", Dimension::Time, 60.0),
@@ -157,6 +161,7 @@ impl Dimension {
             Self::MomentPerWidth => "a moment per metre of width",
             Self::Angle => "an angle",
             Self::Velocity => "a velocity",
+            Self::Discharge => "a discharge",
             Self::Time => "a time",
             Self::Share => "a share in percent",
         }
@@ -180,6 +185,7 @@ impl Dimension {
             Self::MomentPerWidth => "kN m/m",
             Self::Angle => "deg",
             Self::Velocity => "m/s",
+            Self::Discharge => "m3/s",
             Self::Time => "s",
             Self::Share => "%",
         }

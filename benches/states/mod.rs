@@ -156,11 +156,10 @@ impl State {
 
     fn packed(&self) -> Vec<Grain> {
         let bodies: Vec<GrainBody> = (0..self.count).map(|id| self.body(id)).collect();
-        let room =
-            PackingRoom { size: Vec3::new(0.44, 0.30, 0.15) * self.scale(), nose: 0.0, apart: false, ground: None };
-        let (mut grains, length) = pack(&bodies, self.shape, room, 1).expect("fits");
+        let room = PackingRoom::level(Vec3::new(0.44, 0.30, 0.15) * self.scale(), false);
+        let (mut grains, growth) = pack(&bodies, self.shape, room, 1).expect("fits");
         for grain in &mut grains {
-            grain.position.x *= 0.44 * self.scale() / length;
+            grain.position.x *= 0.44 * self.scale() / (growth * room.size.x);
         }
         grains
     }
@@ -193,6 +192,7 @@ impl State {
             barrier: None,
             material: Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 1.327 },
             pores: None,
+            inlet: None,
             gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * 9.81,
             wall: WallShape::default(),
             outlet: f64::INFINITY,

@@ -19,6 +19,10 @@ pub const STORED_LIMIT: f64 = 0.01;
 /// Share of the mass that may stop upstream and never lean on the barrier.
 pub const STOPPED_LIMIT: f64 = 0.5;
 
+/// Work with which what stands behind an inlet pushes on, over that of the static pressure of the flow as it passes: a flow that runs on
+/// needs about that, K times, and a deposit that stands in its way many times.
+pub const PUSHED_LIMIT: f64 = 4.0;
+
 /// What a run shows of its own numerics.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Numerics {
@@ -36,6 +40,8 @@ pub struct Numerics {
     pub stored_at_release: f64,
     /// Share of the mass that stopped upstream.
     pub stopped_upstream: f64,
+    /// Work with which the flow that is carried to an inlet pushes on what stands before it, over that of its static pressure.
+    pub pushed_in: f64,
     /// Why the run ended early, if it did.
     pub broke_down: Option<String>,
     /// Whether no grain ever touched the barrier.
@@ -58,6 +64,7 @@ impl Numerics {
             packing_shortfall: worse(self.packing_shortfall, other.packing_shortfall),
             stored_at_release: worse(self.stored_at_release, other.stored_at_release),
             stopped_upstream: worse(self.stopped_upstream, other.stopped_upstream),
+            pushed_in: worse(self.pushed_in, other.pushed_in),
             broke_down: self.broke_down.clone().or_else(|| other.broke_down.clone()),
             missed: self.missed || other.missed,
             unfinished: self.unfinished || other.unfinished,
@@ -104,6 +111,12 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
         numerics.stopped_upstream,
         STOPPED_LIMIT,
         "this is no test of the barrier: a flow that arrives needs less friction on the bed, more slope or more velocity",
+    );
+    hold(
+        "the work with which the flow at the inlet pushes on what stands before it, over that of its static pressure,",
+        numerics.pushed_in.max(0.0),
+        PUSHED_LIMIT,
+        "the flow backs up to the inlet, or comes in faster than what came in before it: a longer run_in gives it room",
     );
     if numerics.crossings > 0 {
         let count = numerics.crossings;

@@ -46,7 +46,10 @@ fn of_flow_and_channel(design: &Design) -> Vec<Usual> {
         usual("flow.bulk_density", flow.bulk_density, "kg/m³", [1000.0, 2500.0]),
     ];
     let velocity = match flow.arrival {
-        Arrival::Surge(surge) => Some(("flow.arrival.surge.velocity", surge.velocity)),
+        Arrival::Surge(surge) => Some((
+            if flow.hydrograph.is_some() { "flow.arrival.hydrograph" } else { "flow.arrival.surge.velocity" },
+            surge.velocity,
+        )),
         Arrival::DamBreak(block) => {
             block.velocity_at_barrier.map(|velocity| ("flow.arrival.dam_break.velocity_at_barrier", velocity))
         }

@@ -52,9 +52,8 @@ fn section(keys: &[Key]) -> Value {
     for pair in EITHER.iter().filter(here) {
         if pair.needed {
             let mut one: Vec<Value> = pair.keys.iter().map(|key| json!({ "required": [key] })).collect();
-            if let Some([group, key]) = pair.instead {
-                one.push(json!({ "properties": { group: { "required": [key] } }, "required": [group] }));
-            }
+            let group = |[group, key]: &[&str; 2]| json!({ "properties": { *group: { "required": [key] } }, "required": [group] });
+            one.extend(pair.instead.iter().map(group));
             schema["oneOf"] = one.into();
         } else {
             schema["not"] = json!({ "required": pair.keys });

@@ -1,8 +1,10 @@
-//! Files that a design names beside itself: a surveyed section, a terrain raster.
+//! Files that a design names beside itself: a surveyed section, a terrain raster, a hydrograph.
 
 use std::collections::BTreeMap;
 
 use crate::design::entries::{Entries, Entry, Origin, Value};
+use crate::design::hydrograph_entries::key;
+use crate::design::hydrograph_file::{self, Column};
 use crate::design::section_file;
 use crate::design::terrain_file::{Asked, terrain};
 use crate::problem::Problem;
@@ -24,7 +26,7 @@ const SECTION: [&str; 2] = ["channel.section.file", "channel.section.points"];
 /// Reads the files that the entries name, and puts what they hold in their place.
 pub fn read_attached(entries: &mut Entries, open: Open, problems: &mut Vec<Problem>) -> Attached {
     let mut attached = Attached::new();
-    for read in [read_section, read_terrain] {
+    for read in [read_section, read_terrain, read_hydrograph] {
         if let Some(read) = read(entries, open) {
             match read {
                 Ok((name, bytes)) => drop(attached.insert(name, bytes)),
@@ -89,6 +91,30 @@ fn read_terrain(entries: &mut Entries, open: Open) -> Read {
             put(entries, &file, "channel.slope", Value::Number(terrain.slope), typed);
         }
         entries.relief = Some(terrain.relief);
+        Ok((name, bytes))
+    }))
+}
+
+fn read_hydrograph(entries: &mut Entries, open: Open) -> Read {
+    let file = key("file");
+    let wanted = "a table of time, depth or discharge, and velocity beside the design file";
+    let read = opened(entries, &file, open, wanted)?;
+    Some(read.and_then(|(name, bytes)| {
+        let columns = hydrograph_file::parse(&bytes)
+            .map_err(|(found, hint)| Problem::new(&file, format!("`{name}`, {found}"), wanted).hint(hint))?;
+        for (column, values) in columns {
+            let list = match column {
+                Column::Time => "times",
+                Column::Depth => "depths",
+                Column::Discharge => "discharges",
+                Column::Velocity => "velocities",
+            };
+            // What is typed beside a file is told of; it is not lost.
+            if !entries.mentions(&key(list)) {
+                let typed = format!("{} rows of {name}", values.len());
+                put(entries, &file, &key(list), Value::Numbers(values), typed);
+            }
+        }
         Ok((name, bytes))
     }))
 }

@@ -3,6 +3,7 @@
 use crate::design::channel_entries::{height_of_barrier, reaches, section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::flow_volume;
+use crate::design::hydrograph_entries::HYDROGRAPH;
 use crate::design::net_rules::rope_heights;
 use crate::design::resolve::RUN_IN;
 use crate::design::show::{NET, at, length};
@@ -62,10 +63,12 @@ pub fn terrain_takes_a_plumb_barrier(e: &Entries) -> Option<Problem> {
 }
 
 pub fn terrain_takes_a_surge(e: &Entries) -> Option<Problem> {
-    (e.mentions("channel.terrain") && e.has_section("flow.arrival.dam_break")).then(|| {
-        Problem::new("flow.arrival", "a dam break in a terrain", "a surge")
-            .hint("give the flow as a surge with its depth and velocity at the barrier")
-    })
+    let others = [("flow.arrival.dam_break", "a dam break"), (HYDROGRAPH, "a hydrograph")];
+    let (_, other) = others.into_iter().find(|(path, _)| e.mentions("channel.terrain") && e.has_section(path))?;
+    Some(
+        Problem::new("flow.arrival", format!("{other} in a terrain"), "a surge, or surges")
+            .hint("give the flow as a surge with its depth and velocity at the barrier"),
+    )
 }
 
 /// How far downstream grains are followed, over the height of the barrier.

@@ -1,5 +1,6 @@
 //! The design flow: how much of what, and how it comes.
 
+use crate::design::hydrograph::Hydrograph;
 use crate::design::sizes::SizeCurve;
 
 /// The design flow.
@@ -28,6 +29,8 @@ pub struct Flow {
     pub pore_fluid: Option<PoreFluid>,
     /// How it comes; where it comes in several surges, the first of them, whose mass is `mass`.
     pub arrival: Arrival,
+    /// How it comes by time at an inlet; its arrival is then that of a surge of the whole with the depth and the velocity of the hardest row.
+    pub hydrograph: Option<Hydrograph>,
     /// The surges that come after the first, in their order.
     pub later: Vec<LaterSurge>,
 }
@@ -145,6 +148,7 @@ impl Flow {
             Arrival::DamBreak(block) => block.length *= factor,
             Arrival::Surge(surge) => surge.length *= factor,
         }
+        self.hydrograph = self.hydrograph.as_ref().map(|hydrograph| hydrograph.longer(factor));
         for later in &mut self.later {
             later.volume *= factor;
             later.surge.length *= factor;

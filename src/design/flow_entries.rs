@@ -1,6 +1,7 @@
 //! What the entries of a design say of its flow: volume, grain sizes, how many grains that makes, and how it is cut.
 
 use crate::design::entries::Entries;
+use crate::design::hydrograph_entries::hydrograph_volume;
 use crate::design::schema::QUANTILES;
 use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surge, volume_of, volume_of_all};
@@ -8,12 +9,14 @@ use crate::design::surge_entries::{surge, volume_of, volume_of_all};
 /// Where the grain sizes of the flow stand.
 pub const SIZES: &str = "flow.grain_sizes";
 
-/// Volume of the flow with pores, from whichever of mass and volume was given; of a list of surges that of the first.
+/// Volume of the flow with pores, from whichever of mass and volume was given; of a list of surges that of the first, of a hydrograph what
+/// it brings.
 pub fn flow_volume(entries: &Entries) -> Option<f64> {
     entries
         .number("flow.volume")
         .or_else(|| Some(entries.number("flow.mass")? / entries.number("flow.bulk_density")?))
         .or_else(|| volume_of(entries, &surge(0)))
+        .or_else(|| hydrograph_volume(entries))
 }
 
 /// (share of the mass, diameter) of the quantiles that were typed, of the grain sizes at a path.

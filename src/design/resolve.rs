@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{SIZES, coarsened, curve_known_from, flow_volume, size_curve, size_curve_at};
+use crate::design::hydrograph_entries::{HYDROGRAPH, as_of_a_surge, hydrograph};
 use crate::design::net_rules::rope_heights;
 use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
@@ -79,6 +80,7 @@ fn flow(e: &Entries) -> Option<Flow> {
         modulus: value("contact_modulus")?,
         pore_fluid: pore_fluid(e),
         arrival: arrival(e)?,
+        hydrograph: hydrograph(e),
     })
 }
 
@@ -128,17 +130,27 @@ fn arrival(e: &Entries) -> Option<Arrival> {
             velocity_at_barrier: value("dam_break.velocity_at_barrier"),
         }));
     }
-    Some(Arrival::Surge(surge(e, surges(e).first()?, flow_volume(e)?)?))
+    if e.has_section(HYDROGRAPH) {
+        let [depth, velocity] = ["depth", "velocity"].map(|name| as_of_a_surge(e, name));
+        return Some(Arrival::Surge(surge(e, HYDROGRAPH, flow_volume(e)?, depth?, velocity?)?));
+    }
+    let path = surges(e).into_iter().next()?;
+    surge_at(e, &path, flow_volume(e)?).map(Arrival::Surge)
 }
 
 /// The surge of a volume (m³) that the entries at a path describe.
-fn surge(e: &Entries, path: &str, volume: f64) -> Option<Surge> {
+fn surge_at(e: &Entries, path: &str, volume: f64) -> Option<Surge> {
+    let [depth, velocity] = ["depth", "velocity"].map(|name| e.number(&format!("{path}.{name}")));
+    surge(e, path, volume, depth?, velocity?)
+}
+
+/// The same with its depth (m) and velocity (m/s).
+fn surge(e: &Entries, path: &str, volume: f64, depth: f64, velocity: f64) -> Option<Surge> {
     let value = |key: &str| e.number(&format!("{path}.{key}"));
-    let depth = value("depth")?;
     Some(Surge {
         length: volume / section(e)?.area(depth),
         depth,
-        velocity: value("velocity")?,
+        velocity,
         front_angle: value("front_angle").unwrap_or(granular_front(acting_friction(e), e.number("channel.slope")?)),
         run_in: value("run_in").unwrap_or(RUN_IN * depth),
     })
@@ -153,7 +165,7 @@ fn later_surges(e: &Entries, cut: Option<&CurveCut>) -> Option<Vec<LaterSurge>> 
             cut: cut.map(|cut| CurveCut { share: cut.share, whole: whole.clone() }),
             sizes: cut.map_or(whole.clone(), |cut| whole.cut_below(cut.share)),
         });
-        Some(LaterSurge { volume, surge: surge(e, path, volume)?, own, after: e.number(&format!("{path}.after")) })
+        Some(LaterSurge { volume, surge: surge_at(e, path, volume)?, own, after: e.number(&format!("{path}.after")) })
     };
     surges(e).iter().skip(1).map(later).collect()
 }

@@ -4,11 +4,12 @@
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, size_curve, solid_share};
+use crate::design::hydrograph_entries::HYDROGRAPH;
 use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
-use crate::design::{channel_rules, net_rules, size_rules, surge_rules, wall_rules};
+use crate::design::{channel_rules, hydrograph_rules, net_rules, size_rules, surge_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -52,6 +53,13 @@ pub const RULES: &[Rule] = &[
     surge_rules::surges_have_one_size,
     surge_rules::surges_make_the_flow,
     surge_rules::first_surge_comes_first,
+    hydrograph_rules::table_has_one_place,
+    hydrograph_rules::rows_are_told_one_way,
+    hydrograph_rules::columns_are_equally_long,
+    hydrograph_rules::times_rise,
+    hydrograph_rules::values_are_within_bounds,
+    hydrograph_rules::something_comes,
+    hydrograph_rules::deepest_row_within_the_channel,
     surge_rules::surge_within_side_walls,
     surge_rules::surges_have_sound_sizes,
     wall_rules::wall_segments_fill_the_wall,
@@ -96,6 +104,7 @@ pub const GRAIN_RULES: &[Rule] = &[
     grain_count_is_bearable,
     block_larger_than_the_grains,
     surge_rules::later_surges_larger_than_their_grains,
+    hydrograph_rules::flow_longer_than_its_grains,
     net_rules::knots_are_bearable,
     net_rules::cylinders_are_bearable,
 ];
@@ -112,7 +121,9 @@ fn schema_version_is_known(e: &Entries) -> Option<Problem> {
 fn mass_or_volume(e: &Entries) -> Option<Problem> {
     let found = match (e.mentions("flow.mass"), e.mentions("flow.volume")) {
         (true, true) => format!("mass `{}` and volume `{}`", e.typed("flow.mass"), e.typed("flow.volume")),
-        (false, false) if e.has_section("flow") && !e.mentions(SURGES) => "neither mass nor volume".to_string(),
+        (false, false) if e.has_section("flow") && !e.mentions(SURGES) && !e.mentions(HYDROGRAPH) => {
+            "neither mass nor volume".to_string()
+        }
         _ => return None,
     };
     Some(Problem::new("flow", found, "either mass or volume").hint("the bulk density gives the other"))

@@ -280,6 +280,41 @@ const ARRIVAL: &[Key] = &[
         Kind::Sections(SURGES),
         "surges one after another, each let go upstream of what those before it have left",
     ),
+    Key::optional(
+        "hydrograph",
+        Kind::Section(HYDROGRAPH),
+        "the flow by time at an inlet upstream of the barrier, through which its grains come in",
+    ),
+];
+
+const HYDROGRAPH: &[Key] = &[
+    Key::optional(
+        "file",
+        Kind::File,
+        "table of time, depth or discharge, and velocity under a head that names them, as DebrisFrame and RAMMS write it; or give it here",
+    ),
+    Key::optional("times", Kind::Quantities { dimension: D::Time, low: 0.0, high: 1e6 }, "times of the rows, rising"),
+    Key::optional(
+        "depths",
+        Kind::Quantities { dimension: D::Length, low: 0.0, high: 50.0 },
+        "depth of the flow at the inlet at each time, normal to the bed",
+    ),
+    Key::optional(
+        "discharges",
+        Kind::Quantities { dimension: D::Discharge, low: 0.0, high: 1e5 },
+        "discharge with pores at each time, in the place of the depth or of the velocity",
+    ),
+    Key::optional(
+        "velocities",
+        Kind::Quantities { dimension: D::Velocity, low: 0.0, high: 40.0 },
+        "velocity of the flow at each time, along the bed",
+    ),
+    Key::optional("velocity", quantity(D::Velocity, 0.05, 40.0), "velocity at all times, where the table has none"),
+    Key::optional(
+        "run_in",
+        quantity(D::Length, 0.0, 1e3),
+        "way from the inlet to the barrier; by default four times the depth at the largest momentum flux",
+    ),
 ];
 
 const DAM_BREAK: &[Key] = &[
@@ -735,15 +770,15 @@ pub struct Either {
     pub keys: &'static [&'static str],
     /// Whether one of them must.
     pub needed: bool,
-    /// A key of a group beside them that stands in their stead.
-    pub instead: Option<[&'static str; 2]>,
+    /// Keys of groups beside them that stand in their stead.
+    pub instead: &'static [[&'static str; 2]],
 }
 
 /// The JSON Schema tells these; [`super::rules`] words what it says of them.
 pub const EITHER: &[Either] = &[
-    Either { keys: &["width", "section", "terrain"], needed: true, instead: None },
-    Either { keys: &["mass", "volume"], needed: true, instead: Some(["arrival", "surges"]) },
-    Either { keys: &["volume", "length"], needed: true, instead: None },
-    Either { keys: &["count", "heights"], needed: true, instead: None },
-    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: None },
+    Either { keys: &["width", "section", "terrain"], needed: true, instead: &[] },
+    Either { keys: &["mass", "volume"], needed: true, instead: &[["arrival", "surges"], ["arrival", "hydrograph"]] },
+    Either { keys: &["volume", "length"], needed: true, instead: &[] },
+    Either { keys: &["count", "heights"], needed: true, instead: &[] },
+    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: &[] },
 ];

@@ -1,83 +1,29 @@
 //! A surveyed section as a table: two columns under a head that names their units.
 
-use crate::units::{self, Dimension};
+use crate::design::table_file::{Asked, Wrong, factor, name_and_unit, without_unit};
+use crate::units::Dimension;
 
 /// Points at the most.
 const MOST_POINTS: usize = 10_000;
 /// What a good file looks like.
 const EXAMPLE: &str = "the file is a table like `distance (m),height (m)` / `-9.0,5.2` / `-3.0,0.1`, from the left to the right looking downstream";
 
-/// What is wrong, and what would be right.
-type Wrong = (String, String);
-
 /// Points of distance and height (m).
 pub fn parse(bytes: &[u8]) -> Result<Vec<[f64; 2]>, Wrong> {
-    let wrong = |found: String| (found, EXAMPLE.to_string());
-    let text = std::str::from_utf8(bytes).map_err(|_| wrong("which is not text in UTF-8".into()))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
-    let delimiter = [b';', b'\t'].into_iter().find(|mark| head.as_bytes().contains(mark)).unwrap_or(b',');
-    let mut table = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .comment(Some(b'#'))
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let factors = {
-        let head = table.headers().map_err(|error| wrong(format!("whose head cannot be read: {error}")))?;
-        let names: Vec<&str> = head.iter().collect();
-        let [distance, height] = names[..] else {
-            return Err(wrong(format!("whose head has {} column(s), not two", names.len())));
-        };
-        [unit_of(distance)?, unit_of(height)?]
-    };
-    let mut points = Vec::new();
-    for row in table.records() {
-        let row = row.map_err(|error| wrong(format!("which cannot be read: {error}")))?;
-        let line = row.position().map_or(0, csv::Position::line);
-        if row.len() != 2 {
-            let hint = match delimiter {
-                b',' if row.len() > 2 => {
-                    "numbers have a decimal point, and the columns are parted by a comma or a semicolon".into()
-                }
-                _ => EXAMPLE.to_string(),
-            };
-            return Err((format!("whose line {line} has {} value(s), not two", row.len()), hint));
+    let too_many = "thin the survey: some dozens of points tell a section";
+    let rows = Asked { most_rows: MOST_POINTS, example: EXAMPLE, too_many }.rows(bytes, |head| {
+        if head.len() != 2 {
+            return Err((format!("whose head has {} column(s), not two", head.len()), EXAMPLE.to_string()));
         }
-        let mut point = [0.0; 2];
-        for (axis, text) in row.iter().enumerate() {
-            point[axis] = match text.parse::<f64>() {
-                Ok(number) if number.is_finite() => number * factors[axis],
-                _ => {
-                    let hint = if text.contains(',') {
-                        "numbers have a decimal point".to_string()
-                    } else {
-                        EXAMPLE.to_string()
-                    };
-                    return Err((format!("whose line {line} holds `{text}`, which is not a number"), hint));
-                }
-            };
-        }
-        points.push(point);
-        if points.len() > MOST_POINTS {
-            return Err((
-                format!("of more than {MOST_POINTS} points"),
-                "thin the survey: some dozens of points tell a section".into(),
-            ));
-        }
-    }
-    Ok(points)
+        head.iter().map(|name| length_in(name)).collect()
+    })?;
+    Ok(rows.iter().map(|row| [row[0], row[1]]).collect())
 }
 
-/// SI value of the unit that a head names: `height (m)`, `height [m]` or `height_m`.
-fn unit_of(name: &str) -> Result<f64, Wrong> {
-    let between = |open: char, close: char| Some(name.split_once(open)?.1.split_once(close)?.0);
-    let last = || name.rsplit(['_', ' ']).next();
-    let unit = between('(', ')').or_else(|| between('[', ']')).or_else(last).unwrap_or_default().trim();
-    units::parse(&format!("1 {unit}"), Dimension::Length).map_err(|_| {
-        let hint = format!("write it as `{name} (m)`; lengths are in {}", Dimension::Length.symbols().join(", "));
-        (format!("whose column `{name}` names no unit of length"), hint)
-    })
+/// SI value of the unit of length that a head names.
+fn length_in(column: &str) -> Result<f64, Wrong> {
+    let (_, unit) = name_and_unit(column);
+    unit.and_then(|unit| factor(unit, Dimension::Length)).ok_or_else(|| without_unit(column, "m", Dimension::Length))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::design::channel_entries::section;
 use crate::design::entries::Entries;
+use crate::design::hydrograph_entries::{HYDROGRAPH, as_of_a_surge};
 
 pub const SURGES: &str = "flow.arrival.surges";
 
@@ -18,8 +19,11 @@ pub fn surge(number: usize) -> String {
     format!("{SURGES}.{number}")
 }
 
-/// A value of the first surge, and where it stands.
+/// A value of the first surge, or of a hydrograph as if it were one, and where it stands.
 pub fn of_the_first(e: &Entries, key: &str) -> Option<(String, f64)> {
+    if e.has_section(HYDROGRAPH) {
+        return Some((HYDROGRAPH.to_string(), as_of_a_surge(e, key)?));
+    }
     let path = format!("{}.{key}", surges(e).first()?);
     let value = e.number(&path)?;
     Some((path, value))

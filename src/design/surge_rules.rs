@@ -3,6 +3,7 @@
 use crate::design::channel_entries::{section, survey};
 use crate::design::entries::Entries;
 use crate::design::flow_entries::size_curve_at;
+use crate::design::hydrograph_entries::HYDROGRAPH;
 use crate::design::show::length;
 use crate::design::size_rules::{curve_has_two_quantiles_at, curve_increases_at, sizes_have_an_order_at};
 use crate::design::surge_entries::{SURGES, surge, surges, volume_of};
@@ -27,13 +28,21 @@ pub fn surges_have_one_size(e: &Entries) -> Option<Problem> {
     })
 }
 
-/// The surges of a list have their own volumes.
+/// The surges of a list have their own volumes, and so has a hydrograph.
 pub fn surges_make_the_flow(e: &Entries) -> Option<Problem> {
     let typed = ["flow.mass", "flow.volume"].into_iter().find(|path| e.mentions(path))?;
-    e.has_list(SURGES).then(|| {
-        Problem::new(typed, format!("`{}` beside a list of surges", e.typed(typed)), "no mass or volume of the flow")
-            .hint("each surge of flow.arrival.surges has a volume of its own, and the flow is all of them")
-    })
+    let (beside, hint) = match (e.has_list(SURGES), e.has_section(HYDROGRAPH)) {
+        (true, _) => (
+            "a list of surges",
+            "each surge of flow.arrival.surges has a volume of its own, and the flow is all of them",
+        ),
+        (_, true) => {
+            ("a hydrograph", "the volume of the flow is what the hydrograph brings, section times velocity over time")
+        }
+        _ => return None,
+    };
+    let found = format!("`{}` beside {beside}", e.typed(typed));
+    Some(Problem::new(typed, found, "no mass or volume of the flow").hint(hint))
 }
 
 /// The first surge has nothing to wait for.

@@ -218,7 +218,7 @@ impl Reservoir {
         if volume <= 0.0 {
             return 0.0;
         }
-        let (mut low, mut high) = (0.0, 1.0);
+        let [mut low, mut high] = self.bracket(volume, surface).unwrap_or([0.0, 1.0]);
         loop {
             match holds(high) {
                 // On a raster it may have come to an edge: beyond the highest that is known, how high it stands is not.
@@ -268,6 +268,20 @@ impl Reservoir {
             }
         }
         high
+    }
+
+    /// Heights close below and above that of a volume (m), sought from that on an even bed; nothing where they are not.
+    fn bracket(&self, volume: f64, surface: Surface) -> Option<[f64; 2]> {
+        let holds = |height: f64| self.stored(height, surface, 0.0).map(|stored| stored.volume);
+        let spread = libm::tan(self.slope - surface.slope(self.slope)).recip() + libm::tan(self.lean);
+        if !(spread > 0.0 && spread.is_finite()) {
+            return None;
+        }
+        let even = Some(self.section.height_of_moment(volume / spread)).filter(|height| height.is_normal())?;
+        // Volumes go about with the square of the height.
+        let near = even * (volume / holds(even)?).sqrt();
+        let around = [0.97 * near, 1.03 * near];
+        (holds(around[0])? < volume && holds(around[1])? >= volume).then_some(around)
     }
 
     /// The largest height of a deposit whose end is known, between one that is known and one that is not (m).

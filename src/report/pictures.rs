@@ -77,6 +77,7 @@ pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     }
     charts.extend(anchor_chart(run, seen));
     charts.extend(wall_charts(run, seen));
+    charts.extend(inlet_chart(run, seen));
     charts.push(velocity_chart(seen));
     charts.push(split_chart(seen));
     charts.push(coefficient_chart(run, seen));
@@ -137,6 +138,35 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
     };
     let note = "The higher loaded anchor of each main rope, without partial factors.";
     Some(Chart::of("Anchors", chart.svg(), note))
+}
+
+/// What the hydrograph says and what has come in, as shares of the whole.
+fn inlet_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
+    let design = &run.file.design;
+    let (hydrograph, section) = (design.flow.hydrograph.as_ref()?, design.channel.section());
+    let time = &seen.histories.time;
+    let last = hydrograph.duration();
+    let share = |of: &dyn Fn(f64) -> f64| time.iter().map(|time| of(*time) / of(last)).collect::<Vec<f64>>();
+    let density = design.flow.mass / hydrograph.volume(&section, last);
+    let entered = |kind: usize, whole: f64| {
+        seen.histories.entered.iter().map(|entered| entered[kind] / whole).collect::<Vec<f64>>()
+    };
+    let told = [share(&|time| hydrograph.volume(&section, time)), share(&|time| hydrograph.momentum(&section, time))];
+    let came = [entered(0, design.flow.mass), entered(1, density * hydrograph.momentum(&section, last))];
+    let labels = ["mass, given", "momentum, given", "mass that came in", "momentum that came in"];
+    let series = told.iter().chain(&came).zip(labels).enumerate();
+    let chart = LineChart {
+        title: "what has come in through the inlet",
+        unit: "%",
+        factor: 100.0,
+        along: TIME,
+        time,
+        series: series.map(|(colour, (values, label))| Series { label: label.to_string(), values, colour }).collect(),
+        levels: Vec::new(),
+        band: None,
+    };
+    let note = "By the hydrograph, and grain by grain in the simulation, of the whole.";
+    Some(Chart::of("Hydrograph", chart.svg(), note))
 }
 
 /// Force on the segments of a rigid wall, and its moment.

@@ -40,6 +40,7 @@ type Statement = (bool, &'static str, &'static str);
 
 /// What is taken of net and channel, in the simulation and for it.
 fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
+    let hydrograph = design.flow.hydrograph.as_ref();
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let raster = design.channel.relief.is_some();
     let (rectangular, even) = (design.channel.survey.is_none(), design.channel.profile.is_none());
@@ -106,7 +107,17 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             EITHER,
         ),
         (
-            simulated && matches!(design.flow.arrival, Arrival::Surge(_)),
+            simulated && hydrograph.is_some(),
+            "The flow comes in by its hydrograph, straight between its rows: packed at the bulk density, every grain with the velocity of that time along the bed, the same over the depth and across the channel, held together by what follows until it has passed the inlet. Fronts do not take shape before that.",
+            EITHER,
+        ),
+        (
+            hydrograph.is_some(),
+            "The equations take the hydrograph at the moments of its largest momentum flux, depth, velocity and head, each as a surge, and its volume as one event.",
+            SAFE,
+        ),
+        (
+            simulated && hydrograph.is_none() && matches!(design.flow.arrival, Arrival::Surge(_)),
             "A surge is released upstream of the barrier as a body of even depth with a sloping front, every grain with the same velocity and none pressed on another, and runs in before it hits (flow.arrival.surge.front_angle and run_in). A vertical front without a run-in would hit the whole barrier at once, and the contact modulus of the grains would decide how hard.",
             EITHER,
         ),

@@ -194,6 +194,10 @@ fn gully_turns(run: &Run) -> Option<String> {
 fn slows_on_its_way(run: &Run) -> Option<String> {
     let design = &run.file.design;
     let Arrival::Surge(surge) = design.flow.arrival else { return None };
+    // What comes in through an inlet is told there, and arrives as the bed lets it.
+    if design.flow.hydrograph.is_some() {
+        return None;
+    }
     let acts = design.flow.effective(design.channel.base_friction);
     let (slope, friction) = (design.channel.slope, libm::atan(acts));
     // On the whole of its way to the barrier.

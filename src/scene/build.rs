@@ -4,11 +4,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::{Arrival, BarrierDesign, DamBreak, Design, Flow};
+use crate::design::{Arrival, BarrierDesign, DamBreak, Design, Flow, Surge};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, packed_block, shape};
 use crate::scene::ground::{self, bed_at};
+use crate::scene::inlet::{Feed, block_behind, inlet};
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
 use crate::scene::surges::farthest_upstream;
@@ -36,6 +37,8 @@ pub struct Scene {
     pub smoothing: f64,
     /// Stretch over which steadiness is judged and residuals are averaged (s).
     pub rest: f64,
+    /// What is still to come in through an inlet.
+    pub feed: Option<Feed>,
     /// Bulk density of the block as packed, over the one asked for.
     pub packed_share: f64,
     /// Rough time the event takes (s), for telling progress.
@@ -125,8 +128,18 @@ pub fn build_watched(
         BarrierDesign::RigidWall(_) => None,
     };
     let reach = upstream_reach(design, net.as_ref());
-    let wanted = Block::of(&design.flow, &design.channel, reach);
+    let wanted = match &design.flow.hydrograph {
+        Some(hydrograph) => block_behind(design, hydrograph, reach),
+        None => Block::of(&design.flow, &design.channel, reach),
+    };
+    let mut feed = None;
     let (mut simulation, block) = match from {
+        _ if let Some(hydrograph) = &design.flow.hydrograph => {
+            let mut simulation = stand(design, fidelity, Vec::new(), &wanted);
+            simulation.model.inlet = Some(inlet(design, hydrograph, reach)?);
+            feed = Some(Feed::begin(design, hydrograph, seed, &mut simulation, stop)?);
+            (simulation, wanted)
+        }
         Some(Prepared::Settling(simulation, block)) => (simulation, block),
         Some(Prepared::Packed(grains, block)) => (stand(design, fidelity, grains, &block), block),
         failed => {
@@ -145,13 +158,17 @@ pub fn build_watched(
         simulation.put_up(Barrier { ground: Some(ground_of(design, &net.barrier)), ..net.barrier.clone() });
     }
     simulation.start_account();
-    let recorder = recorder_setup(design, net);
+    let mut recorder = recorder_setup(design, net);
+    if let Some(feed) = &feed {
+        recorder.to_come = design.flow.mass - feed.mass();
+    }
     Ok(Scene {
         simulation,
         recorder,
         smoothing: smoothing(design),
         rest: REST * time_scale(design),
-        packed_share: wanted.area() / block.area(),
+        packed_share: feed.as_ref().map_or(wanted.area() / block.area(), Feed::packed_share),
+        feed,
         expected_time: expected_time(design),
         reach,
     })
@@ -188,6 +205,7 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
             drains_to: fluid.drains_to,
             rests_below: rests_below(flow),
         }),
+        inlet: None,
         gravity: gravity(design.channel.slope),
         wall: wall_shape(design),
         outlet: outlet(design),
@@ -199,7 +217,18 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
 /// Time in which all surges have come to rest.
 pub fn expected_time(design: &Design) -> f64 {
     let one = |number: usize| expected_time_of(design, design.flow.alone(number).arrival);
-    (0..design.flow.surges()).map(one).sum()
+    match &design.flow.hydrograph {
+        Some(hydrograph) => hydrograph.duration() + expected_time_of(design, after_an_inlet(design.flow.arrival)),
+        None => (0..design.flow.surges()).map(one).sum(),
+    }
+}
+
+/// What comes last through an inlet, as a surge of no length.
+fn after_an_inlet(arrival: Arrival) -> Arrival {
+    match arrival {
+        Arrival::Surge(surge) => Arrival::Surge(Surge { length: 0.0, ..surge }),
+        other => other,
+    }
 }
 
 /// Time of the last grain's arrival, and some falls from the barrier's height to come to rest.
@@ -450,6 +479,7 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         deposit: GaugeWindow { near: -bulge, far: lean + DEPOSIT[1] * height, ..window(INCOMING) },
         mass: design.flow.mass_of_all(),
         at_first: design.flow.mass,
+        to_come: 0.0,
         side_walls: design.channel.wall_height,
         near: height,
     }

@@ -54,7 +54,7 @@ pub fn slowness() -> f64 {
     const GRAINS: usize = 600;
     let bodies = vec![GrainBody::clump(0.1, 1.5, 2650.0); GRAINS];
     let solid = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>();
-    let room = PackingRoom { size: Vec3::repeat(libm::cbrt(solid / 0.6)), nose: 0.0, apart: true, ground: None };
+    let room = PackingRoom::level(Vec3::repeat(libm::cbrt(solid / 0.6)), true);
     let once = || {
         let started = std::time::Instant::now();
         let packed = pack(&bodies, GrainShape::Clump, room, 1);

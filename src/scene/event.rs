@@ -8,6 +8,7 @@ use crate::checkpoint::CheckpointStore;
 use crate::design::Design;
 use crate::scene::build::Scene;
 use crate::scene::flow::packing::PackingError;
+use crate::scene::inlet::Feed;
 use crate::scene::patience::Patience;
 use crate::scene::surges::{Next, Ready};
 use dem::recorders::histories::{Histories, tail_mean};
@@ -69,6 +70,8 @@ pub struct Ongoing {
     let_go: f64,
     /// Density of the loosest packing of all surges over the one asked for.
     packed_share: f64,
+    /// What is still to come in through an inlet, if there is one.
+    feed: Option<Feed>,
 }
 
 /// A finished run.
@@ -83,12 +86,14 @@ pub struct Event {
     pub escaped_share: f64,
     /// Density of the loosest packing of all surges over the one asked for.
     pub packed_share: f64,
+    /// Grains of all surges.
+    pub grains: u32,
 }
 
 impl Ongoing {
     pub fn begin(scene: Scene) -> Self {
         let stretch = scene.samples_of_rest();
-        let Scene { simulation, recorder, expected_time, reach, packed_share, .. } = scene;
+        let Scene { simulation, recorder, expected_time, reach, packed_share, feed, .. } = scene;
         let next_grain = simulation.grains.ids.iter().max().map_or(0, |highest| highest + 1);
         let recorder = Recorder::new(recorder);
         Self {
@@ -101,6 +106,7 @@ impl Ongoing {
             next_grain,
             let_go: 0.0,
             packed_share,
+            feed,
         }
     }
 
@@ -123,6 +129,10 @@ impl Ongoing {
                     Some(Err(ending)) => break ending,
                 }
             }
+            // After the account of the step, which knows nothing of what comes now.
+            if let Some(ending) = sampled.then(|| self.feed_on(design)).flatten() {
+                break ending;
+            }
             let asked = watch.stop.load(Ordering::Relaxed);
             if self.simulation.at_stop() {
                 keep(&self, asked);
@@ -132,9 +142,40 @@ impl Ongoing {
             }
         };
         self.recorder.finish(&self.simulation);
+        let grains = self.feed.as_ref().map_or(self.next_grain, Feed::grains);
         let Self { simulation, recorder, energy_error, packed_share, .. } = self;
         let (escaped, escaped_share) = (recorder.escaped.len() as u32, recorder.escaped_share);
-        Event { histories: recorder.histories, ending, simulation, energy_error, escaped, escaped_share, packed_share }
+        Event {
+            histories: recorder.histories,
+            ending,
+            simulation,
+            energy_error,
+            escaped,
+            escaped_share,
+            packed_share,
+            grains,
+        }
+    }
+
+    /// Lets in what is to stand behind an inlet now; tells whether the run ends because it cannot.
+    fn feed_on(&mut self, design: &Design) -> Option<Ending> {
+        let feed = self.feed.as_mut()?;
+        match feed.go_on(design, &mut self.simulation) {
+            Ok(mass) => {
+                self.recorder.let_in(mass);
+                None
+            }
+            Err(error) => Some(Ending::NotLetGo(0, error)),
+        }
+    }
+
+    /// Time (s) up to which the flow comes in.
+    fn comes_until(&self, design: &Design) -> f64 {
+        match (&self.feed, &design.flow.hydrograph) {
+            (Some(feed), Some(_)) if !feed.is_over() => f64::INFINITY,
+            (Some(_), Some(hydrograph)) => hydrograph.duration(),
+            _ => self.let_go,
+        }
     }
 
     /// Lets the next surge go, if there is one.
@@ -168,7 +209,10 @@ impl Ongoing {
         if watch.store.is_none() && watch.stop.load(Ordering::Relaxed) {
             return Some(Ending::Interrupted);
         }
-        let under_way = time - self.let_go;
+        let under_way = time - self.comes_until(design);
+        if under_way < 0.0 {
+            return None;
+        }
         // One that follows at a given time does not wait until the surge before it has come to rest.
         let follows = design.flow.later.get(histories.surges.len()).and_then(|later| later.after);
         let over = match follows {

@@ -5,6 +5,7 @@ pub(crate) mod estimate;
 pub mod event;
 pub mod flow;
 pub(crate) mod ground;
+pub mod inlet;
 pub(crate) mod net;
 pub(crate) mod patience;
 pub(crate) mod surges;

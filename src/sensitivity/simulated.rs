@@ -13,6 +13,7 @@ const CHANGES: &[(&str, f64, Change)] = &[
             surge.velocity *= factor;
         }
         design.flow.later.iter_mut().for_each(|later| later.surge.velocity *= factor);
+        design.flow.hydrograph = design.flow.hydrograph.as_ref().map(|hydrograph| hydrograph.faster(factor));
     }),
     ("Density of grains and flow", 0.1, |design, factor| {
         design.flow.mass *= factor;

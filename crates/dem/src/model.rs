@@ -10,6 +10,7 @@ use crate::tables::pores::Pores;
 use crate::tables::surfaces::Surface;
 use crate::tables::terrain::Terrain;
 use crate::tables::wall::WallShape;
+use crate::time::inlet::Inlet;
 
 /// What the grains are made of, as contacts feel it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,6 +40,8 @@ pub struct Model {
     pub material: Material,
     /// Fluid in the pores of the grains; none in a dry flow.
     pub pores: Option<Pores>,
+    /// Where grains come in during the run; nothing where all are there from the start.
+    pub inlet: Option<Inlet>,
     /// m/s², in the channel frame.
     pub gravity: Vec3,
     /// How forces on a rigid wall are told apart.
@@ -63,6 +66,7 @@ impl Model {
             barrier: None,
             material: Material { modulus: 1e8, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 },
             pores: None,
+            inlet: None,
             gravity: Vec3::zeros(),
             wall: WallShape::default(),
             outlet: f64::INFINITY,

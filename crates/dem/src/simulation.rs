@@ -17,6 +17,7 @@ use crate::tables::grains::Grain;
 use crate::tables::load_sheets::LoadSheets;
 use crate::tables::pores::STEPS_BETWEEN;
 use crate::tables::surfaces::SurfaceRole;
+use crate::time::inlet::{During, burden};
 use crate::time::integrate::Stretch;
 use crate::time::links::Linked;
 use crate::time::multi_rate::{BarrierStep, step_barrier};
@@ -245,8 +246,22 @@ impl Simulation {
         if let Some(pores) = &self.model.pores {
             self.grains.grip.resize(self.grains.len(), pores.grip());
         }
+        if !self.grains.carried.is_empty() {
+            self.grains.carried.resize(self.grains.len(), false);
+        }
         self.stop_every = steps_per_stop(self.grains.members());
         self.neighbours.lose();
+    }
+
+    /// Lets grains in that the inlet carries, at its velocity, until they have passed it.
+    pub fn carry_in(&mut self, grains: &[Grain]) {
+        let first = self.grains.len();
+        let velocity =
+            self.model.inlet.as_ref().map_or(Vec3::zeros(), |inlet| inlet.along * inlet.velocity_at(self.time));
+        let moving: Vec<Grain> = grains.iter().map(|grain| Grain { velocity, ..grain.clone() }).collect();
+        self.let_in(&moving);
+        self.grains.carried.resize(self.grains.len(), false);
+        (first..self.grains.len()).for_each(|row| burden(&mut self.grains, row));
     }
 
     /// Takes away all surfaces of the given role (opens the gate).
@@ -417,7 +432,14 @@ impl Simulation {
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_friction += slide_all(barrier, own.time_step);
         }
+        let during = During { time: self.time, step: self.time_step, gravity: self.model.gravity };
+        if let Some(inlet) = &mut self.model.inlet {
+            inlet.carry(&mut self.grains, &mut self.ledger, &during);
+        }
         let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, own, &time);
+        if let Some(inlet) = &mut self.model.inlet {
+            inlet.let_go(&mut self.grains, &mut self.ledger, &during);
+        }
         self.gather_sums();
         let fastest_node = self.advance_barrier(net, &own, &time, account);
         self.neighbours.tick(&paces, time.step, fastest_node);

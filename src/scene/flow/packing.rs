@@ -39,6 +39,42 @@ pub struct PackingRoom<'a> {
     pub apart: bool,
     /// The ground of a section in place of level floor and sides.
     pub ground: Option<&'a Survey>,
+    /// Which way it is made larger where the grains do not fit.
+    pub grows: Growth,
+    /// What its ceiling and its parts are, where it is not the same all along.
+    pub parts: Option<&'a Parts>,
+    /// Its height over that.
+    pub raised: f64,
+}
+
+/// A room under a ceiling that rises and falls along x, part by part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parts {
+    /// Where parts end, from 0 on, and the height there (m).
+    pub ends: Vec<[f64; 2]>,
+    /// How many of the bodies each part holds, in their order.
+    pub counts: Vec<usize>,
+}
+
+impl Parts {
+    /// Height at a place along x (m).
+    fn height(&self, x: f64) -> f64 {
+        let next = self.ends.partition_point(|end| end[0] <= x).clamp(1, self.ends.len() - 1);
+        let [from, to] = [self.ends[next - 1], self.ends[next]];
+        from[1] + (to[1] - from[1]) * ((x - from[0]) / (to[0] - from[0])).clamp(0.0, 1.0)
+    }
+
+    /// The part in which a place along x is.
+    fn part(&self, x: f64) -> usize {
+        self.ends.partition_point(|end| end[0] <= x).clamp(1, self.counts.len()) - 1
+    }
+}
+
+/// Which way a room is made larger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Growth {
+    Along,
+    Up,
 }
 
 impl PackingRoom<'_> {
@@ -52,8 +88,27 @@ impl PackingRoom<'_> {
         (Vec3::new(self.size.x, 0.0, 0.0) - point).dot(&self.front())
     }
 
+    /// A room of one height.
+    pub fn level(size: Vec3, apart: bool) -> Self {
+        Self { size, nose: 0.0, apart, ground: None, grows: Growth::Along, parts: None, raised: 1.0 }
+    }
+
+    /// How far a point is below the ceiling (m).
+    fn below_ceiling(&self, point: &Vec3) -> f64 {
+        self.parts.map_or(self.size.z, |parts| self.raised * parts.height(point.x)) - point.z
+    }
+
     /// m³
     fn volume(&self) -> f64 {
+        if let Some(parts) = self.parts {
+            let section = self.ground.map(|survey| Section::Surveyed(survey.clone()));
+            let area = |height: f64| {
+                let height = self.raised * height;
+                section.as_ref().map_or(self.size.y * height, |section| section.area(height))
+            };
+            let part = |pair: &[[f64; 2]]| 0.5 * (area(pair[0][1]) + area(pair[1][1])) * (pair[1][0] - pair[0][0]);
+            return parts.ends.windows(2).map(part).sum();
+        }
         let Some(survey) = self.ground else {
             return self.size.y * self.size.z * (self.size.x - 0.5 * self.nose);
         };
@@ -84,6 +139,14 @@ pub enum PackingError {
         "a later surge would start {start:.0} m upstream, behind what lies there, and the ground is modelled up to {known:.0} m; fewer or shorter surges, or a steeper or smoother bed, leave less of them on the way"
     )]
     BeyondTheGround { start: f64, known: f64 },
+    #[error(
+        "the bed breaks within {length:.1} m upstream of the inlet, which is {distance:.1} m upstream of the barrier: give a run_in that puts it on a straight reach"
+    )]
+    BedBreaksBehindTheInlet { distance: f64, length: f64 },
+    #[error(
+        "at {time:.2} s grains stand where the flow is to come in: the deposit has reached the inlet; give a longer run_in"
+    )]
+    InletIsBlocked { time: f64 },
 }
 
 /// How attempts at packing are watched from outside.
@@ -96,8 +159,8 @@ pub struct Attempts<'a> {
 }
 
 /// Packs `bodies` into `room`; grain numbers follow the order of `bodies`. Where they do not fit, as happens when grains
-/// are large against the room, the room is made longer (along x) and another start is tried. Returns the grains and the
-/// length they took (m). Grains that shall be apart are packed a little larger than they are, by half the overlap that is left, so
+/// are large against the room, the room is made longer, or higher, and another start is tried. Returns the grains and the factor
+/// by which it grew. Grains that shall be apart are packed a little larger than they are, by half the overlap that is left, so
 /// that none touch at their true size.
 pub fn pack(
     bodies: &[GrainBody],
@@ -123,7 +186,11 @@ pub fn pack_watched(
     let mut attempt = attempts.failed.min(LENGTHENING.len() - 1);
     loop {
         let mut longer = room;
-        longer.size.x = room.size.x * (1.0 + LENGTHENING[attempt]);
+        let growth = 1.0 + LENGTHENING[attempt];
+        match room.grows {
+            Growth::Along => longer.size.x = room.size.x * growth,
+            Growth::Up => (longer.size.z, longer.raised) = (room.size.z * growth, growth),
+        }
         match pack_once(&swollen, shape, longer, seed.wrapping_add((attempt as u64) << 32), attempts.stop) {
             Err(PackingError::DoesNotFit { .. }) if attempt + 1 < LENGTHENING.len() => {
                 attempt += 1;
@@ -132,7 +199,7 @@ pub fn pack_watched(
             Err(error) => return Err(error),
             Ok(mut grains) => {
                 grains.iter_mut().zip(bodies).for_each(|(grain, body)| grain.body = *body);
-                return Ok((grains, longer.size.x));
+                return Ok((grains, growth));
             }
         }
     }
@@ -161,6 +228,7 @@ fn relaxing(grains: Vec<Grain>, shape: GrainShape) -> Model {
         barrier: None,
         material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
         pores: None,
+        inlet: None,
         gravity: Vec3::zeros(),
         wall: WallShape::default(),
         outlet: f64::INFINITY,
@@ -206,6 +274,23 @@ pub fn push_apart(
     Ok(placed.map(|(apart, before)| Grain { position: apart.position, axis: apart.axis, ..before }).collect())
 }
 
+/// Whether any grain of one set and of another overlap by more than a packing may.
+pub fn overlaps<'a>(ones: &[Grain], others: impl Iterator<Item = &'a Grain>) -> bool {
+    let reach = |grain: &Grain| grain.body.radius + grain.body.offset;
+    let members = |grain: &Grain| [-1.0, 1.0].map(|side| grain.position + grain.axis * (side * grain.body.offset));
+    let touch = |one: &Grain, other: &Grain| {
+        let least = one.body.radius + other.body.radius - OVERLAP_ALLOWED * one.body.radius.min(other.body.radius);
+        (one.position - other.position).norm() < reach(one) + reach(other)
+            && members(one).iter().any(|one| members(other).iter().any(|other| (one - other).norm() < least))
+    };
+    let upstream = |grain: &Grain| grain.position.x - reach(grain);
+    let [from, to] = ones.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], grain| {
+        [from.min(upstream(grain)), to.max(grain.position.x + reach(grain))]
+    });
+    let mut near = others.filter(|other| other.position.x + reach(other) > from && upstream(other) < to);
+    near.any(|other| ones.iter().any(|one| touch(one, other)))
+}
+
 /// Puts grains that were flung through a wall back inside: walls push to the side a grain is on.
 fn hold_inside(simulation: &mut Simulation, room: PackingRoom) {
     for row in 0..simulation.grains.len() {
@@ -216,6 +301,9 @@ fn hold_inside(simulation: &mut Simulation, room: PackingRoom) {
         let position = simulation.grains.place[row].vector();
         let mut held = position.sup(&margin).inf(&(room.size - margin).sup(&margin));
         held.z -= room.above_floor(&held).min(0.0);
+        if room.parts.is_some() {
+            held.z += (room.below_ceiling(&held) - margin.z).min(0.0);
+        }
         if room.nose > 0.0 {
             let front = room.front();
             let short = margin.dot(&front.abs()) - room.behind_front(&held);
@@ -262,21 +350,33 @@ fn scatter(bodies: &[GrainBody], room: PackingRoom, seed: u64) -> Vec<Grain> {
         );
         (index + within).component_mul(&spacing(counts))
     };
-    let inside = |counts: &Counts| -> Vec<usize> {
-        let middle = |cell: &usize| place(*cell, counts, Vec3::repeat(0.5));
+    let wanted = room.parts.map_or(vec![bodies.len()], |parts| parts.counts.clone());
+    // Of each part.
+    let inside = |counts: &Counts| -> Vec<Vec<usize>> {
+        let middle = |cell: usize| place(cell, counts, Vec3::repeat(0.5));
         let behind = |place: &Vec3| room.nose == 0.0 || room.behind_front(place) > 0.0;
-        let is_inside = |place: Vec3| behind(&place) && room.above_floor(&place) > 0.0;
-        (0..counts.product()).filter(|cell| is_inside(middle(cell))).collect()
+        let below = |place: &Vec3| room.parts.is_none() || room.below_ceiling(place) > 0.0;
+        let is_inside = |place: &Vec3| behind(place) && room.above_floor(place) > 0.0 && below(place);
+        let mut cells = vec![Vec::new(); wanted.len()];
+        for (cell, place) in
+            (0..counts.product()).map(|cell| (cell, middle(cell))).filter(|(_, place)| is_inside(place))
+        {
+            cells[room.parts.map_or(0, |parts| parts.part(place.x))].push(cell);
+        }
+        cells
     };
     let mut cells = inside(&counts);
-    while cells.len() < bodies.len() {
+    while cells.iter().zip(&wanted).any(|(cells, wanted)| cells.len() < *wanted) {
         let widest = spacing(&counts).imax();
         counts[widest] += 1;
         cells = inside(&counts);
     }
-    random.shuffle(&mut cells);
+    for (cells, wanted) in cells.iter_mut().zip(&wanted) {
+        random.shuffle(cells);
+        cells.truncate(*wanted);
+    }
     let mut grains = Vec::with_capacity(bodies.len());
-    for (id, (body, cell)) in bodies.iter().zip(cells).enumerate() {
+    for (id, (body, cell)) in bodies.iter().zip(cells.into_iter().flatten()).enumerate() {
         let jitter = Vec3::from_fn(|_, _| 0.3 + 0.4 * random.f64());
         grains.push(Grain::at(id as u32, place(cell, &counts, jitter), random_direction(&mut random), *body));
     }
@@ -313,10 +413,22 @@ fn walls(room: PackingRoom) -> Vec<Surface> {
                 surfaces.push(sloping_front(room));
                 continue;
             }
+            if let (Some(parts), true) = (room.parts, normal.z < 0.0) {
+                surfaces.extend(parts.ends.windows(2).map(|pair| ceiling(pair, room.raised)));
+                continue;
+            }
             surfaces.push(Surface::new(SurfaceRole::Side, origin, normal, spans, 0.0));
         }
     }
     surfaces
+}
+
+/// The ceiling of a part, between its ends.
+fn ceiling(ends: &[[f64; 2]], raised: f64) -> Surface {
+    let [from, to] = [0, 1].map(|end| Vec3::new(ends[end][0], 0.0, raised * ends[end][1]));
+    let along = (to - from).normalize();
+    let spans = [Span::bounded(along, 0.0, (to - from).norm()), Span::unbounded(Vec3::y())];
+    Surface::new(SurfaceRole::Side, from, along.cross(&Vec3::y()) * -1.0, spans, 0.0)
 }
 
 fn sloping_front(room: PackingRoom) -> Surface {
@@ -334,11 +446,10 @@ mod tests {
         let bodies: Vec<GrainBody> =
             (0..400).map(|i| GrainBody::clump(0.20 + 0.0005 * f64::from(i), aspect, 2650.0)).collect();
         let volume: f64 = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>() / share;
-        let room =
-            PackingRoom { size: Vec3::new(volume / (3.0 * 1.2), 3.0, 1.2), nose: 0.0, apart: false, ground: None };
+        let room = PackingRoom::level(Vec3::new(volume / (3.0 * 1.2), 3.0, 1.2), false);
         let shape = if aspect > 1.0 { GrainShape::Clump } else { GrainShape::Sphere };
-        let (grains, length) = pack(&bodies, shape, room, seed).expect("fits");
-        (grains, length, room)
+        let (grains, growth) = pack(&bodies, shape, room, seed).expect("fits");
+        (grains, growth * room.size.x, room)
     }
 
     #[test]
@@ -362,8 +473,9 @@ mod tests {
         let volume: f64 = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>() / 0.55;
         let (width, height, nose) = (3.0, 1.2, 2.0);
         let size = Vec3::new(volume / (width * height) + 0.5 * nose, width, height);
-        let room = PackingRoom { size, nose, apart: true, ground: None };
-        let (grains, length) = pack(&bodies, GrainShape::Clump, room, 1).expect("fits");
+        let room = PackingRoom { size, nose, apart: true, ground: None, grows: Growth::Along };
+        let (grains, growth) = pack(&bodies, GrainShape::Clump, room, 1).expect("fits");
+        let length = growth * size.x;
         assert!(length <= 1.0501 * size.x, "{length}");
         let room = PackingRoom { size: Vec3::new(length, width, height), ..room };
         let members = |grain: &Grain| [-1.0, 1.0].map(|side| grain.position + grain.axis * (side * grain.body.offset));

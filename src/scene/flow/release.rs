@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
-use crate::scene::flow::packing::{Attempts, PackingError, PackingRoom, pack_watched, push_apart};
+use crate::scene::flow::packing::{Attempts, Growth, PackingError, PackingRoom, pack_watched, push_apart};
 use crate::scene::ground::{across, bed_at, ground_of, lowest_at, survey_at};
 use crate::section::Section;
 use crate::units::GRAVITY;
@@ -85,6 +85,11 @@ impl Block {
         }
     }
 
+    /// What stands behind an inlet that is so far upstream of the barrier's foot (m).
+    pub fn behind_an_inlet(distance: f64, length: f64, height: f64, velocity: f64) -> Self {
+        Self { front: -distance, length, height, nose: 0.0, lack: LACK, tip: 0.0, velocity }
+    }
+
     /// Of its section along the channel, as far as it holds grains (m²).
     pub fn area(&self) -> f64 {
         self.height * (self.length - self.lack * self.nose) - self.tip
@@ -140,9 +145,13 @@ pub fn packed_block(
         nose: block.nose,
         apart: block.moves(),
         ground: ground.as_ref(),
+        grows: Growth::Along,
+        parts: None,
+        raised: 1.0,
     };
     let stop = attempts.stop;
-    let (mut grains, length) = pack_watched(&bodies(flow), shape(flow), room, seed, attempts)?;
+    let (mut grains, growth) = pack_watched(&bodies(flow), shape(flow), room, seed, attempts)?;
+    let length = block.length * growth;
     let block = Block { length, ..*block };
     let start = block.front - length;
     for grain in &mut grains {

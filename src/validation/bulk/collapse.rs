@@ -58,7 +58,7 @@ const EDGE: f64 = 0.2;
 fn packed(size: Vec3, seed: u64) -> Result<Vec<Grain>, Broken> {
     let body = GrainBody::clump(DIAMETER, 1.5, DENSITY);
     let count = (0.60 * size.product() * DENSITY / body.mass) as usize;
-    let room = PackingRoom { size, nose: 0.0, apart: false, ground: None };
+    let room = PackingRoom::level(size, false);
     let (grains, _) =
         pack(&vec![body; count], GrainShape::Clump, room, seed).map_err(|error| Broken::Scene(error.to_string()))?;
     Ok(grains)

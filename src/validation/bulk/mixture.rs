@@ -86,13 +86,9 @@ fn bed(shape: GrainShape, friction: f64, pores: Pores, seconds: f64) -> Result<S
     let aspect = if shape == GrainShape::Clump { 1.5 } else { 1.0 };
     let bodies = vec![GrainBody::clump(2.0 * RADIUS, aspect, DENSITY); COUNT];
     let solid = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3);
-    let room = PackingRoom {
-        size: Vec3::new(LENGTH, WIDTH, solid / (0.45 * LENGTH * WIDTH)),
-        nose: 0.0,
-        apart: false,
-        ground: None,
-    };
-    let (grains, length) = pack(&bodies, shape, room, 3).map_err(|error| Broken::Scene(error.to_string()))?;
+    let room = PackingRoom::level(Vec3::new(LENGTH, WIDTH, solid / (0.45 * LENGTH * WIDTH)), false);
+    let (grains, growth) = pack(&bodies, shape, room, 3).map_err(|error| Broken::Scene(error.to_string()))?;
+    let length = growth * room.size.x;
     let mut model = Model {
         material: material(0.3, friction),
         gravity: Vec3::z() * -GRAVITY,

@@ -40,9 +40,10 @@ fn run() -> Result<Vec<Finding>, Broken> {
 fn poured() -> Result<Simulation, Broken> {
     let bodies = vec![GrainBody::sphere(RADIUS, DENSITY); COUNT];
     let height = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / (0.30 * SIDE * SIDE);
-    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false, ground: None };
-    let (grains, length) =
+    let room = PackingRoom::level(Vec3::new(SIDE, SIDE, height), false);
+    let (grains, growth) =
         pack(&bodies, GrainShape::Sphere, room, 6).map_err(|error| Broken::Scene(error.to_string()))?;
+    let length = growth * room.size.x;
     let mut model =
         Model { material: material(0.3, 0.3), gravity: Vec3::z() * -GRAVITY, ..free_model(grains, GrainShape::Sphere) };
     let side = |origin: Vec3, normal: Vec3| plane(SurfaceRole::Side, origin, normal, 0.0);

@@ -86,9 +86,10 @@ fn column(seed: u64) -> Result<Column, Broken> {
 fn filled(seed: u64) -> Result<Simulation, Broken> {
     let bodies = vec![GrainBody::sphere(RADIUS, 2600.0); COUNT];
     let height = COUNT as f64 * std::f64::consts::PI / 6.0 * (2.0 * RADIUS).powi(3) / (0.57 * SIDE * SIDE);
-    let room = PackingRoom { size: Vec3::new(SIDE, SIDE, height), nose: 0.0, apart: false, ground: None };
-    let (mut grains, length) =
+    let room = PackingRoom::level(Vec3::new(SIDE, SIDE, height), false);
+    let (mut grains, growth) =
         pack(&bodies, GrainShape::Sphere, room, seed).map_err(|error| Broken::Scene(error.to_string()))?;
+    let length = growth * room.size.x;
     // What overlap the packing has left would lock stresses in between the walls: everything is spread out a little.
     grains.iter_mut().for_each(|grain| grain.position *= SPREAD);
     let (length, side_length) = (length * SPREAD, SIDE * SPREAD);

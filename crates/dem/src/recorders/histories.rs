@@ -50,6 +50,8 @@ pub struct Histories {
     /// Energies and losses: at the release, and sample by sample.
     pub at_release: Ledger,
     pub ledger: Vec<Ledger>,
+    /// Mass (kg), momentum (kg m/s) and energy (J) that have come in through an inlet; empty without one.
+    pub entered: Vec<[f64; 3]>,
     /// Share of the mass that has come to rest upstream at the end, and does not lean on the barrier.
     pub stopped_upstream: f64,
     /// Samples at which each surge after the first was let go: their number when it was.
@@ -86,6 +88,7 @@ impl Histories {
             self.front.len(),
             self.barrier_depth.len(),
             self.ledger.len(),
+            self.entered.len(),
         ];
         let of_ropes: Vec<&Channel> =
             CHANNELS.iter().copied().filter(|channel| channel.rows == Rows::EachRope).collect();
@@ -137,6 +140,7 @@ impl Histories {
             barrier_depth: cut(&self.barrier_depth, &samples),
             at_release: self.at_release,
             ledger: cut(&self.ledger, &samples),
+            entered: cut(&self.entered, &samples),
             stopped_upstream: self.stopped_of.get(surge).copied().unwrap_or(0.0),
             surges: Vec::new(),
             shares: Vec::new(),

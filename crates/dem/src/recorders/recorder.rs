@@ -99,7 +99,7 @@ impl Recorder {
             under_way: 0,
             before: Vec::new(),
             on_deposit: None,
-            waiting: 1.0 - first,
+            waiting: 1.0 - first + setup.to_come / setup.mass,
             share_under_way: first,
             setup,
             histories: Histories { gauges, shares: vec![first], ..Histories::default() },
@@ -128,6 +128,11 @@ impl Recorder {
         self.under_way = first;
         self.share_under_way = mass / self.setup.mass;
         self.waiting = (self.waiting - self.share_under_way).max(0.0);
+    }
+
+    /// Takes note of a mass (kg) that has come in of the surge under way.
+    pub fn let_in(&mut self, mass: f64) {
+        self.waiting = (self.waiting - mass / self.setup.mass).max(0.0);
     }
 
     /// Samples since the surge under way was let go.
@@ -181,6 +186,9 @@ impl Recorder {
         let bodies = self.bodies.each().into_iter();
         bodies.for_each(|body| body.sample(simulation, &self.setup, self.sum.steps, &mut histories.barrier));
         histories.ledger.push(simulation.ledger);
+        if let Some(inlet) = &simulation.model.inlet {
+            histories.entered.push(inlet.passed);
+        }
         self.impact |= self.sum.force.norm() > 0.0;
         let grains = simulation.snapshot();
         if simulation.time >= self.next_passage {

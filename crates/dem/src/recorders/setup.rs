@@ -38,6 +38,8 @@ pub struct RecorderSetup {
     /// Mass of the whole flow, all surges (kg), and what of it is there from the start.
     pub mass: f64,
     pub at_first: f64,
+    /// What of that comes in through an inlet later (kg).
+    pub to_come: f64,
     /// Height of the side walls, normal to the bed (m).
     pub side_walls: f64,
     /// Length upstream of the barrier within which whatever lies has arrived (m).

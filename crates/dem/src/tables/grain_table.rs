@@ -58,6 +58,8 @@ pub struct GrainTable {
     pub ids: Vec<u32>,
     /// Share of its friction that acts on a grain, 1 − r_u ([`crate::tables::pores`]); empty in a dry flow, where all of it does.
     pub grip: Vec<f64>,
+    /// Whether a grain is carried to an inlet ([`crate::time::inlet`]); empty where there is none.
+    pub carried: Vec<bool>,
 }
 
 impl GrainTable {
@@ -72,6 +74,7 @@ impl GrainTable {
             bodies: Vec::new(),
             ids: Vec::new(),
             grip: Vec::new(),
+            carried: Vec::new(),
         };
         table.extend(grains);
         table
@@ -149,6 +152,7 @@ impl GrainTable {
         pick(&mut self.bodies, order);
         pick(&mut self.ids, order);
         pick(&mut self.grip, order);
+        pick(&mut self.carried, order);
     }
 }
 

@@ -13,6 +13,7 @@ use std::ops::Range;
 use crate::Vec3;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
+use crate::time::inlet::burden_of;
 use crate::time::links::{Link, Twist};
 use crate::workers;
 
@@ -156,11 +157,14 @@ fn work(motion: &Twist, force: &Twist) -> f64 {
 
 /// Of all grains, then of all nodes.
 fn inertias(grains: &GrainTable, barrier: Option<&Barrier>) -> Vec<Inertia> {
-    let grain = grains.bodies.iter().enumerate().map(|(row, body)| Inertia {
-        inverse_mass: body.mass.recip(),
-        inverse_axial: body.inertia_axial.recip(),
-        inverse_transverse: body.inertia_transverse.recip(),
-        axis: grains.axis.get(row).map_or(Vec3::zeros(), |axis| axis.vector()),
+    let grain = grains.bodies.iter().enumerate().map(|(row, body)| {
+        let burden = burden_of(grains, row);
+        Inertia {
+            inverse_mass: (body.mass * burden).recip(),
+            inverse_axial: (body.inertia_axial * burden).recip(),
+            inverse_transverse: (body.inertia_transverse * burden).recip(),
+            axis: grains.axis.get(row).map_or(Vec3::zeros(), |axis| axis.vector()),
+        }
     });
     let nodes = barrier.iter().flat_map(|barrier| {
         barrier.nodes.iter().enumerate().map(|(number, node)| {

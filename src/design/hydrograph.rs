@@ -1,0 +1,197 @@
+//! The flow by time at an inlet: depth and velocity, straight between the times that are given.
+
+use crate::section::Section;
+use crate::units::GRAVITY;
+
+/// One row of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// s
+    pub time: f64,
+    /// Normal to the bed (m).
+    pub depth: f64,
+    /// m/s
+    pub velocity: f64,
+}
+
+/// Times rise from 0; flow comes between the first and the last.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hydrograph(pub Vec<Moment>);
+
+/// Parts of an interval over which what passes is summed, by Simpson's rule in each: exact in a rectangle.
+const PARTS: usize = 8;
+
+impl Hydrograph {
+    /// Depth and velocity at a time (s); none before the first and after the last.
+    pub fn at(&self, time: f64) -> Moment {
+        let rows = &self.0;
+        let next = rows.partition_point(|row| row.time <= time);
+        match (next.checked_sub(1).map(|before| rows[before]), rows.get(next)) {
+            (Some(before), Some(next)) => {
+                let share = (time - before.time) / (next.time - before.time);
+                let between = |from: f64, to: f64| from + share * (to - from);
+                Moment {
+                    time,
+                    depth: between(before.depth, next.depth),
+                    velocity: between(before.velocity, next.velocity),
+                }
+            }
+            (Some(last), None) if last.time == time => last,
+            _ => Moment { time, depth: 0.0, velocity: 0.0 },
+        }
+    }
+
+    /// Time over which flow comes (s).
+    pub fn duration(&self) -> f64 {
+        self.0.last().map_or(0.0, |last| last.time)
+    }
+
+    /// Volume that has passed at a time (m³), ∫ A(h) v dt.
+    pub fn volume(&self, section: &Section, time: f64) -> f64 {
+        self.sum(time, |row| section.area(row.depth) * row.velocity)
+    }
+
+    /// ∫ A(h) v² dt up to a time (m⁴/s): times the density the momentum that has passed.
+    pub fn momentum(&self, section: &Section, time: f64) -> f64 {
+        self.sum(time, |row| section.area(row.depth) * row.velocity * row.velocity)
+    }
+
+    /// ∫ S(h) v dt up to a time (m⁴), S being the first moment of the section's area: times the unit weight the work of its static pressure.
+    pub fn moment(&self, section: &Section, time: f64) -> f64 {
+        self.sum(time, |row| section.moment(row.depth) * row.velocity)
+    }
+
+    /// Way of what passes up to a time (m), ∫ v dt.
+    pub fn way(&self, time: f64) -> f64 {
+        self.sum(time, |row| row.velocity)
+    }
+
+    /// Sum over time of what a row passes in a second.
+    fn sum(&self, time: f64, rate: impl Fn(Moment) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for pair in self.0.windows(2) {
+            let (from, to) = (pair[0].time, pair[1].time.min(time));
+            if to <= from {
+                break;
+            }
+            let part = (to - from) / PARTS as f64;
+            let inside = |share: f64| {
+                let share = (from + share * (to - from) - pair[0].time) / (pair[1].time - pair[0].time);
+                let between = |a: f64, b: f64| a + share * (b - a);
+                rate(Moment {
+                    time: from,
+                    depth: between(pair[0].depth, pair[1].depth),
+                    velocity: between(pair[0].velocity, pair[1].velocity),
+                })
+            };
+            for index in 0..PARTS {
+                let at = |offset: f64| inside((index as f64 + offset) / PARTS as f64);
+                sum += part / 6.0 * (at(0.0) + 4.0 * at(0.5) + at(1.0));
+            }
+        }
+        sum
+    }
+
+    /// The time (s) at which a sum that rises with it reaches a value.
+    pub fn when(&self, sum: impl Fn(f64) -> f64, value: f64) -> f64 {
+        let (mut early, mut late) = (0.0, self.duration());
+        for _ in 0..60 {
+            let middle = 0.5 * (early + late);
+            if sum(middle) < value { early = middle } else { late = middle }
+        }
+        late
+    }
+
+    /// The rows that load a barrier most: of the largest momentum flux h v² first, then those of the largest depth, velocity, and head
+    /// h + v²/2g where they are others.
+    pub fn hardest(&self) -> Vec<Moment> {
+        let measures: [fn(&Moment) -> f64; 4] = [
+            |row| row.depth * row.velocity * row.velocity,
+            |row| row.depth,
+            |row| row.velocity * f64::from(u8::from(row.depth > 0.0)),
+            |row| row.depth + row.velocity * row.velocity / (2.0 * GRAVITY),
+        ];
+        let mut hardest: Vec<Moment> = Vec::new();
+        for measure in measures {
+            // Between two rows all of them but the first are largest at an end; h v² may be larger between them.
+            let all = self.0.windows(2).flat_map(|pair| between(pair[0], pair[1]));
+            if let Some(row) = all.max_by(|a, b| measure(a).total_cmp(&measure(b)))
+                && !hardest.iter().any(|known| known.depth == row.depth && known.velocity == row.velocity)
+            {
+                hardest.push(row);
+            }
+        }
+        hardest
+    }
+
+    /// The same flow in so many times the time.
+    pub fn longer(&self, factor: f64) -> Self {
+        Self(self.0.iter().map(|row| Moment { time: row.time * factor, ..*row }).collect())
+    }
+
+    /// The same volume with so many times the velocity, in the less time.
+    pub fn faster(&self, factor: f64) -> Self {
+        let faster = |row: &Moment| Moment { time: row.time / factor, velocity: row.velocity * factor, ..*row };
+        Self(self.0.iter().map(faster).collect())
+    }
+}
+
+/// Two rows and eight places between them.
+fn between(from: Moment, to: Moment) -> Vec<Moment> {
+    let place = |index: u32| {
+        let share = f64::from(index) / 9.0;
+        let between = |a: f64, b: f64| a + share * (b - a);
+        Moment {
+            time: between(from.time, to.time),
+            depth: between(from.depth, to.depth),
+            velocity: between(from.velocity, to.velocity),
+        }
+    };
+    std::iter::once(from).chain((1..9).map(place)).chain([to]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn row(time: f64, depth: f64, velocity: f64) -> Moment {
+        Moment { time, depth, velocity }
+    }
+
+    /// Up to 1 m and 4 m/s in 2 s, and down in 6 s, 3 m wide: ∫ h v dt of a triangle times a triangle is t/3 of the product of the peaks.
+    #[test]
+    fn a_triangle_has_its_volume_way_and_momentum() {
+        let table = Hydrograph(vec![row(0.0, 0.0, 0.0), row(2.0, 1.0, 4.0), row(8.0, 0.0, 0.0)]);
+        let section = Section::Rectangle { width: 3.0 };
+        assert_relative_eq!(table.volume(&section, 2.0), 3.0 * 2.0 * 4.0 / 3.0, max_relative = 1e-12);
+        assert_relative_eq!(table.volume(&section, 99.0), 3.0 * 8.0 * 4.0 / 3.0, max_relative = 1e-12);
+        assert_relative_eq!(table.way(8.0), 16.0, max_relative = 1e-12);
+        // ∫ h v² dt: a quarter of the product.
+        assert_relative_eq!(table.momentum(&section, 8.0), 3.0 * 8.0 * 16.0 / 4.0, max_relative = 1e-6);
+        let half = table.when(|time| table.way(time), 8.0);
+        assert_relative_eq!(table.way(half), 8.0, max_relative = 1e-9);
+        assert_eq!(table.at(1.0), row(1.0, 0.5, 2.0));
+        assert_eq!((table.at(-1.0).depth, table.at(9.0).velocity), (0.0, 0.0));
+    }
+
+    #[test]
+    fn the_hardest_rows_are_of_flux_depth_velocity_and_head() {
+        let table = Hydrograph(vec![row(0.0, 0.2, 9.0), row(1.0, 1.0, 6.0), row(2.0, 1.5, 2.0)]);
+        let hardest = table.hardest();
+        assert_eq!((hardest[0].depth, hardest[0].velocity), (1.0, 6.0));
+        assert!(hardest.iter().any(|row| row.depth == 1.5) && hardest.iter().any(|row| row.velocity == 9.0));
+        // Within a fall of the velocity under a rise of the depth h v² may be larger than at either end.
+        let crossing = Hydrograph(vec![row(0.0, 0.1, 6.0), row(3.0, 2.0, 1.0)]).hardest()[0];
+        assert!(crossing.time > 0.0 && crossing.time < 3.0, "{crossing:?}");
+    }
+
+    #[test]
+    fn stretched_or_sped_up_it_carries_its_share() {
+        let table = Hydrograph(vec![row(0.0, 0.2, 3.0), row(4.0, 0.6, 5.0)]);
+        let section = Section::Rectangle { width: 2.0 };
+        let volume = table.volume(&section, 4.0);
+        assert_relative_eq!(table.longer(1.5).volume(&section, 6.0), 1.5 * volume, max_relative = 1e-12);
+        assert_relative_eq!(table.faster(2.0).volume(&section, 2.0), volume, max_relative = 1e-12);
+    }
+}
