@@ -94,17 +94,21 @@ const RITTER_FRONT: f64 = 2.0;
 /// assert!((loads.first_surge() / by_hand - 1.0).abs() < 1e-9);
 /// ```
 pub fn guideline(design: &Design) -> Guideline {
-    guideline_for(design, input(design))
+    let event = EventFill::of(design);
+    with_event(design, &event, input_with(design, &event))
 }
 
 /// The same for another flow or other coefficients than the design's.
 pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
+    with_event(design, &EventFill::of(design), input)
+}
+
+fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guideline {
     let extras = extras(design);
     let (width, section) = (design.channel.width, design.channel.section());
-    let flows = flows(design, input);
+    let flows = flows_with(design, event, input);
     let stages: Vec<LoadCase> = flows.iter().flat_map(|flow| envelope(flow, &extras)).collect();
-    let event = EventFill::of(design);
-    let level = flows.iter().map(|flow| level_reached(design, &event, flow)).reduce(higher).unwrap_or(Ok(0.0));
+    let level = flows.iter().map(|flow| level_reached(design, event, flow)).reduce(higher).unwrap_or(Ok(0.0));
     // A point load spreads along no more of a wall than there is at its height.
     let hit = extras.point.map_or(width, |point| width.min(section.width(point.height)));
     let ropes = match &design.barrier {
@@ -151,8 +155,11 @@ pub fn guideline_for(design: &Design, input: GuidelineInput) -> Guideline {
 /// The flow of each surge, or of each of the hardest rows of a hydrograph: the first as it is asked, later ones with their own depth and velocity, changed as those of the first are from the
 /// design's; so is the height to which they fill the barrier.
 pub fn flows(design: &Design, first: GuidelineInput) -> Vec<GuidelineInput> {
+    flows_with(design, &EventFill::of(design), first)
+}
+
+fn flows_with(design: &Design, event: &EventFill, first: GuidelineInput) -> Vec<GuidelineInput> {
     let (depth, velocity) = incoming(design);
-    let event = EventFill::of(design);
     let fills = first.fill_height / event.filled(design, first).fill_height;
     let surges = design.flow.later.iter().map(|later| [later.surge.depth, later.surge.velocity]);
     let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.hardest().into_iter().skip(1));
@@ -172,6 +179,10 @@ fn higher(one: Result<f64, f64>, other: Result<f64, f64>) -> Result<f64, f64> {
 }
 
 pub fn input(design: &Design) -> GuidelineInput {
+    input_with(design, &EventFill::of(design))
+}
+
+fn input_with(design: &Design, event: &EventFill) -> GuidelineInput {
     let (depth, velocity) = incoming(design);
     let slope = design.channel.slope;
     let barrier_height = height_over_bed(design);
@@ -186,7 +197,7 @@ pub fn input(design: &Design) -> GuidelineInput {
         fill_height: barrier_height,
         barrier_height,
     };
-    filled(design, empty)
+    event.filled(design, empty)
 }
 
 /// The same flow with the height to which it fills the barrier: that of one event follows from its velocity and depth, because it heaps up no

@@ -21,7 +21,6 @@ use crate::scene::estimate::estimate;
 use crate::scene::event::{Ending, Event, Ongoing, Watch};
 use crate::scene::flow::packing::PackingError;
 use crate::starts::Spread;
-use crate::units::GRAVITY;
 use dem::ledger::Ledger;
 use dem::recorders::histories::Histories;
 use dem::simulation::Simulation;
@@ -332,8 +331,9 @@ fn pushed_in(design: &Design, event: &Event) -> f64 {
     let Some((inlet, hydrograph)) = event.simulation.model.inlet.as_ref().zip(design.flow.hydrograph.as_ref()) else {
         return 0.0;
     };
-    let unit = design.flow.bulk_density * GRAVITY * libm::cos(design.channel.slope);
-    inlet.pushed / (unit * hydrograph.moment(&design.channel.section(), event.simulation.time))
+    let normal = -event.simulation.model.gravity.z;
+    inlet.pushed
+        / (design.flow.bulk_density * normal * hydrograph.moment(&design.channel.section(), event.simulation.time))
 }
 
 /// Energy stored in the contacts of a moving flow, over its energy of motion.

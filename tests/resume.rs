@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 const DESIGN: &str = "tests/fixtures/tiny.yaml";
 const SURGES: &str = "tests/fixtures/tiny_surges.yaml";
 const WET: &str = "tests/fixtures/tiny_wet.yaml";
+const INLET: &str = "tests/fixtures/tiny_inlet.yaml";
 
 fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_barrier-check"))
@@ -141,6 +142,14 @@ fn a_wet_flow_that_is_killed_and_resumed_ends_with_the_same_bits() {
     let whole = undisturbed(WET, "whole_wet", &[]);
     kill_and_resume(WET, "wet_killed", 4, &[], 4);
     assert_eq!(whole, numbers(&folder_of("wet_killed")));
+}
+
+/// While grains come in.
+#[test]
+fn a_flow_by_its_hydrograph_that_is_killed_and_resumed_ends_with_the_same_bits() {
+    let whole = undisturbed(INLET, "whole_inlet", &[]);
+    kill_and_resume(INLET, "inlet_killed", 4, &[], 5);
+    assert_eq!(whole, numbers(&folder_of("inlet_killed")));
 }
 
 /// Several starts side by side, and a barrier of cylinders.

@@ -112,7 +112,8 @@ mod tests {
             design.limits.run_up = run_up;
             // Of a flow whose deposit is no higher.
             (design.flow.mass, design.flow.event_volume) = (1.0, 1.0 / design.flow.bulk_density);
-            crate::guideline::level_reached(design, &input).expect("a level")
+            crate::guideline::level_reached(design, &crate::guideline::event_fill(design, &input), &input)
+                .expect("a level")
         };
         assert_relative_eq!(by(&mut design, RunUp::Energy), 0.4 + 25.0 / 18.4368, max_relative = 1e-4);
         let jump = by(&mut design, RunUp::MomentumJump);

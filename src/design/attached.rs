@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::design::entries::{Entries, Entry, Origin, Value};
-use crate::design::hydrograph_entries::key;
+use crate::design::hydrograph_entries::{LISTS, key};
 use crate::design::hydrograph_file::{self, Column};
 use crate::design::section_file;
 use crate::design::terrain_file::{Asked, terrain};
@@ -99,6 +99,14 @@ fn read_hydrograph(entries: &mut Entries, open: Open) -> Read {
     let file = key("file");
     let wanted = "a table of time, depth or discharge, and velocity beside the design file";
     let read = opened(entries, &file, open, wanted)?;
+    if let Some(typed) = LISTS.iter().find(|list| entries.mentions(&key(list))) {
+        return Some(Err(Problem::new(
+            key(typed),
+            format!("`{typed}` beside a file"),
+            "a file, or the lists of its columns",
+        )
+        .hint("leave one of them out")));
+    }
     Some(read.and_then(|(name, bytes)| {
         let columns = hydrograph_file::parse(&bytes)
             .map_err(|(found, hint)| Problem::new(&file, format!("`{name}`, {found}"), wanted).hint(hint))?;
@@ -109,11 +117,8 @@ fn read_hydrograph(entries: &mut Entries, open: Open) -> Read {
                 Column::Discharge => "discharges",
                 Column::Velocity => "velocities",
             };
-            // What is typed beside a file is told of; it is not lost.
-            if !entries.mentions(&key(list)) {
-                let typed = format!("{} rows of {name}", values.len());
-                put(entries, &file, &key(list), Value::Numbers(values), typed);
-            }
+            let typed = format!("{} rows of {name}", values.len());
+            put(entries, &file, &key(list), Value::Numbers(values), typed);
         }
         Ok((name, bytes))
     }))

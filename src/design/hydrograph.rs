@@ -177,10 +177,10 @@ mod tests {
 
     #[test]
     fn the_hardest_rows_are_of_flux_depth_velocity_and_head() {
-        let table = Hydrograph(vec![row(0.0, 0.2, 9.0), row(1.0, 1.0, 6.0), row(2.0, 1.5, 2.0)]);
+        let table = Hydrograph(vec![row(0.0, 0.2, 7.0), row(1.0, 1.0, 6.0), row(2.0, 1.5, 2.0)]);
         let hardest = table.hardest();
         assert_eq!((hardest[0].depth, hardest[0].velocity), (1.0, 6.0));
-        assert!(hardest.iter().any(|row| row.depth == 1.5) && hardest.iter().any(|row| row.velocity == 9.0));
+        assert!(hardest.iter().any(|row| row.depth == 1.5) && hardest.iter().any(|row| row.velocity == 7.0));
         // Within a fall of the velocity under a rise of the depth h v² may be larger than at either end.
         let crossing = Hydrograph(vec![row(0.0, 0.1, 6.0), row(3.0, 2.0, 1.0)]).hardest()[0];
         assert!(crossing.time > 0.0 && crossing.time < 3.0, "{crossing:?}");

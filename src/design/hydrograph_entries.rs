@@ -6,6 +6,9 @@ use crate::design::hydrograph::{Hydrograph, Moment};
 
 pub const HYDROGRAPH: &str = "flow.arrival.hydrograph";
 
+/// Keys of its columns.
+pub const LISTS: [&str; 4] = ["times", "depths", "discharges", "velocities"];
+
 /// Where a key of it stands.
 pub fn key(name: &str) -> String {
     format!("{HYDROGRAPH}.{name}")

@@ -1,7 +1,7 @@
 //! Contradictions between the values of a hydrograph.
 
 use crate::design::channel_entries::{height_of_sides, section, survey};
-use crate::design::entries::{Entries, Origin};
+use crate::design::entries::Entries;
 use crate::design::flow_entries::size_curve;
 use crate::design::hydrograph_entries::{HYDROGRAPH, hydrograph, key};
 use crate::design::show::length;
@@ -25,22 +25,12 @@ fn unread(e: &Entries) -> bool {
 }
 
 /// Rows come from a file or stand in the design.
-pub fn table_has_one_place(e: &Entries) -> Option<Problem> {
-    let lists = ["times", "depths", "discharges", "velocities"];
-    let typed = |name: &&str| {
-        e.mentions(&key(name)) && e.values.get(&key(name)).is_none_or(|entry| entry.origin != Origin::File)
-    };
-    match (e.mentions(&key("file")), lists.iter().find(|name| typed(name))) {
-        (true, Some(name)) => Some(
-            Problem::new(key(name), format!("`{name}` beside a file"), "a file, or the lists of its columns")
-                .hint("leave one of them out"),
-        ),
-        (false, _) if is_there(e) && !e.mentions(&key("times")) => Some(
-            Problem::new(HYDROGRAPH, "neither a file nor times", "a file, or times with depths or discharges")
-                .hint("a file is a table like `time (s),depth (m),velocity (m/s)`"),
-        ),
-        _ => None,
-    }
+pub fn table_is_there(e: &Entries) -> Option<Problem> {
+    let missing = is_there(e) && !e.mentions(&key("file")) && !e.mentions(&key("times"));
+    missing.then(|| {
+        Problem::new(HYDROGRAPH, "neither a file nor times", "a file, or times with depths or discharges")
+            .hint("a file is a table like `time (s),depth (m),velocity (m/s)`")
+    })
 }
 
 /// Depth and velocity follow from what is given, one way.
@@ -98,8 +88,7 @@ pub fn values_are_within_bounds(e: &Entries) -> Option<Problem> {
 
 /// Something comes: the lists are sound and hold a volume.
 pub fn something_comes(e: &Entries) -> Option<Problem> {
-    let rules =
-        [table_has_one_place, rows_are_told_one_way, columns_are_equally_long, times_rise, values_are_within_bounds];
+    let rules = [table_is_there, rows_are_told_one_way, columns_are_equally_long, times_rise, values_are_within_bounds];
     let silent =
         e.numbers(&key("times")).is_some() && section(e).is_some() && rules.iter().all(|rule| rule(e).is_none());
     let given = ["depths", "discharges"].iter().any(|name| e.numbers(&key(name)).is_some());

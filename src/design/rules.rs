@@ -53,7 +53,7 @@ pub const RULES: &[Rule] = &[
     surge_rules::surges_have_one_size,
     surge_rules::surges_make_the_flow,
     surge_rules::first_surge_comes_first,
-    hydrograph_rules::table_has_one_place,
+    hydrograph_rules::table_is_there,
     hydrograph_rules::rows_are_told_one_way,
     hydrograph_rules::columns_are_equally_long,
     hydrograph_rules::times_rise,

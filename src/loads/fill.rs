@@ -15,6 +15,8 @@ const STEPS: f64 = 40.0;
 /// How close a height is sought, as a share, and tries at the most.
 const CLOSE: f64 = 1e-9;
 const MOST_TRIES: usize = 60;
+/// Times that a height is brought closer before it is bracketed.
+const CLOSER: usize = 3;
 /// Steps after which a surface is taken never to meet the bed.
 const MOST_STEPS: usize = 20_000;
 
@@ -279,8 +281,11 @@ impl Reservoir {
         }
         let even = Some(self.section.height_of_moment(volume / spread)).filter(|height| height.is_normal())?;
         // Volumes go about with the square of the height.
-        let near = even * (volume / holds(even)?).sqrt();
-        let around = [0.97 * near, 1.03 * near];
+        let mut near = even;
+        for _ in 0..CLOSER {
+            near *= (volume / holds(near)?).sqrt();
+        }
+        let around = [0.99 * near, 1.01 * near];
         (holds(around[0])? < volume && holds(around[1])? >= volume).then_some(around)
     }
 

@@ -56,6 +56,8 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     add("incoming_velocity_m_s".into(), incoming.iter().map(|gauge| gauge.velocity).collect());
     add("approaching_thickness_m".into(), histories.approaching.iter().map(|gauge| gauge.thickness).collect());
     add("approaching_velocity_m_s".into(), histories.approaching.iter().map(|gauge| gauge.velocity).collect());
+    add("entered_mass_kg".into(), histories.entered.iter().map(|[mass, ..]| *mass).collect());
+    add("entered_momentum_kg_m_s".into(), histories.entered.iter().map(|[_, momentum, _]| *momentum).collect());
     add("front_m".into(), histories.front.clone());
     add("deposit_depth_m".into(), histories.barrier_depth.clone());
     add("kinetic_j".into(), histories.ledger.iter().map(|ledger| ledger.kinetic).collect());

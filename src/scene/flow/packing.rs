@@ -473,7 +473,7 @@ mod tests {
         let volume: f64 = bodies.iter().map(|body| body.mass / 2650.0).sum::<f64>() / 0.55;
         let (width, height, nose) = (3.0, 1.2, 2.0);
         let size = Vec3::new(volume / (width * height) + 0.5 * nose, width, height);
-        let room = PackingRoom { size, nose, apart: true, ground: None, grows: Growth::Along };
+        let room = PackingRoom { nose, ..PackingRoom::level(size, true) };
         let (grains, growth) = pack(&bodies, GrainShape::Clump, room, 1).expect("fits");
         let length = growth * size.x;
         assert!(length <= 1.0501 * size.x, "{length}");
