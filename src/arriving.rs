@@ -31,7 +31,8 @@ pub fn of_surge(led: &Design, simulated: &Simulated, number: usize) -> Arrives {
         let velocity = simulated.spread_of_first(velocity_at_barrier).mean;
         let depth = simulated.spread_of_first(|seen| seen.incoming.depth).mean;
         let flux = simulated.spread_of_first(|seen| seen.incoming.flux).mean;
-        return Arrives { velocity, depth, flux_share: given_flux(led).map_or(1.0, |given| flux / given) };
+        let given = given_flux(led).filter(|_| led.flow.hydrograph.is_none());
+        return Arrives { velocity, depth, flux_share: given.map_or(1.0, |given| flux / given) };
     }
     let [velocity, flux] = on_deposit(&simulated.starts, number);
     Arrives { velocity, depth: 0.0, flux_share: given_flux(led).map_or(f64::NAN, |given| flux / given) }
@@ -62,6 +63,10 @@ fn first_surge_that_falls_short(design: &Design, simulated: &Simulated) -> Optio
     let flux = simulated.spread_of_first(|seen| seen.incoming.flux).mean;
     if velocity.is_nan() || flux.is_nan() {
         return Some("the velocity with which the simulated flow arrives is not a number".into());
+    }
+    // What comes in is what the table says; how it arrives is a part of the answer.
+    if design.flow.hydrograph.is_some() {
+        return None;
     }
     let (depth, given) = given_arrival(&design.flow.arrival)?;
     (!like_the_design(given_flux(design), given, velocity, flux)).then(|| {

@@ -6,6 +6,7 @@ use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
 pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
+use crate::loads::impact::hertz;
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState};
 use crate::loads::run_up;
@@ -162,8 +163,8 @@ fn flows_with(design: &Design, event: &EventFill, first: GuidelineInput) -> Vec<
     let (depth, velocity) = incoming(design);
     let fills = first.fill_height / event.filled(design, first).fill_height;
     let surges = design.flow.later.iter().map(|later| [later.surge.depth, later.surge.velocity]);
-    let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.hardest().into_iter().skip(1));
-    let later = surges.chain(rows.map(|row| [row.depth, row.velocity])).map(|own| {
+    let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.hard.iter().skip(1));
+    let later = surges.chain(rows.map(|hard| [hard.moment.depth, hard.moment.velocity])).map(|own| {
         let [depth, velocity] = [own[0] * first.depth / depth, own[1] * first.velocity / velocity];
         let flow = event.filled(design, GuidelineInput { depth, velocity, ..first });
         GuidelineInput { fill_height: (flow.fill_height * fills).min(flow.barrier_height), ..flow }
@@ -231,12 +232,16 @@ impl EventFill {
         // The smaller the last surge is, the more lies there already.
         let later = design.flow.later.iter().map(|later| later.volume);
         let last = later.fold(design.flow.volume(), f64::min);
-        let before = (event - last / width).max(0.0);
+        // Before the last of the hardest moments of a hydrograph lies what has come until then, and more where the event is larger.
+        let to_come = design.flow.hydrograph.as_ref().map_or(last, |hydrograph| {
+            design.flow.volume() - hydrograph.hard.iter().map(|hard| hard.before).fold(0.0, larger_or_nan)
+        });
+        let before = (event - to_come / width).max(0.0);
         Self {
             level: reservoir.height(event, 0.0),
             heap: reservoir.height(event, repose),
             run_up: 0.0,
-            several: design.flow.is_one_of_several(),
+            several: design.flow.is_one_of_several() || design.flow.hydrograph.is_some(),
             before_last: reservoir.height(before, 0.0),
         }
     }
@@ -295,13 +300,26 @@ fn bolt_spaces(design: &Design) -> Option<f64> {
     Some(net.bed_bolts?.spaces(design.channel.section().bed_length()) as f64)
 }
 
+/// Force (N) and height (m) of what hits the barrier at one place: as the design gives it, or on a wall of the largest of its boulders, at the
+/// surface of the flow that brings it.
+pub fn point_load(design: &Design) -> Option<(f64, f64)> {
+    let of_boulders = || {
+        let on_a_wall = matches!(design.barrier, BarrierDesign::RigidWall(_)) && !design.flow.boulders.is_empty();
+        let (depth, velocity) = incoming(design);
+        let [diameter, mass] = design.flow.largest();
+        let force = design.loads.impact_reduction * hertz(0.5 * diameter, mass, velocity);
+        on_a_wall.then(|| (force, larger_or_nan(depth, 0.5 * diameter).min(height_over_bed(design))))
+    };
+    design.loads.point_load.or_else(of_boulders)
+}
+
 fn extras(design: &Design) -> Extras {
     let loads = &design.loads;
     Extras {
         overflow_depth: loads.overflow_depth,
         overflow_drag: loads.overflow_drag.map(|(friction, length)| [friction, length]),
         drained: loads.drained.map(|(earth_pressure, density)| [earth_pressure, density]),
-        point: loads.point_load.map(|(force, height)| PointLoad { force, height }),
+        point: point_load(design).map(|(force, height)| PointLoad { force, height }),
         snow: loads.snow_pressure,
     }
 }

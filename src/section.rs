@@ -29,6 +29,7 @@ pub struct Survey {
     bed: [usize; 2],
     /// Where y = 0 lies as it was surveyed, to the right looking downstream.
     datum: f64,
+    levels: Vec<Level>,
 }
 
 /// A strip of ground between two points of a survey.
@@ -65,7 +66,7 @@ impl Survey {
         };
         let first = outwards(&(0..=deepest).rev().collect::<Vec<_>>());
         let last = outwards(&(deepest..points.len()).collect::<Vec<_>>());
-        Self { points, bed: [first, last], datum }
+        Self { levels: levels(&points), points, bed: [first, last], datum }
     }
 
     /// A level bed between vertical walls (m).
@@ -137,45 +138,70 @@ impl Survey {
         [outwards(&mut (0..deepest).rev()), outwards(&mut (deepest + 1..self.points.len()))]
     }
 
-    fn sum(&self, strip: impl Fn(&[[f64; 2]]) -> f64) -> f64 {
-        self.points.windows(2).map(strip).sum()
+    /// What a level surface at z spans, over the last kink below it: width, its gain with height, area and moment there, and the height over it.
+    fn over_a_kink(&self, z: f64) -> Option<(&Level, f64)> {
+        let level = self.levels.partition_point(|level| level.z < z).checked_sub(1).map(|below| &self.levels[below])?;
+        Some((level, z - level.z))
     }
 
     fn area(&self, z: f64) -> f64 {
-        self.sum(|pair| {
-            let [a, b] = [0, 1].map(|end| z - pair[end][1]);
-            let width = pair[1][0] - pair[0][0];
-            match (a > 0.0, b > 0.0) {
-                (true, true) => 0.5 * width * (a + b),
-                (false, false) => 0.0,
-                _ => 0.5 * width * a.max(b) * (a.max(b) / (a - b).abs()),
-            }
-        })
+        self.over_a_kink(z).map_or(0.0, |(level, up)| level.area + up * (level.width + 0.5 * level.gain * up))
     }
 
     fn moment(&self, z: f64) -> f64 {
-        self.sum(|pair| {
-            let [a, b] = [0, 1].map(|end| z - pair[end][1]);
-            let width = pair[1][0] - pair[0][0];
-            match (a > 0.0, b > 0.0) {
-                (true, true) => width * (a * a + a * b + b * b) / 6.0,
-                (false, false) => 0.0,
-                _ => width * a.max(b).powi(2) * (a.max(b) / (a - b).abs()) / 6.0,
-            }
+        self.over_a_kink(z).map_or(0.0, |(level, up)| {
+            level.moment + up * (level.area + up * (0.5 * level.width + level.gain * up / 6.0))
         })
     }
 
     fn width(&self, z: f64) -> f64 {
-        self.sum(|pair| {
-            let [a, b] = [0, 1].map(|end| z - pair[end][1]);
-            let width = pair[1][0] - pair[0][0];
-            match (a > 0.0, b > 0.0) {
-                (true, true) => width,
-                (false, false) => 0.0,
-                _ => width * (a.max(b) / (a - b).abs()),
-            }
-        })
+        self.over_a_kink(z).map_or(0.0, |(level, up)| level.width + level.gain * up)
     }
+}
+
+/// A height at which w(z) has a kink, and what is there for what lies just above it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Level {
+    z: f64,
+    /// w (m) and dw/dz.
+    width: f64,
+    gain: f64,
+    /// A (m²) and S (m³).
+    area: f64,
+    moment: f64,
+}
+
+/// The kinks of w(z), rising: the heights of the points.
+fn levels(points: &[[f64; 2]]) -> Vec<Level> {
+    let mut heights: Vec<f64> = points.iter().map(|point| point[1]).collect();
+    heights.sort_by(f64::total_cmp);
+    heights.dedup();
+    let at = |z: f64| heights.partition_point(|height| *height < z);
+    let mut levels: Vec<Level> =
+        heights.iter().map(|z| Level { z: *z, width: 0.0, gain: 0.0, area: 0.0, moment: 0.0 }).collect();
+    // Width of all strips that are wholly below a level from there on.
+    let mut whole = vec![0.0; levels.len()];
+    for pair in points.windows(2) {
+        let width = pair[1][0] - pair[0][0];
+        let [low, high] = [pair[0][1].min(pair[1][1]), pair[0][1].max(pair[1][1])];
+        whole[at(high)] += width;
+        for level in &mut levels[at(low)..at(high)] {
+            level.width += width * (level.z - low) / (high - low);
+            level.gain += width / (high - low);
+        }
+    }
+    let (mut below, mut before) = (0.0, None::<Level>);
+    for (level, whole) in levels.iter_mut().zip(whole) {
+        below += whole;
+        level.width += below;
+        if let Some(Level { z, width, gain, area, moment }) = before {
+            let up = level.z - z;
+            level.area = area + up * (width + 0.5 * gain * up);
+            level.moment = moment + up * (area + up * (0.5 * width + gain * up / 6.0));
+        }
+        before = Some(*level);
+    }
+    levels
 }
 
 impl Section {
@@ -294,12 +320,7 @@ impl Section {
     pub fn kinks(&self) -> Vec<f64> {
         match self {
             Self::Rectangle { .. } => Vec::new(),
-            Self::Surveyed(survey) => {
-                let mut heights: Vec<f64> = survey.points.iter().map(|point| point[1]).collect();
-                heights.sort_by(f64::total_cmp);
-                heights.dedup();
-                heights
-            }
+            Self::Surveyed(survey) => survey.levels.iter().map(|level| level.z).collect(),
         }
     }
 }

@@ -144,7 +144,14 @@ fn a_table_is_the_same_however_it_is_told() {
     ] {
         let told = design(&TINY.replace(lists, other)).flow;
         assert!((told.mass / own.flow.mass - 1.0).abs() < 1e-9, "{other}");
-        for (a, b) in told.hydrograph.expect("a table").0.iter().zip(&own.flow.hydrograph.as_ref().expect("a table").0)
+        for (a, b) in own
+            .flow
+            .hydrograph
+            .as_ref()
+            .expect("a table")
+            .rows
+            .iter()
+            .map(|row| (told.hydrograph.as_ref().expect("a table").at(row.time), row))
         {
             assert!((a.time - b.time).abs() < 1e-9 && (a.depth - b.depth).abs() < 1e-9, "{a:?} {b:?}");
             assert!((a.velocity - b.velocity).abs() < 1e-9, "{a:?} {b:?}");
@@ -158,4 +165,74 @@ fn a_table_is_the_same_however_it_is_told() {
     let read = read_design_for(Purpose::Simulation, "x.yaml", text.as_bytes(), &open).expect("a design");
     assert!((read.design.flow.mass / own.flow.mass - 1.0).abs() < 1e-9);
     assert!(read.attached.contains_key("flow.csv"));
+}
+
+/// What comes late runs up on what came before, as a later surge does: level, height of filling and force are no less than those of the two as
+/// surges.
+#[test]
+fn a_late_peak_runs_up_on_what_came_before() {
+    let table = [[0.0, 0.3, 2.5], [4.0, 0.3, 2.5], [4.2, 0.6, 5.0], [5.0, 0.6, 5.0]];
+    let hydrograph = design(&with_table(&table, "width: 3 m"));
+    let volume = hydrograph.flow.volume();
+    let late = 3.0 * 0.6 * 5.0 * 0.8;
+    let surges = format!(
+        "surges: [{{volume: {} m3, depth: 0.3 m, velocity: 2.5 m/s}}, {{volume: {late} m3, depth: 0.6 m, velocity: 5 m/s}}]",
+        volume - late
+    );
+    let text = with_table(&table, "width: 3 m");
+    let (before, rest) = text.split_once("hydrograph: {").expect("a table");
+    let (_, after) = rest.split_once('}').expect("its end");
+    let surges = design(&format!("{before}{surges}{after}"));
+    let [one, other] = [&hydrograph, &surges].map(guideline);
+    assert!((surges.flow.volume_of_all() / volume - 1.0).abs() < 1e-9);
+    assert!(one.level > 0.98 * other.level, "{} {}", one.level, other.level);
+    assert!(one.largest_force > 0.98 * other.largest_force, "{} {}", one.largest_force, other.largest_force);
+    assert!(one.level > 1.2 * guideline(&design(&with_table(&table[2..], "width: 3 m"))).level);
+}
+
+/// A thin fast front takes nothing off what a deep slow flow does, nor does it the other way round.
+#[test]
+fn what_comes_besides_lowers_no_load() {
+    let loads = |rows: &[[f64; 3]]| {
+        let design = design(&with_table(rows, "width: 3 m"));
+        let guideline = guideline(&design);
+        let mut loads: Vec<f64> = guideline.ropes.iter().map(|rope| rope.load).collect();
+        loads.extend([guideline.largest_force, guideline.level, guideline.bolt_force.expect("bolts")]);
+        loads
+    };
+    let [fast, middle, deep] = [[0.3, 7.0], [0.5, 6.0], [1.0, 4.3]];
+    let table = |rows: &[[f64; 2]]| {
+        let rows = rows.iter().enumerate();
+        rows.flat_map(|(n, [h, v])| [[2.0 * n as f64, *h, *v], [2.0 * n as f64 + 1.0, *h, *v]]).collect::<Vec<_>>()
+    };
+    let all = loads(&table(&[fast, middle, deep]));
+    for part in [vec![fast], vec![middle], vec![deep], vec![middle, deep]] {
+        for (whole, part) in all.iter().zip(loads(&table(&part))) {
+            assert!(*whole >= 0.999 * part, "{whole} {part}");
+        }
+    }
+}
+
+/// What is straight between the rows is what is given: a triangle of 8 m³/s over 10 s brings 40 m³, in any section, however it is told.
+#[test]
+fn a_discharge_keeps_its_volume() {
+    let times = "times: [0 s, 5 s, 10 s]";
+    let tables = [
+        "discharges: [0 m3/s, 8 m3/s, 0 m3/s], velocity: 4 m/s",
+        "discharges: [0 m3/s, 8 m3/s, 0 m3/s], velocities: [0 m/s, 4 m/s, 0 m/s]",
+        "discharges: [0 m3/s, 8 m3/s, 0 m3/s], depths: [0 m, 0.7 m, 0 m]",
+    ];
+    let trapezoid = "section: {trapezoid: {bed_width: 2 m, left_bank: 45 deg, right_bank: 45 deg, depth: 3 m}}";
+    for section in ["width: 3 m", trapezoid] {
+        for table in tables {
+            let lists =
+                "times: [0 s, 0.4 s, 0.9 s], depths: [0.6 m, 0.5 m, 0.3 m], velocities: [4.6 m/s, 4.2 m/s, 3.6 m/s]";
+            let mut text = TINY.replace(lists, &format!("{times}, {table}")).replace("width: 3 m", section);
+            if section == trapezoid {
+                text = text.lines().filter(|line| !line.contains("wall_height")).collect::<Vec<_>>().join("\n");
+            }
+            let volume = design(&text).flow.volume();
+            assert!((volume / 40.0 - 1.0).abs() < 0.01, "{section} {table}: {volume}");
+        }
+    }
 }

@@ -114,7 +114,7 @@ pub fn doubts(numerics: &Numerics) -> Vec<String> {
     );
     hold(
         "the work with which the flow at the inlet pushes on what stands before it, over that of its static pressure,",
-        numerics.pushed_in.max(0.0),
+        if numerics.pushed_in < 0.0 { 0.0 } else { numerics.pushed_in },
         PUSHED_LIMIT,
         "the flow backs up to the inlet, or comes in faster than what came in before it: a longer run_in gives it room",
     );

@@ -252,7 +252,14 @@ fn of_discharge(design: &Design, guideline: &Guideline) -> Rule {
         most: Some(LIKE_DISCHARGES),
         unit: "",
         source: "Rickenmann 1999, Q = 0.1 V^0.833, not checked against the original; such estimates scatter by a factor of two and more",
-        advice: "volume, depth and velocity look inconsistent: is flow.volume one surge of a larger event (flow.event_volume)?",
+        advice: match design.flow.hydrograph {
+            Some(_) => {
+                "the discharge and the volume of the hydrograph look inconsistent: is it a part of a larger event (flow.event_volume)?"
+            }
+            None => {
+                "volume, depth and velocity look inconsistent: is flow.volume one surge of a larger event (flow.event_volume)?"
+            }
+        },
         bearing: Bearing::Flow,
     }
 }

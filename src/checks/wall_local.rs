@@ -3,18 +3,21 @@
 use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
+use crate::guideline::point_load;
 use crate::quantities::quantity::Unit;
 use crate::quantities::total_force;
 use crate::sources::DESIGN_LIMIT;
 
+const OF_A_BOULDER: &str = "limit of the design file; the load is the elastic force of a boulder of flow.boulders (Hertz 1882) times loads.impact_reduction, which is uncertain";
+
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
-    let (Some(characteristic), Some(_)) = (wall.resistance, design.loads.point_load) else { return Vec::new() };
+    let (Some(characteristic), Some(_)) = (wall.resistance, point_load(design)) else { return Vec::new() };
     let name = CheckName::new(
         "wall_local_force",
         "Force on the metre of the wall that the point load hits, per width",
         Unit::NewtonPerMetre,
-        DESIGN_LIMIT,
+        if design.loads.point_load.is_some() { DESIGN_LIMIT } else { OF_A_BOULDER },
     );
     let resistance =
         Resistance { characteristic: characteristic / design.channel.width, factor: wall.resistance_factor };

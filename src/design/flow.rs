@@ -31,6 +31,8 @@ pub struct Flow {
     pub arrival: Arrival,
     /// How it comes by time at an inlet; its arrival is then that of a surge of the whole with the depth and the velocity of the hardest row.
     pub hydrograph: Option<Hydrograph>,
+    /// Boulders that come with it, or with the first of several surges; a part of its mass.
+    pub boulders: Vec<Boulders>,
     /// The surges that come after the first, in their order.
     pub later: Vec<LaterSurge>,
 }
@@ -52,6 +54,39 @@ impl PoreFluid {
     /// K of the whole pressure where the grains' share of it has a K of their own: r_u + (1 − r_u) K.
     pub fn of_the_whole(&self, earth_pressure: f64) -> f64 {
         self.pressure_ratio + (1.0 - self.pressure_ratio) * earth_pressure
+    }
+}
+
+/// Boulders of one size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Boulders {
+    /// Of a sphere of the same volume (m).
+    pub diameter: f64,
+    pub number: u32,
+    /// Ahead of the front of the flow, side by side on the bed; else anywhere in it.
+    pub at_front: bool,
+    /// kg/m³
+    pub density: f64,
+}
+
+/// Distance between boulders side by side, and between their rows, over their sizes.
+const PITCH: f64 = 1.05;
+
+impl Boulders {
+    /// Of all (kg).
+    pub fn mass(&self) -> f64 {
+        f64::from(self.number) * self.density * std::f64::consts::PI / 6.0 * self.diameter.powi(3)
+    }
+
+    /// No less than the length and the breadth of one of them (m), with the length over breadth of the grains.
+    pub fn extent(&self, aspect: f64) -> [f64; 2] {
+        [aspect * self.diameter, self.diameter]
+    }
+
+    /// How many of a length and breadth lie side by side across a width, and how long all their rows are along the bed (m).
+    pub fn rows(&self, width: f64, [length, breadth]: [f64; 2]) -> (u32, f64) {
+        let abreast = ((width / (PITCH * length)).floor() as u32).clamp(1, self.number.max(1));
+        (abreast, f64::from(self.number.div_ceil(abreast)) * PITCH * breadth)
     }
 }
 
@@ -93,6 +128,20 @@ impl Flow {
     /// Whether its event is more than all surges that are given.
     pub fn is_part_of_its_event(&self) -> bool {
         self.event_volume > 1.001 * self.volume_of_all()
+    }
+
+    /// Mass of its grains without the boulders (kg).
+    pub fn mass_of_grains(&self) -> f64 {
+        self.mass - self.boulders.iter().map(Boulders::mass).sum::<f64>()
+    }
+
+    /// The largest stone that it brings: its diameter (m) and its mass (kg).
+    pub fn largest(&self) -> [f64; 2] {
+        let diameter = self.sizes.quantile(1.0);
+        let grain = [diameter, self.grain_density() * std::f64::consts::PI / 6.0 * diameter.powi(3)];
+        let boulders =
+            self.boulders.iter().map(|boulders| [boulders.diameter, boulders.mass() / f64::from(boulders.number)]);
+        boulders.fold(grain, |largest, boulder| if boulder[1] > largest[1] { boulder } else { largest })
     }
 
     /// Volume of the flow with its pores, of the first surge where there are several (m³).
@@ -157,7 +206,8 @@ impl Flow {
 
     /// One surge alone, counted from 0.
     pub fn alone(&self, number: usize) -> Self {
-        let alone = Self { later: Vec::new(), ..self.clone() };
+        let boulders = if number == 0 { self.boulders.clone() } else { Vec::new() };
+        let alone = Self { later: Vec::new(), boulders, ..self.clone() };
         let Some(later) = number.checked_sub(1).and_then(|number| self.later.get(number)) else { return alone };
         let with_its_surge =
             Self { mass: later.volume * self.bulk_density, arrival: Arrival::Surge(later.surge), ..alone };

@@ -1,6 +1,7 @@
 //! What the entries of a design say of its flow: volume, grain sizes, how many grains that makes, and how it is cut.
 
 use crate::design::entries::Entries;
+use crate::design::flow::Boulders;
 use crate::design::hydrograph_entries::hydrograph_volume;
 use crate::design::schema::QUANTILES;
 use crate::design::sizes::SizeCurve;
@@ -44,6 +45,20 @@ pub fn size_curve_at(e: &Entries, sizes: &str) -> Option<SizeCurve> {
 /// The lowest share of the mass of which the grain sizes at a path give a size.
 pub fn curve_known_from(e: &Entries, sizes: &str) -> f64 {
     quantiles(e, sizes).first().map_or(0.0, |(share, _)| *share)
+}
+
+/// The boulders that are listed; none where there is no list.
+pub fn boulders(e: &Entries) -> Option<Vec<Boulders>> {
+    let one = |number: usize| {
+        let value = |key: &str| e.number(&format!("flow.boulders.{number}.{key}"));
+        Some(Boulders {
+            diameter: value("diameter")?,
+            number: value("number")? as u32,
+            at_front: e.text(&format!("flow.boulders.{number}.where")) != Some("spread"),
+            density: value("density").or_else(|| e.number("flow.solid_density")).unwrap_or(f64::NAN),
+        })
+    };
+    (0..).take_while(|number| e.has_section(&format!("flow.boulders.{number}"))).map(one).collect()
 }
 
 /// Grains of all surges, as if all were of one curve.

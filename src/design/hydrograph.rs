@@ -1,7 +1,6 @@
 //! The flow by time at an inlet: depth and velocity, straight between the times that are given.
 
 use crate::section::Section;
-use crate::units::GRAVITY;
 
 /// One row of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,17 +13,39 @@ pub struct Moment {
     pub velocity: f64,
 }
 
+/// A moment that loads a barrier as no other does, and what has come before it (m³).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hard {
+    pub moment: Moment,
+    pub before: f64,
+}
+
 /// Times rise from 0; flow comes between the first and the last.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hydrograph(pub Vec<Moment>);
+pub struct Hydrograph {
+    pub rows: Vec<Moment>,
+    /// The moments than which none is both deeper and faster, that of the largest momentum A v² first.
+    pub hard: Vec<Hard>,
+}
 
 /// Parts of an interval over which what passes is summed, by Simpson's rule in each: exact in a rectangle.
 const PARTS: usize = 8;
 
+/// Hard moments at the most: beyond that those of like depth are taken together, with the largest depth and velocity of them.
+const MOST_HARD: usize = 16;
+
 impl Hydrograph {
+    /// Of rows in a section.
+    pub fn new(rows: Vec<Moment>, section: &Section) -> Self {
+        let mut hydrograph = Self { rows, hard: Vec::new() };
+        let hard = hydrograph.hardest(section).into_iter();
+        hydrograph.hard = hard.map(|moment| Hard { moment, before: hydrograph.volume(section, moment.time) }).collect();
+        hydrograph
+    }
+
     /// Depth and velocity at a time (s); none before the first and after the last.
     pub fn at(&self, time: f64) -> Moment {
-        let rows = &self.0;
+        let rows = &self.rows;
         let next = rows.partition_point(|row| row.time <= time);
         match (next.checked_sub(1).map(|before| rows[before]), rows.get(next)) {
             (Some(before), Some(next)) => {
@@ -43,7 +64,7 @@ impl Hydrograph {
 
     /// Time over which flow comes (s).
     pub fn duration(&self) -> f64 {
-        self.0.last().map_or(0.0, |last| last.time)
+        self.rows.last().map_or(0.0, |last| last.time)
     }
 
     /// Volume that has passed at a time (m³), ∫ A(h) v dt.
@@ -69,7 +90,7 @@ impl Hydrograph {
     /// Sum over time of what a row passes in a second.
     fn sum(&self, time: f64, rate: impl Fn(Moment) -> f64) -> f64 {
         let mut sum = 0.0;
-        for pair in self.0.windows(2) {
+        for pair in self.rows.windows(2) {
             let (from, to) = (pair[0].time, pair[1].time.min(time));
             if to <= from {
                 break;
@@ -102,37 +123,43 @@ impl Hydrograph {
         late
     }
 
-    /// The rows that load a barrier most: of the largest momentum flux h v² first, then those of the largest depth, velocity, and head
-    /// h + v²/2g where they are others.
-    pub fn hardest(&self) -> Vec<Moment> {
-        let measures: [fn(&Moment) -> f64; 4] = [
-            |row| row.depth * row.velocity * row.velocity,
-            |row| row.depth,
-            |row| row.velocity * f64::from(u8::from(row.depth > 0.0)),
-            |row| row.depth + row.velocity * row.velocity / (2.0 * GRAVITY),
-        ];
-        let mut hardest: Vec<Moment> = Vec::new();
-        for measure in measures {
-            // Between two rows all of them but the first are largest at an end; h v² may be larger between them.
-            let all = self.0.windows(2).flat_map(|pair| between(pair[0], pair[1]));
-            if let Some(row) = all.max_by(|a, b| measure(a).total_cmp(&measure(b)))
-                && !hardest.iter().any(|known| known.depth == row.depth && known.velocity == row.velocity)
-            {
-                hardest.push(row);
-            }
-        }
-        hardest
+    /// The moments than which none is both deeper and faster, that of the largest momentum A v² first.
+    fn hardest(&self, section: &Section) -> Vec<Moment> {
+        let mut all: Vec<Moment> = self.rows.windows(2).flat_map(|pair| between(pair[0], pair[1])).collect();
+        all.retain(|moment| moment.depth > 0.0 && moment.velocity > 0.0);
+        all.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(b.velocity.total_cmp(&a.velocity)));
+        let mut fastest = 0.0;
+        all.retain(|moment| {
+            let faster = moment.velocity > fastest;
+            fastest = fastest.max(moment.velocity);
+            faster
+        });
+        let momentum = |moment: &Moment| section.area(moment.depth) * moment.velocity * moment.velocity;
+        let leads = all.iter().copied().max_by(|a, b| momentum(a).total_cmp(&momentum(b)));
+        let alike = all.len().div_ceil(MOST_HARD).max(1);
+        let together = |some: &[Moment]| Moment {
+            depth: some[0].depth,
+            velocity: some[some.len() - 1].velocity,
+            time: some.iter().map(|moment| moment.time).fold(0.0, f64::max),
+        };
+        let mut hard: Vec<Moment> = leads.into_iter().collect();
+        hard.extend(all.chunks(alike).map(together).filter(|moment| Some(*moment) != leads));
+        hard
     }
 
     /// The same flow in so many times the time.
     pub fn longer(&self, factor: f64) -> Self {
-        Self(self.0.iter().map(|row| Moment { time: row.time * factor, ..*row }).collect())
+        self.changed(|row| Moment { time: row.time * factor, ..row }, factor)
     }
 
     /// The same volume with so many times the velocity, in the less time.
     pub fn faster(&self, factor: f64) -> Self {
-        let faster = |row: &Moment| Moment { time: row.time / factor, velocity: row.velocity * factor, ..*row };
-        Self(self.0.iter().map(faster).collect())
+        self.changed(|row| Moment { time: row.time / factor, velocity: row.velocity * factor, ..row }, 1.0)
+    }
+
+    fn changed(&self, change: impl Fn(Moment) -> Moment, volume: f64) -> Self {
+        let hard = |hard: &Hard| Hard { moment: change(hard.moment), before: hard.before * volume };
+        Self { rows: self.rows.iter().copied().map(&change).collect(), hard: self.hard.iter().map(hard).collect() }
     }
 }
 
@@ -162,8 +189,8 @@ mod tests {
     /// Up to 1 m and 4 m/s in 2 s, and down in 6 s, 3 m wide: ∫ h v dt of a triangle times a triangle is t/3 of the product of the peaks.
     #[test]
     fn a_triangle_has_its_volume_way_and_momentum() {
-        let table = Hydrograph(vec![row(0.0, 0.0, 0.0), row(2.0, 1.0, 4.0), row(8.0, 0.0, 0.0)]);
         let section = Section::Rectangle { width: 3.0 };
+        let table = Hydrograph::new(vec![row(0.0, 0.0, 0.0), row(2.0, 1.0, 4.0), row(8.0, 0.0, 0.0)], &section);
         assert_relative_eq!(table.volume(&section, 2.0), 3.0 * 2.0 * 4.0 / 3.0, max_relative = 1e-12);
         assert_relative_eq!(table.volume(&section, 99.0), 3.0 * 8.0 * 4.0 / 3.0, max_relative = 1e-12);
         assert_relative_eq!(table.way(8.0), 16.0, max_relative = 1e-12);
@@ -176,20 +203,36 @@ mod tests {
     }
 
     #[test]
-    fn the_hardest_rows_are_of_flux_depth_velocity_and_head() {
-        let table = Hydrograph(vec![row(0.0, 0.2, 7.0), row(1.0, 1.0, 6.0), row(2.0, 1.5, 2.0)]);
-        let hardest = table.hardest();
-        assert_eq!((hardest[0].depth, hardest[0].velocity), (1.0, 6.0));
-        assert!(hardest.iter().any(|row| row.depth == 1.5) && hardest.iter().any(|row| row.velocity == 7.0));
-        // Within a fall of the velocity under a rise of the depth h v² may be larger than at either end.
-        let crossing = Hydrograph(vec![row(0.0, 0.1, 6.0), row(3.0, 2.0, 1.0)]).hardest()[0];
+    fn no_moment_is_both_deeper_and_faster_than_a_hard_one() {
+        let section = Section::Rectangle { width: 3.0 };
+        let hard = |rows: &[Moment]| Hydrograph::new(rows.to_vec(), &section).hard;
+        // Every row of a table that gets deeper as it slows, and what is between them.
+        let rows = [row(0.0, 0.2, 7.0), row(1.0, 1.0, 6.0), row(2.0, 1.5, 2.0)];
+        let found = hard(&rows);
+        assert_eq!((found[0].moment.depth, found[0].moment.velocity), (1.0, 6.0));
+        for row in rows {
+            assert!(found.iter().any(|hard| hard.moment.depth >= row.depth && hard.moment.velocity >= row.velocity));
+        }
+        // 3 m · (0.2 · 7 + 4 · 0.6 · 6.5 + 1 · 6)/6 m²/s have come before the second.
+        assert_relative_eq!(found[0].before, 3.0 * (1.4 + 15.6 + 6.0) / 6.0, max_relative = 1e-9);
+        // One that is deepest and fastest at once is alone; where h v² is largest between two rows that is found.
+        assert_eq!(hard(&[row(0.0, 0.5, 4.0), row(1.0, 1.0, 5.0), row(2.0, 0.4, 3.0)]).len(), 1);
+        let crossing = hard(&[row(0.0, 0.1, 6.0), row(3.0, 2.0, 1.0)])[0].moment;
         assert!(crossing.time > 0.0 && crossing.time < 3.0, "{crossing:?}");
+        // However long the table is.
+        let long: Vec<Moment> =
+            (0..1000).map(|n| row(f64::from(n), 0.1 + 1e-3 * f64::from(n), 9.0 - 8e-3 * f64::from(n))).collect();
+        let found = hard(&long);
+        assert!(found.len() <= MOST_HARD + 1, "{}", found.len());
+        for row in long {
+            assert!(found.iter().any(|hard| hard.moment.depth >= row.depth && hard.moment.velocity >= row.velocity));
+        }
     }
 
     #[test]
     fn stretched_or_sped_up_it_carries_its_share() {
-        let table = Hydrograph(vec![row(0.0, 0.2, 3.0), row(4.0, 0.6, 5.0)]);
         let section = Section::Rectangle { width: 2.0 };
+        let table = Hydrograph::new(vec![row(0.0, 0.2, 3.0), row(4.0, 0.6, 5.0)], &section);
         let volume = table.volume(&section, 4.0);
         assert_relative_eq!(table.longer(1.5).volume(&section, 6.0), 1.5 * volume, max_relative = 1e-12);
         assert_relative_eq!(table.faster(2.0).volume(&section, 2.0), volume, max_relative = 1e-12);

@@ -86,9 +86,45 @@ pub fn values_are_within_bounds(e: &Entries) -> Option<Problem> {
     })
 }
 
+/// A row with a discharge has what carries it.
+pub fn discharges_are_carried(e: &Entries) -> Option<Problem> {
+    let (times, discharges) = (e.numbers(&key("times"))?, e.numbers(&key("discharges"))?);
+    let section = section(e)?;
+    ["velocities", "depths"].into_iter().find_map(|other| {
+        let others = e.numbers(&key(other))?;
+        let name = if other == "depths" { "depth" } else { "velocity" };
+        times.iter().zip(discharges).zip(others).find_map(|((time, discharge), other)| {
+            let at = Dimension::Time.show(*time);
+            let show = Dimension::Discharge.show(*discharge);
+            if *other <= 0.0 && *discharge > 0.0 {
+                let found = format!("{show} with no {name} at {at}");
+                return Some(Problem::new(
+                    key("discharges"),
+                    found,
+                    format!("a {name} above 0 where there is a discharge"),
+                ));
+            }
+            let fast = discharge / section.area(*other);
+            let (_, _, most) = BOUNDS[2];
+            (name == "depth" && *other > 0.0 && fast > most).then(|| {
+                let found =
+                    format!("{show} in a flow {} deep at {at}: {}", length(*other), Dimension::Velocity.show(fast));
+                Problem::new(key("discharges"), found, format!("no more than {}", Dimension::Velocity.show(most)))
+            })
+        })
+    })
+}
+
 /// Something comes: the lists are sound and hold a volume.
 pub fn something_comes(e: &Entries) -> Option<Problem> {
-    let rules = [table_is_there, rows_are_told_one_way, columns_are_equally_long, times_rise, values_are_within_bounds];
+    let rules = [
+        table_is_there,
+        rows_are_told_one_way,
+        columns_are_equally_long,
+        times_rise,
+        values_are_within_bounds,
+        discharges_are_carried,
+    ];
     let silent =
         e.numbers(&key("times")).is_some() && section(e).is_some() && rules.iter().all(|rule| rule(e).is_none());
     let given = ["depths", "discharges"].iter().any(|name| e.numbers(&key(name)).is_some());
@@ -100,7 +136,7 @@ pub fn something_comes(e: &Entries) -> Option<Problem> {
 /// The deepest row stays between banks and walls.
 pub fn deepest_row_within_the_channel(e: &Entries) -> Option<Problem> {
     let sides = height_of_sides(e)?;
-    let deepest = hydrograph(e)?.0.iter().map(|row| row.depth).fold(0.0, f64::max);
+    let deepest = hydrograph(e)?.rows.iter().map(|row| row.depth).fold(0.0, f64::max);
     (deepest > sides).then(|| {
         let (found, allowed) = match survey(e) {
             Some(_) => (

@@ -1,6 +1,7 @@
 //! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
 
 pub mod attached;
+pub(crate) mod boulder_rules;
 pub(crate) mod channel_entries;
 pub(crate) mod channel_rules;
 pub(crate) mod document;
@@ -34,7 +35,7 @@ pub(crate) mod yaml_faults;
 
 use std::sync::Arc;
 
-pub use self::flow::{Arrival, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
+pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
 
 use crate::profile::Profile;
 use crate::relief::Relief;
@@ -392,6 +393,8 @@ pub struct OtherLoads {
     pub snow_pressure: Option<f64>,
     /// On the dynamic pressure, for wood in the flow.
     pub wood_factor: Option<f64>,
+    /// Share of the elastic force with which a boulder hits a rigid wall.
+    pub impact_reduction: f64,
     /// Weight of the net per area (N/m²).
     pub self_weight: Option<f64>,
     /// Height of the filled barrier over its first.

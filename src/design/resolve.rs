@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
-use crate::design::flow_entries::{SIZES, coarsened, curve_known_from, flow_volume, size_curve, size_curve_at};
+use crate::design::flow_entries::{
+    SIZES, boulders, coarsened, curve_known_from, flow_volume, size_curve, size_curve_at,
+};
 use crate::design::hydrograph_entries::{HYDROGRAPH, as_of_a_surge, hydrograph};
 use crate::design::net_rules::rope_heights;
 use crate::design::sizes::SizeCurve;
@@ -81,6 +83,7 @@ fn flow(e: &Entries) -> Option<Flow> {
         pore_fluid: pore_fluid(e),
         arrival: arrival(e)?,
         hydrograph: hydrograph(e),
+        boulders: boulders(e)?,
     })
 }
 
@@ -131,8 +134,9 @@ fn arrival(e: &Entries) -> Option<Arrival> {
         }));
     }
     if e.has_section(HYDROGRAPH) {
-        let [depth, velocity] = ["depth", "velocity"].map(|name| as_of_a_surge(e, name));
-        return Some(Arrival::Surge(surge(e, HYDROGRAPH, flow_volume(e)?, depth?, velocity?)?));
+        let [depth, velocity, run_in] = ["depth", "velocity", "run_in"].map(|name| as_of_a_surge(e, name));
+        let surge = surge(e, HYDROGRAPH, flow_volume(e)?, depth?, velocity?)?;
+        return Some(Arrival::Surge(Surge { run_in: run_in?, ..surge }));
     }
     let path = surges(e).into_iter().next()?;
     surge_at(e, &path, flow_volume(e)?).map(Arrival::Surge)
@@ -341,6 +345,7 @@ fn loads(e: &Entries) -> Option<OtherLoads> {
         point_load: pair("point_load.force", "point_load.height"),
         snow_pressure: value("snow_pressure"),
         wood_factor: value("wood_factor"),
+        impact_reduction: value("impact_reduction")?,
         self_weight: value("self_weight"),
         filled_height: value("filled_height")?,
         deposit_slope: value("deposit_slope")?,

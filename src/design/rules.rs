@@ -9,7 +9,7 @@ use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
-use crate::design::{channel_rules, hydrograph_rules, net_rules, size_rules, surge_rules, wall_rules};
+use crate::design::{boulder_rules, channel_rules, hydrograph_rules, net_rules, size_rules, surge_rules, wall_rules};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -53,11 +53,13 @@ pub const RULES: &[Rule] = &[
     surge_rules::surges_have_one_size,
     surge_rules::surges_make_the_flow,
     surge_rules::first_surge_comes_first,
+    boulder_rules::boulders_come_with_a_surge,
     hydrograph_rules::table_is_there,
     hydrograph_rules::rows_are_told_one_way,
     hydrograph_rules::columns_are_equally_long,
     hydrograph_rules::times_rise,
     hydrograph_rules::values_are_within_bounds,
+    hydrograph_rules::discharges_are_carried,
     hydrograph_rules::something_comes,
     hydrograph_rules::deepest_row_within_the_channel,
     surge_rules::surge_within_side_walls,
@@ -105,6 +107,10 @@ pub const GRAIN_RULES: &[Rule] = &[
     block_larger_than_the_grains,
     surge_rules::later_surges_larger_than_their_grains,
     hydrograph_rules::flow_longer_than_its_grains,
+    boulder_rules::boulders_are_a_part_of_the_flow,
+    boulder_rules::boulders_fit_across,
+    boulder_rules::spread_boulders_lie_within_the_flow,
+    boulder_rules::front_boulders_have_room,
     net_rules::knots_are_bearable,
     net_rules::cylinders_are_bearable,
 ];

@@ -179,7 +179,24 @@ const FLOW: &[Key] = &[
         Kind::SectionOrNone(PORE_FLUID),
         "water and mud in the pores, which move with the grains and lower their friction; none, the default, is a dry flow",
     ),
+    Key::optional(
+        "boulders",
+        Kind::Sections(BOULDERS),
+        "boulders that the grain-size curve does not have, a part of the flow's mass; they come with the surge, or the first of several",
+    ),
     Key::required("arrival", Kind::OneOf(ARRIVAL), "how the flow comes"),
+];
+
+const BOULDERS: &[Key] = &[
+    Key::required("diameter", quantity(D::Length, 0.02, 10.0), "diameter of a sphere of the same volume"),
+    Key::required("number", Kind::Count { low: 1, high: 200 }, "how many"),
+    Key::default(
+        "where",
+        Kind::Choice(&["front", "spread"]),
+        "front",
+        "ahead of the surge, side by side on the bed with its velocity; or anywhere in it",
+    ),
+    Key::optional("density", quantity(D::Density, 1500.0, 4000.0), "by default flow.solid_density"),
 ];
 
 const PORE_FLUID: &[Key] = &[
@@ -313,7 +330,7 @@ const HYDROGRAPH: &[Key] = &[
     Key::optional(
         "run_in",
         quantity(D::Length, 0.0, 1e3),
-        "way from the inlet to the barrier; by default four times the depth at the largest momentum flux",
+        "way from the inlet to the barrier; by default as far as the whole flow reaches back when it lies there with a level surface, and two depths more, at least four depths",
     ),
 ];
 
@@ -705,6 +722,12 @@ const LOADS: &[Key] = &[
         "wood_factor",
         Kind::Number { low: 1.0, high: 5.0 },
         "factor on the dynamic pressure for wood in the flow; 1.2 to 1.5 at the same depth in 40 tests with logs against a bridge deck (Friedl et al. 2025)",
+    ),
+    Key::default(
+        "impact_reduction",
+        Kind::Number { low: 0.01, high: 1.0 },
+        "0.1",
+        "share of the elastic force (Hertz) with which a boulder of flow.boulders hits a rigid wall, where no point_load is given; a tenth in the practice of Hong Kong (from memory, uncertain)",
     ),
     Key::optional("self_weight", quantity(D::Pressure, 0.1, 1e5), "weight of the net per area, hung on the top rope"),
     Key::default(

@@ -3,6 +3,7 @@
 pub(crate) mod cases;
 pub(crate) mod estimates;
 pub(crate) mod fill;
+pub(crate) mod impact;
 pub(crate) mod input;
 pub(crate) mod other_models;
 pub(crate) mod pressure;

@@ -85,7 +85,8 @@ impl Diagram {
             // The width may jump at a level bed: its ends are taken from inside.
             let [first, last] = [-0.25, 0.25].map(|share| middle + share * (to - from));
             let slope = (section.width(last) - section.width(first)) / (last - first);
-            let width = |z: f64| section.width(middle) + slope * (z - middle);
+            let at_the_middle = section.width(middle);
+            let width = |z: f64| at_the_middle + slope * (z - middle);
             let value = |z: f64| pressure(z) * width(z) * factor(z);
             (to - from) / 6.0 * (value(from) + 4.0 * value(middle) + value(to))
         };

@@ -5,6 +5,7 @@
 
 pub mod anchor_load;
 pub mod bed;
+pub mod boulder;
 pub mod coefficients;
 pub mod dissipator;
 pub mod earth_pressure;
@@ -81,4 +82,6 @@ pub const QUANTITIES: &[&Quantity] = &[
     &earth_pressure::K_SPLIT,
     &earth_pressure::LAMBDA_UPSTREAM,
     &earth_pressure::LAMBDA_MEAN,
+    &boulder::FORCE,
+    &boulder::NET,
 ];

@@ -165,7 +165,7 @@ fn inlet_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         levels: Vec::new(),
         band: None,
     };
-    let note = "By the hydrograph, and grain by grain in the simulation, of the whole.";
+    let note = "Shares of the whole mass and momentum: as the hydrograph gives them, and as grains have passed the inlet in the simulation.";
     Some(Chart::of("Hydrograph", chart.svg(), note))
 }
 

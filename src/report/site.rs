@@ -64,6 +64,10 @@ fn release_row(run: &Run) -> Option<Row> {
     let surveyed = channel.survey.is_some() || channel.profile.is_some();
     run.simulated.as_ref().filter(|_| surveyed)?;
     let reach = (run.guideline.input.barrier_height * libm::tan(run.guideline.lean)).max(0.0);
+    // An inlet is told with its hydrograph.
+    if design.flow.hydrograph.is_some() {
+        return None;
+    }
     let block = Block::of(&design.flow, channel, reach);
     let [near, far] = [-block.front, block.length - block.front];
     let slopes = channel.profile.as_ref().map_or(String::new(), |profile| {

@@ -107,13 +107,18 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             EITHER,
         ),
         (
+            !design.flow.boulders.is_empty(),
+            "Boulders are a part of the flow's mass, of the shape of its grains and with its contact law; those at the front lie side by side on the bed ahead of it, with its velocity. On a rigid wall the equations add the largest of them as a point load, its elastic force (Hertz 1882) times loads.impact_reduction, a tenth by default, which is uncertain; on a net boulders are in the simulation alone (loads.point_load adds one to the equations).",
+            EITHER,
+        ),
+        (
             simulated && hydrograph.is_some(),
             "The flow comes in by its hydrograph, straight between its rows: packed at the bulk density, every grain with the velocity of that time along the bed, the same over the depth and across the channel, held together by what follows until it has passed the inlet. Fronts do not take shape before that.",
             EITHER,
         ),
         (
             hydrograph.is_some(),
-            "The equations take the hydrograph at the moments of its largest momentum flux, depth, velocity and head, each as a surge, and its volume as one event.",
+            "The equations take the moments of the hydrograph than which none is both deeper and faster, each as a surge at every depth of the deposit; it runs up from what had come before the last of them.",
             SAFE,
         ),
         (
@@ -240,7 +245,7 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
             "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_bolt_spacing and anchors.bed_bolt_resistance would have them checked)",
         ),
         (
-            loads.point_load.is_none(),
+            loads.point_load.is_none() && design.flow.boulders.is_empty(),
             "impact of single boulders larger than the design grains, and of single logs (loads.point_load)",
         ),
         (

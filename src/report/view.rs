@@ -1,11 +1,12 @@
 //! What the templates may see: texts and finished figures.
 
-use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, used, worst_first};
+use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, row, used, worst_first};
 use serde::Serialize;
 
 use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::design::entries::Origin;
+use crate::design::hydrograph::{Hard, Moment};
 use crate::design::read::sha256;
 use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
@@ -521,6 +522,7 @@ fn derived_rows(run: &Run) -> Vec<Row> {
             "volume over its length and the width".into(),
         ));
     }
+    rows.extend(hydrograph_rows(run));
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
         let axial = Rope::axial_stiffness;
         for (name, rope) in [("main", &net.main_ropes.rope), ("net", &net.net_rope), ("lateral", &net.lateral_rope)] {
@@ -529,4 +531,40 @@ fn derived_rows(run: &Run) -> Vec<Row> {
         }
     }
     rows
+}
+
+/// What the table of a hydrograph comes to, where its inlet is, and what of it the equations take.
+fn hydrograph_rows(run: &Run) -> Vec<Row> {
+    let design = &run.file.design;
+    let (Some(hydrograph), Arrival::Surge(surge)) = (&design.flow.hydrograph, design.flow.arrival) else {
+        return Vec::new();
+    };
+    let section = design.channel.section();
+    let most = |of: &dyn Fn(&Moment) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
+    let moment = |hard: &Hard| {
+        let Moment { time, depth, velocity } = hard.moment;
+        format!("{} with {} at {}", with_unit(depth, "m"), with_unit(velocity, "m/s"), with_unit(time, "s"))
+    };
+    vec![
+        row(
+            "Hydrograph",
+            format!("{} in {}", with_unit(design.flow.volume(), "m³"), with_unit(hydrograph.duration(), "s")),
+            format!(
+                "at the most {} deep, {} and {}; discharge and depth are straight between the rows as they are given",
+                with_unit(most(&|row| row.depth), "m"),
+                with_unit(most(&|row| row.velocity), "m/s"),
+                with_unit(most(&|row| section.area(row.depth) * row.velocity), "m³/s")
+            ),
+        ),
+        row(
+            "Inlet",
+            with_unit(surge.run_in, "m"),
+            "along the bed, upstream of the most upstream point of the barrier; by default clear of the deposit",
+        ),
+        row(
+            "Moments of the hydrograph in the equations",
+            hydrograph.hard.iter().map(moment).collect::<Vec<_>>().join("; "),
+            "none is both deeper and faster; that of the largest momentum first",
+        ),
+    ]
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::design::{Arrival, BarrierDesign, DamBreak, Design, Flow, Surge};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
-use crate::scene::flow::release::{Block, packed_block, shape};
+use crate::scene::flow::release::{Block, count_of_boulders, packed_block, shape};
 use crate::scene::ground::{self, bed_at};
 use crate::scene::inlet::{Feed, block_behind, inlet};
 use crate::scene::net::build::{BuiltNet, build as build_net};
@@ -162,6 +162,9 @@ pub fn build_watched(
     if let Some(feed) = &feed {
         recorder.to_come = design.flow.mass - feed.mass();
     }
+    // They were packed last.
+    let grains = simulation.grains.ids.iter().max().map_or(0, |last| last + 1);
+    recorder.boulders = [grains - count_of_boulders(&design.flow).min(grains), grains];
     Ok(Scene {
         simulation,
         recorder,
@@ -480,6 +483,11 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         mass: design.flow.mass_of_all(),
         at_first: design.flow.mass,
         to_come: 0.0,
+        boulders: [0, 0],
+        mesh: match &design.barrier {
+            BarrierDesign::FlexibleNet(net) => net.mesh_opening * std::f64::consts::SQRT_2,
+            BarrierDesign::RigidWall(_) => 0.0,
+        },
         side_walls: design.channel.wall_height,
         near: height,
     }

@@ -1,5 +1,6 @@
 //! What a run will take, before it is made: grains, steps, time, memory.
 
+use crate::design::hydrograph::Hydrograph;
 use crate::design::{BarrierDesign, BarrierModel, Design, Flow};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::build::expected_time;
@@ -82,7 +83,9 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
             (barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len()) as f64
         }
     };
-    let simulated = expected_time(design).min(design.simulation.longest * flow.surges() as f64);
+    // The longest time is counted from where the last of a hydrograph has come in.
+    let comes_for = flow.hydrograph.as_ref().map_or(0.0, Hydrograph::duration);
+    let simulated = expected_time(design).min(comes_for + design.simulation.longest * flow.surges() as f64);
     let steps = simulated / fidelity.time_step;
     let of_elements = elements * if bends { PARTS * CYLINDER } else { SEGMENT };
     let packed = if flow.bulk_density / flow.grain_density() > NEARLY_JAMMED { PACKED_DENSE } else { PACKED };

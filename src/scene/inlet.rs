@@ -75,13 +75,13 @@ pub fn inlet(design: &Design, hydrograph: &Hydrograph, reach: f64) -> Result<Inl
     if (place - along * length - behind).norm() > 1e-3 * length {
         return Err(PackingError::BedBreaksBehindTheInlet { distance, length });
     }
-    let velocity = hydrograph.0.iter().map(|row| [row.time, row.velocity]).collect();
+    let velocity = hydrograph.rows.iter().map(|row| [row.time, row.velocity]).collect();
     Ok(Inlet::new(place, along, velocity))
 }
 
 /// As a block, what stands behind the inlet at the most.
 pub fn block_behind(design: &Design, hydrograph: &Hydrograph, reach: f64) -> Block {
-    let most = |of: fn(&Moment) -> f64| hydrograph.0.iter().map(of).fold(0.0, f64::max);
+    let most = |of: fn(&Moment) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
     let largest = design.flow.sizes.quantile(1.0);
     let height = most(|row| row.depth).max(LEAST_HEIGHT * largest);
     Block::behind_an_inlet(distance(design, reach), BEHIND[1] * largest, height, most(|row| row.velocity))

@@ -26,6 +26,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         false => ("the barrier", "give it more resistance"),
     };
     let simulated = match known.design.flow.surges() {
+        1 if known.design.flow.hydrograph.is_some() => "the hydrograph".to_string(),
         1 => "the first surge".to_string(),
         several => format!("an event of {several} surges"),
     };

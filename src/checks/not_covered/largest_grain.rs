@@ -1,4 +1,4 @@
-//! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest grain, by the law of
+//! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest stone, by the law of
 //! contacts, must be held there as a named one would have to be.
 
 use super::known::Known;
@@ -32,16 +32,15 @@ pub fn leave_open(Known { design, guideline, .. }: Known, outcomes: &mut [Outcom
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
         outcome.leave_open(Opening::NotGiven(format!(
-            "the largest grain of the flow may hit a metre of the wall with up to {:.0} kN, and that metre would not hold it (give loads.point_load, or more resistance)",
+            "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN, and that metre would not hold it (give loads.point_load, or more resistance)",
             force / 1e3
         )));
     }
 }
 
-/// Largest force (N) of an elastic hit of the largest grain on a wall, v √(k m) with k = E r: the dashpot makes it somewhat less.
+/// Largest force (N) of an elastic hit of the largest stone on a wall, v √(k m) with k = E r: the dashpot makes it somewhat less.
 fn hit(design: &Design, velocity: f64) -> f64 {
-    let diameter = design.flow.sizes.quantile(1.0);
-    let mass = design.flow.grain_density() * std::f64::consts::PI / 6.0 * diameter.powi(3);
+    let [diameter, mass] = design.flow.largest();
     velocity * (design.flow.modulus * 0.5 * diameter * mass).sqrt()
 }
 

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::{Arrival, Channel, DamBreak, Flow, Surge};
+use crate::design::{Arrival, Boulders, Channel, DamBreak, Flow, Surge};
 use crate::scene::flow::packing::{Attempts, Growth, PackingError, PackingRoom, pack_watched, push_apart};
 use crate::scene::ground::{across, bed_at, ground_of, lowest_at, survey_at};
-use crate::section::Section;
+use crate::section::{Section, Survey};
 use crate::units::GRAVITY;
 use dem::Vec3;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
@@ -119,8 +119,61 @@ fn higher(section: &Section, height: f64, thin: f64) -> f64 {
 
 /// The bodies of all grains, from the design's size curve.
 pub fn bodies(flow: &Flow) -> Vec<GrainBody> {
-    let diameters = flow.sizes.grains(flow.mass, flow.grain_density());
+    let diameters = flow.sizes.grains(flow.mass_of_grains(), flow.grain_density());
     diameters.iter().map(|&diameter| GrainBody::clump(diameter, flow.aspect, flow.grain_density())).collect()
+}
+
+/// The bodies of the boulders at the front, or of those in the flow.
+fn boulders(flow: &Flow, at_front: bool) -> Vec<GrainBody> {
+    let those = flow.boulders.iter().filter(|boulders| boulders.at_front == at_front);
+    those.flat_map(|boulders| vec![body_of(boulders, flow); boulders.number as usize]).collect()
+}
+
+/// A boulder has the shape of the grains.
+fn body_of(boulders: &Boulders, flow: &Flow) -> GrainBody {
+    GrainBody::clump(boulders.diameter, flow.aspect, boulders.density)
+}
+
+/// Boulders of a flow.
+pub fn count_of_boulders(flow: &Flow) -> u32 {
+    flow.boulders.iter().map(|boulders| boulders.number).sum()
+}
+
+/// The boulders at the front, in rows from its foot on downstream, side by side on the bed: as in a room whose length is that of the block.
+fn ahead(flow: &Flow, length: f64, [from, to]: [f64; 2], first: u32) -> Vec<Grain> {
+    let mut grains = Vec::new();
+    let mut start = length;
+    for boulders in flow.boulders.iter().filter(|boulders| boulders.at_front) {
+        let (abreast, long) = boulders.rows(to - from, boulders.extent(flow.aspect));
+        let body = body_of(boulders, flow);
+        let rows = boulders.number.div_ceil(abreast);
+        for number in 0..boulders.number {
+            let (row, place) = (number / abreast, number % abreast);
+            let in_row = abreast.min(boulders.number - row * abreast);
+            let across = from + (to - from) * (f64::from(place) + 0.5) / f64::from(in_row);
+            let along = start + long * (f64::from(row) + 0.5) / f64::from(rows);
+            let id = first + grains.len() as u32;
+            grains.push(Grain::at(id, Vec3::new(along, across, body.radius), Vec3::y(), body));
+        }
+        start += long;
+    }
+    grains
+}
+
+/// Places across a sphere at which the ground below it is sought.
+const PLACES: i32 = 40;
+
+/// Height of the centre of a grain whose axis is across the channel, where it lies on the ground (m).
+fn lying_on(survey: &Survey, grain: &Grain) -> f64 {
+    let GrainBody { radius, offset, .. } = grain.body;
+    let on = |y: f64| {
+        let place = |place: i32| {
+            let aside = radius * f64::from(place) / f64::from(PLACES);
+            survey.ground(y + aside) + (radius * radius - aside * aside).sqrt()
+        };
+        (-PLACES..=PLACES).map(place).fold(0.0, f64::max)
+    };
+    on(grain.position.y - offset).max(on(grain.position.y + offset))
 }
 
 /// One or two spheres to a grain.
@@ -150,8 +203,15 @@ pub fn packed_block(
         raised: 1.0,
     };
     let stop = attempts.stop;
-    let (mut grains, growth) = pack_watched(&bodies(flow), shape(flow), room, seed, attempts)?;
+    let packed: Vec<GrainBody> = bodies(flow).into_iter().chain(boulders(flow, false)).collect();
+    let (mut grains, growth) = pack_watched(&packed, shape(flow), room, seed, attempts)?;
     let length = block.length * growth;
+    let at_the_surface = ground.as_ref().map_or([0.0, channel.width], |survey| survey.banks(block.height));
+    let mut front = ahead(flow, length, at_the_surface, packed.len() as u32);
+    if let Some(survey) = &ground {
+        front.iter_mut().for_each(|grain| grain.position.z = lying_on(survey, grain));
+    }
+    grains.extend(front);
     let block = Block { length, ..*block };
     let start = block.front - length;
     for grain in &mut grains {

@@ -10,6 +10,7 @@ pub mod film;
 pub mod gauge;
 pub mod histories;
 pub mod of_anchors;
+pub mod of_boulders;
 pub mod of_dissipators;
 pub mod of_level;
 pub mod of_ropes;
@@ -22,7 +23,7 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 20] = [
+pub const CHANNELS: [&Channel; 22] = [
     &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
@@ -43,4 +44,6 @@ pub const CHANNELS: [&Channel; 20] = [
     &of_ropes::BROKEN,
     &of_ropes::DRAWN_OUT,
     &of_ropes::TOP_HEIGHT,
+    &of_boulders::FORCE,
+    &of_boulders::NET,
 ];

@@ -13,6 +13,7 @@ use crate::recorders::deposit::first_gap;
 use crate::recorders::gauge::{Gauge, GaugeWindow, front};
 use crate::recorders::histories::Histories;
 use crate::recorders::of_anchors::OfAnchors;
+use crate::recorders::of_boulders::OfBoulders;
 use crate::recorders::of_dissipators::OfDissipators;
 use crate::recorders::of_level::OfLevel;
 use crate::recorders::of_ropes::OfRopes;
@@ -81,11 +82,12 @@ struct Bodies {
     ropes: OfRopes,
     dissipators: OfDissipators,
     anchors: OfAnchors,
+    boulders: OfBoulders,
 }
 
 impl Bodies {
-    fn each(&mut self) -> [&mut dyn BodyRecorder; 5] {
-        [&mut self.level, &mut self.wall, &mut self.ropes, &mut self.dissipators, &mut self.anchors]
+    fn each(&mut self) -> [&mut dyn BodyRecorder; 6] {
+        [&mut self.level, &mut self.wall, &mut self.ropes, &mut self.dissipators, &mut self.anchors, &mut self.boulders]
     }
 }
 

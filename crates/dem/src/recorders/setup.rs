@@ -40,6 +40,10 @@ pub struct RecorderSetup {
     pub at_first: f64,
     /// What of that comes in through an inlet later (kg).
     pub to_come: f64,
+    /// Numbers of the boulders, from the first to the one after the last.
+    pub boulders: [u32; 2],
+    /// Diagonal of a mesh of the net (m).
+    pub mesh: f64,
     /// Height of the side walls, normal to the bed (m).
     pub side_walls: f64,
     /// Length upstream of the barrier within which whatever lies has arrived (m).
