@@ -113,17 +113,18 @@ fn a_flow_that_backs_up_to_its_inlet_is_no_pass() {
     assert!(run.doubts.iter().any(|doubt| doubt.contains("inlet") || doubt.contains("come in")), "{:?}", run.doubts);
 }
 
-/// The equations take the hardest moments, each for itself.
+/// The equations take the hardest moments, each for itself, that of the largest momentum first.
 #[test]
-fn the_equations_take_the_hardest_rows() {
+fn the_equations_take_the_hardest_moments() {
     let design =
         design(&with_table(&[[0.0, 0.2, 6.0], [1.0, 0.8, 5.0], [2.0, 1.1, 2.0], [3.0, 0.1, 1.0]], "width: 3 m"));
     let guideline = guideline(&design);
     let taken: Vec<[f64; 2]> = flows(&design, guideline.input).iter().map(|flow| [flow.depth, flow.velocity]).collect();
     assert_eq!(taken[0], [0.8, 5.0]);
     for [depth, velocity] in [[1.1, 2.0], [0.2, 6.0]] {
-        let same = |row: &[f64; 2]| (row[0] - depth).abs() < 1e-9 && (row[1] - velocity).abs() < 1e-9;
-        assert!(taken.iter().any(same), "{taken:?}");
+        // Or a little more, where many are taken together.
+        let within = |value: f64, least: f64| (0.999 * least..1.25 * least).contains(&value);
+        assert!(taken.iter().any(|row| within(row[0], depth) && within(row[1], velocity)), "{taken:?}");
     }
     // By hand: h v² is 20 m³/s² there, and 7.2 and 4.4 at the others.
     let unit = 1400.0 * 9.81 * libm::cos(25_f64.to_radians());
@@ -143,7 +144,8 @@ fn a_table_is_the_same_however_it_is_told() {
         "times: [0 s, 0.4 s, 0.9 s], depths: [0.6 m, 0.5 m, 0.3 m], discharges: [8.28 m3/s, 6.3 m3/s, 3.24 m3/s]",
     ] {
         let told = design(&TINY.replace(lists, other)).flow;
-        assert!((told.mass / own.flow.mass - 1.0).abs() < 1e-9, "{other}");
+        // Between the rows the discharge is straight here, and depth and velocity there.
+        assert!((told.mass / own.flow.mass - 1.0).abs() < 0.01, "{other}");
         for (a, b) in own
             .flow
             .hydrograph

@@ -1,0 +1,80 @@
+//! Boulders that come with a surge: a part of its mass, watched as they hit, and on a wall a point load of the equations.
+
+use std::sync::atomic::AtomicBool;
+
+use barrier_check::design::read::{DesignFile, read_design};
+use barrier_check::guideline::point_load;
+use barrier_check::pipeline::{Run, by_equations, run};
+use barrier_check::quantities::{boulder, other_ropes};
+use barrier_check::scene::event::Watch;
+use dem::recorders::of_boulders;
+
+const NET: &str = include_str!("fixtures/tiny.yaml");
+const WALL: &str = include_str!("fixtures/tiny_wall.yaml");
+
+fn with(text: &str, boulders: &str) -> DesignFile {
+    let text = text.replacen("  arrival:\n", &format!("  boulders: [{boulders}]\n  arrival:\n"), 1);
+    read_design("x.yaml", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn simulated(file: DesignFile) -> Run {
+    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    run(file, 1, &watch).expect("a run")
+}
+
+/// One of 0.55 m, 231 kg, at the front with 4.6 m/s: it is stopped by no more than what it brings and its weight along the bed, and what pulls
+/// beside it is a part of what pulls anywhere.
+#[test]
+fn a_boulder_hits_a_net_with_its_momentum() {
+    let file = with(NET, "{diameter: 0.55 m, number: 1}");
+    let flow = &file.design.flow;
+    let mass = flow.mass;
+    let boulder_mass = 2650.0 * std::f64::consts::PI / 6.0 * 0.55_f64.powi(3);
+    assert!((flow.mass_of_grains() + boulder_mass - mass).abs() < 1e-9 * mass);
+    let run = simulated(file);
+    let seen = run.simulated.as_ref().expect("a simulation");
+    assert!(seen.numerics.energy_error.abs() < 1e-3, "{}", seen.numerics.energy_error);
+    let first = seen.first();
+    assert!(first.one(&boulder::NET) > 0.0 && first.one(&boulder::NET) <= 1.001 * first.one(&other_ropes::NET));
+    // Until it is stopped, a tenth of a second or so, the net takes the momentum of the boulder from it.
+    let histories = &seen.histories;
+    let force = histories.barrier.series(&of_boulders::FORCE);
+    let start = force.iter().position(|force| *force > 0.0).expect("a hit");
+    let step = histories.time[1] - histories.time[0];
+    let within = (0.15 / step) as usize;
+    let impulse: f64 = force[start..start + within].iter().sum::<f64>() * step;
+    let momentum = boulder_mass * 4.6;
+    assert!((0.5..2.5).contains(&(impulse / momentum)), "{impulse} of {momentum}");
+    assert!(first.one(&boulder::FORCE) > 2.0 * momentum / 0.15, "{}", first.one(&boulder::FORCE));
+}
+
+/// Spread ones lie in the flow, none overlaps, and their mass is there.
+#[test]
+fn spread_boulders_are_packed_with_the_grains() {
+    let file = with(NET, "{diameter: 0.5 m, number: 2, where: spread, density: 2400 kg/m3}");
+    let run = simulated(file);
+    let seen = run.simulated.as_ref().expect("a simulation");
+    assert!(run.doubts.is_empty(), "{:?}", run.doubts);
+    let last = seen.histories.time.len() - 1;
+    let there = seen.histories.dead[last] + seen.histories.moving[last] + seen.histories.lost[last].iter().sum::<f64>();
+    assert!((there - 1.0).abs() < 1e-6, "{there}");
+}
+
+/// A tenth of the elastic force, by hand: E* = 19.5 GPa, n = 4/3 E* √r, F = n^0.4 (5/4 m v²)^0.6.
+#[test]
+fn on_a_wall_the_equations_add_the_largest_boulder() {
+    let file = with(WALL, "{diameter: 0.6 m, number: 1}, {diameter: 0.5 m, number: 2}");
+    let velocity = match file.design.flow.arrival {
+        barrier_check::design::Arrival::Surge(surge) => surge.velocity,
+        other => panic!("{other:?}"),
+    };
+    let mass = 2650.0 * std::f64::consts::PI / 6.0 * 0.6_f64.powi(3);
+    let stiffness = 4.0 / 3.0 * 19.5e9 * 0.3_f64.sqrt();
+    let by_hand = 0.1 * stiffness.powf(0.4) * (1.25 * mass * velocity * velocity).powf(0.6);
+    let (force, _) = point_load(&file.design).expect("a point load");
+    assert!((force / by_hand - 1.0).abs() < 1e-9, "{force} {by_hand}");
+    let with_boulders = by_equations(file);
+    let without = by_equations(read_design("x.yaml", WALL.as_bytes()).expect("a design"));
+    let added = with_boulders.guideline.largest_force - without.guideline.largest_force;
+    assert!((added / force - 1.0).abs() < 1e-6, "{added} {force}");
+}
