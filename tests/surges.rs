@@ -147,7 +147,7 @@ fn the_order_of_the_surges_changes_no_verdict_of_the_equations() {
     let block = "depth: 0.5 m, velocity: 3.6 m/s, front_angle: 90 deg, run_in: 0 m";
     for (pair, change, opened) in [
         ([fast, slow], ["dynamic_lambda: 4", "dynamic_lambda: 1.6"], "Froude number"),
-        ([like, coarse], ["moment_resistance: 40 MN m/m", "moment_resistance: 6 MN m/m"], "the largest grain"),
+        ([like, coarse], ["moment_resistance: 40 MN m/m", "moment_resistance: 6 MN m/m"], "the largest stone"),
         ([like, block], ["", ""], "run the simulation"),
         (
             [fast, slow],

@@ -3,9 +3,9 @@
 use crate::design::channel_entries::section;
 use crate::design::entries::Entries;
 use crate::design::flow::Boulders;
+use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::{boulders, flow_volume};
 use crate::design::hydrograph_entries::HYDROGRAPH;
-use crate::design::resolve::RUN_IN;
 use crate::design::show::length;
 use crate::design::surge_entries::of_the_first;
 use crate::problem::Problem;

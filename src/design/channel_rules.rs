@@ -2,10 +2,10 @@
 
 use crate::design::channel_entries::{height_of_barrier, reaches, section, survey};
 use crate::design::entries::Entries;
+use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::flow_volume;
 use crate::design::hydrograph_entries::HYDROGRAPH;
 use crate::design::net_rules::rope_heights;
-use crate::design::resolve::RUN_IN;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{of_the_first, volume_of_all};
 use crate::problem::Problem;

@@ -273,6 +273,10 @@ pub struct Surge {
     pub run_in: f64,
 }
 
+/// Way that a surge runs before it meets the barrier, over its depth, where the design says none: a block as it is packed moves as one
+/// and hits far too hard; on this way it loosens and its front takes shape.
+pub const RUN_IN: f64 = 4.0;
+
 /// A block at rest behind a gate that opens at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DamBreak {

@@ -2,8 +2,8 @@
 
 use crate::design::channel_entries::section;
 use crate::design::entries::Entries;
+use crate::design::flow::RUN_IN;
 use crate::design::hydrograph::{Hydrograph, Moment};
-use crate::design::resolve::RUN_IN;
 
 pub const HYDROGRAPH: &str = "flow.arrival.hydrograph";
 

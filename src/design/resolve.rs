@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::entries::Entries;
+use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::{
     SIZES, boulders, coarsened, curve_known_from, flow_volume, size_curve, size_curve_at,
 };
@@ -108,9 +109,6 @@ fn acting_friction(e: &Entries) -> f64 {
     acts * libm::tan(e.number("flow.grain_friction").unwrap_or(0.0))
 }
 
-/// Way that a surge runs before it meets the barrier, over its depth, where the design says none: a block as it is packed moves as one
-/// and hits far too hard; on this way it loosens and its front takes shape.
-pub const RUN_IN: f64 = 4.0;
 /// Flattest front that is taken where the design says none (rad): 15 degrees.
 const FLATTEST_FRONT: f64 = 0.261_799_387_799_149_4;
 

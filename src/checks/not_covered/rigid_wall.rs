@@ -2,7 +2,8 @@
 
 use super::known::Known;
 use crate::checks::outcome::{Opening, Outcome, Route};
-use crate::design::resolve::{RUN_IN, granular_front};
+use crate::design::flow::RUN_IN;
+use crate::design::resolve::granular_front;
 use crate::design::{Arrival, BarrierDesign, Design};
 
 /// Whether the design has a surge hit with a steeper front, or after a shorter way, than it would have by default.
