@@ -47,7 +47,7 @@ pub fn hydrograph(e: &Entries) -> Option<Hydrograph> {
             }
             (None, Some(_), Some(velocity)) => (0.0, velocity),
             (Some(depth), Some(discharge), None) if depth > 0.0 => (depth, discharge / section.area(depth)),
-            (Some(_), Some(discharge), None) if discharge == 0.0 => (0.0, 0.0),
+            (Some(_), Some(0.0), None) => (0.0, 0.0),
             _ => return None,
         };
         let sound = depth.is_finite() && velocity.is_finite();
