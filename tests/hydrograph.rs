@@ -80,7 +80,6 @@ fn what_comes_in_follows_the_table() {
             off_in_momentum = off_in_momentum.max((passed[1] - momentum).abs() / (density * whole_momentum));
         }
         let passed = scene.simulation.model.inlet.as_ref().expect("an inlet").passed;
-        println!("shape {shape}: {} grains, mass off by {off:.4}, momentum by {off_in_momentum:.4}", feed.grains());
         assert!(feed.is_over() && (passed[0] / design.flow.mass - 1.0).abs() < 1e-9, "{shape}: {passed:?}");
         assert!((passed[1] / (density * whole_momentum) - 1.0).abs() < 0.02, "{shape}: {passed:?}");
         assert!(off < 0.01 && off_in_momentum < 0.02, "{shape}: mass {off}, momentum {off_in_momentum}");
