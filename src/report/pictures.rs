@@ -153,10 +153,10 @@ fn inlet_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
     };
     let told = [share(&|time| hydrograph.volume(&section, time)), share(&|time| hydrograph.momentum(&section, time))];
     let came = [entered(0, design.flow.mass), entered(1, density * hydrograph.momentum(&section, last))];
-    let labels = ["mass, given", "momentum, given", "mass that came in", "momentum that came in"];
+    let labels = ["mass given", "momentum given", "mass passed", "momentum passed"];
     let series = told.iter().chain(&came).zip(labels).enumerate();
     let chart = LineChart {
-        title: "what has come in through the inlet",
+        title: "passed the inlet",
         unit: "%",
         factor: 100.0,
         along: TIME,

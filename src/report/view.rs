@@ -550,7 +550,7 @@ fn hydrograph_rows(run: &Run) -> Vec<Row> {
             "Hydrograph",
             format!("{} in {}", with_unit(design.flow.volume(), "m³"), with_unit(hydrograph.duration(), "s")),
             format!(
-                "at the most {} deep, {} and {}; discharge and depth are straight between the rows as they are given",
+                "at the most {} deep, {} and {}; what the table gives runs straight between its rows",
                 with_unit(most(&|row| row.depth), "m"),
                 with_unit(most(&|row| row.velocity), "m/s"),
                 with_unit(most(&|row| section.area(row.depth) * row.velocity), "m³/s")
