@@ -34,13 +34,8 @@ pub fn factored(design: &Design) -> Option<Design> {
         return None;
     }
     let mut heavier = design.clone();
-    let flow = &mut heavier.flow;
-    for value in [&mut flow.mass, &mut flow.bulk_density, &mut flow.solid_density, &mut flow.modulus] {
-        *value *= factor;
-    }
-    if let Some(fluid) = &mut flow.pore_fluid {
-        fluid.density *= factor;
-    }
+    heavier.flow.make_heavier(factor);
+    heavier.flow.modulus *= factor;
     heavier.factors.load = 1.0;
     Some(heavier)
 }
@@ -147,6 +142,7 @@ fn of_a_wall(wall: &RigidWall) -> Vec<Combination> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::Boulders;
     use crate::design::read::read_design;
 
     #[test]
@@ -155,9 +151,13 @@ mod tests {
         let mut net = read(include_str!("../designs/small_net.yaml"));
         assert_eq!(cases(&net).len(), 1);
         net.factors.load = 1.5;
+        net.flow.boulders = vec![Boulders { diameter: 0.8, number: 2, at_front: true, density: 2600.0 }];
         let heavier = factored(&net).unwrap();
         assert_eq!(heavier.flow.bulk_density, 1.5 * net.flow.bulk_density);
         assert_eq!(heavier.flow.volume(), net.flow.volume());
+        // All of it is, its boulders too.
+        assert!((heavier.flow.largest()[1] / net.flow.largest()[1] - 1.5).abs() < 1e-12);
+        assert!((heavier.flow.mass_of_grains() / net.flow.mass_of_grains() - 1.5).abs() < 1e-12);
         assert_eq!((heavier.factors.load, heavier.barrier == net.barrier), (1.0, true));
         let mut wall = read(include_str!("../designs/rigid_wall.yaml"));
         wall.factors.load = 1.5;

@@ -32,6 +32,16 @@ pub fn boulders_come_with_a_surge(e: &Entries) -> Option<Problem> {
     )
 }
 
+/// What they weigh is known, for the equations as well.
+pub fn boulders_have_a_density(e: &Entries) -> Option<Problem> {
+    let number = boulders(e)?.iter().position(|boulders| boulders.density.is_nan())?;
+    let path = format!("flow.boulders.{number}");
+    Some(
+        Problem::new(path, "boulders without a density", "a density of the boulders, or flow.solid_density")
+            .hint("stone has some 2650 kg/m3"),
+    )
+}
+
 pub fn boulders_are_a_part_of_the_flow(e: &Entries) -> Option<Problem> {
     let all: f64 = boulders(e)?.iter().map(Boulders::mass).sum();
     let flow = flow_volume(e)? * e.number("flow.bulk_density")?;

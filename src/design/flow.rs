@@ -141,7 +141,8 @@ impl Flow {
         let grain = [diameter, self.grain_density() * std::f64::consts::PI / 6.0 * diameter.powi(3)];
         let boulders =
             self.boulders.iter().map(|boulders| [boulders.diameter, boulders.mass() / f64::from(boulders.number)]);
-        boulders.fold(grain, |largest, boulder| if boulder[1] > largest[1] { boulder } else { largest })
+        // A grain that is not known is none.
+        boulders.fold(grain, |largest, boulder| if largest[1] >= boulder[1] { largest } else { boulder })
     }
 
     /// Volume of the flow with its pores, of the first surge where there are several (m³).
@@ -180,6 +181,17 @@ impl Flow {
     /// Friction (tan φ) as it acts on the flow as it comes, (1 − r_u) tan φ.
     pub fn effective(&self, friction: f64) -> f64 {
         self.pore_fluid.map_or(friction, |fluid| (1.0 - fluid.pressure_ratio) * friction)
+    }
+
+    /// Makes all that flows so many times as heavy: grains, boulders and the fluid between them.
+    pub fn make_heavier(&mut self, factor: f64) {
+        for value in [&mut self.mass, &mut self.bulk_density, &mut self.solid_density] {
+            *value *= factor;
+        }
+        if let Some(fluid) = &mut self.pore_fluid {
+            fluid.density *= factor;
+        }
+        self.boulders.iter_mut().for_each(|boulders| boulders.density *= factor);
     }
 
     /// Makes all grains so many times as large.

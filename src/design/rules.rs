@@ -54,6 +54,7 @@ pub const RULES: &[Rule] = &[
     surge_rules::surges_make_the_flow,
     surge_rules::first_surge_comes_first,
     boulder_rules::boulders_come_with_a_surge,
+    boulder_rules::boulders_have_a_density,
     hydrograph_rules::table_is_there,
     hydrograph_rules::rows_are_told_one_way,
     hydrograph_rules::columns_are_equally_long,

@@ -16,12 +16,7 @@ const CHANGES: &[(&str, f64, Change)] = &[
         design.flow.hydrograph = design.flow.hydrograph.as_ref().map(|hydrograph| hydrograph.faster(factor));
     }),
     ("Density of grains and flow", 0.1, |design, factor| {
-        design.flow.mass *= factor;
-        design.flow.bulk_density *= factor;
-        design.flow.solid_density *= factor;
-        if let Some(fluid) = &mut design.flow.pore_fluid {
-            fluid.density *= factor;
-        }
+        design.flow.make_heavier(factor);
     }),
     ("Friction on the bed", 0.2, |design, factor| design.channel.base_friction *= factor),
     ("Friction between grains", 0.2, |design, factor| design.flow.grain_friction *= factor),
