@@ -56,12 +56,12 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-const STATES: [State; 11] = {
+const STATES: [State; 13] = {
     const fn spheres(phase: Phase, count: usize) -> State {
-        State { shape: GrainShape::Sphere, phase, count, field: false }
+        State { shape: GrainShape::Sphere, phase, count, field: false, boulders: false }
     }
     const fn clumps(phase: Phase) -> State {
-        State { shape: GrainShape::Clump, phase, count: 5406, field: false }
+        State { shape: GrainShape::Clump, phase, count: 5406, field: false, boulders: false }
     }
     [
         spheres(Phase::Dense, 5406),
@@ -75,6 +75,8 @@ const STATES: [State; 11] = {
         clumps(Phase::Impact),
         State { field: true, ..spheres(Phase::Dense, 20_000) },
         State { field: true, ..spheres(Phase::Flow, 20_000) },
+        State { boulders: true, ..spheres(Phase::Dense, 20_000) },
+        State { boulders: true, ..spheres(Phase::Flow, 20_000) },
     ]
 };
 
@@ -126,7 +128,7 @@ fn main() {
     println!(
         "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
     );
-    STATES.iter().filter(|state| state.shape == GrainShape::Sphere && !state.field).for_each(tell_broad_phase);
+    STATES.iter().filter(|state| state.shape == GrainShape::Sphere && !state.field && !state.boulders).for_each(tell_broad_phase);
 }
 
 /// What the elements of a barrier cost, and how that grows with their number.
@@ -184,7 +186,7 @@ fn tell_broad_phase(state: &State) {
     );
 }
 
-/// ns per sphere-step of one state on one thread, for scripts.
+/// ns per sphere-step and per contact of one state on one thread, for scripts.
 fn tell_one(name: &str) {
     let Some(state) = STATES.iter().find(|state| state.name() == name) else {
         eprintln!("no such state: {name}");
@@ -195,7 +197,8 @@ fn tell_one(name: &str) {
         let spheres = simulation.grains.members();
         let steps = (SPHERE_STEPS / spheres).max(100);
         let time = time_steps(&mut simulation, steps).as_secs_f64();
-        println!("{:.1} ns per sphere-step", time / steps as f64 / spheres as f64 * 1e9);
+        let [sphere, contact] = [spheres as f64, touching_pairs(&simulation)].map(|n| time * 1e9 / (steps as f64 * n));
+        println!("{sphere:.1} ns per sphere-step, {contact:.1} ns per contact");
     });
 }
 

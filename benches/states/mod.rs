@@ -27,6 +27,8 @@ const CLUMP_SPREAD: f64 = 2.0;
 const SMALLEST_CLUMP: f64 = 0.00983;
 /// Time step of the bench, the same for all codes (s).
 pub const STEP: f64 = 1e-5;
+/// Diameter of a boulder over that of the other spheres.
+const BOULDER: f64 = 20.0;
 /// Number of grains at which the flume has its laboratory size.
 const LABORATORY: f64 = 5406.0;
 /// States larger than this are copies side by side.
@@ -41,6 +43,8 @@ pub struct State {
     pub count: usize,
     /// Whether the bed is a height field, of the same plane, instead of a surface.
     pub field: bool,
+    /// Whether two boulders of [`BOULDER`] times the diameter lie in the bed, in the place of the spheres that were there.
+    pub boulders: bool,
 }
 
 /// Which part of the event a state is taken from.
@@ -66,6 +70,7 @@ impl State {
             Phase::Impact => "impact",
         };
         match self.shape {
+            GrainShape::Sphere if self.boulders => format!("{phase}_{}_and_boulders", self.count),
             GrainShape::Sphere => format!("{phase}_{}", self.count),
             GrainShape::Clump => format!("clumps_{phase}_{}", self.count),
         }
@@ -145,6 +150,7 @@ impl State {
 
     fn body(&self, id: usize) -> GrainBody {
         match self.shape {
+            GrainShape::Sphere if id >= self.count => GrainBody::sphere(BOULDER * RADIUS, DENSITY),
             GrainShape::Sphere => GrainBody::sphere(RADIUS, DENSITY),
             GrainShape::Clump => {
                 // Evenly spread sizes, in an order that mixes them.
@@ -160,6 +166,16 @@ impl State {
         let (mut grains, growth) = pack(&bodies, self.shape, room, 1).expect("fits");
         for grain in &mut grains {
             grain.position.x *= 0.44 * self.scale() / (growth * room.size.x);
+        }
+        if self.boulders { self.with_boulders(grains) } else { grains }
+    }
+
+    fn with_boulders(&self, mut grains: Vec<Grain>) -> Vec<Grain> {
+        let body = self.body(self.count);
+        for (number, place) in [[0.13, 0.10], [0.31, 0.20]].into_iter().enumerate() {
+            let centre = Vec3::new(place[0] * self.scale(), place[1] * self.scale(), body.radius);
+            grains.retain(|grain| (grain.position - centre).norm() > grain.body.radius + body.radius);
+            grains.push(Grain::at((self.count + number) as u32, centre, Vec3::x(), body));
         }
         grains
     }
