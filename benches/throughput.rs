@@ -128,7 +128,10 @@ fn main() {
     println!(
         "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
     );
-    STATES.iter().filter(|state| state.shape == GrainShape::Sphere && !state.field && !state.boulders).for_each(tell_broad_phase);
+    STATES
+        .iter()
+        .filter(|state| state.shape == GrainShape::Sphere && !state.field && !state.boulders)
+        .for_each(tell_broad_phase);
 }
 
 /// What the elements of a barrier cost, and how that grows with their number.

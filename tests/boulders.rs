@@ -3,11 +3,18 @@
 use std::sync::atomic::AtomicBool;
 
 use barrier_check::design::read::{DesignFile, read_design};
+use barrier_check::fidelity::choose;
 use barrier_check::guideline::point_load;
 use barrier_check::pipeline::{Run, by_equations, run};
 use barrier_check::quantities::{boulder, other_ropes};
+use barrier_check::scene::build::build;
 use barrier_check::scene::event::Watch;
+use barrier_check::validation::scenes::{free_model, material};
+use dem::Vec3;
+use dem::model::Model;
 use dem::recorders::of_boulders;
+use dem::simulation::Simulation;
+use dem::tables::grains::{Grain, GrainBody, GrainShape};
 
 const NET: &str = include_str!("fixtures/tiny.yaml");
 const WALL: &str = include_str!("fixtures/tiny_wall.yaml");
@@ -46,6 +53,35 @@ fn a_boulder_hits_a_net_with_its_momentum() {
     let momentum = boulder_mass * 4.6;
     assert!((0.5..2.5).contains(&(impulse / momentum)), "{impulse} of {momentum}");
     assert!(first.one(&boulder::FORCE) > 2.0 * momentum / 0.15, "{}", first.one(&boulder::FORCE));
+}
+
+/// One alone against the net, without weight: what the net took from it is what it lost, step by step, and the energy is accounted for.
+#[test]
+fn momentum_and_energy_of_a_boulder_in_a_net_are_accounted_for() {
+    let file = read_design("x.yaml", NET.as_bytes()).unwrap_or_else(|problems| panic!("{problems}"));
+    let scene = build(&file.design, &choose(&file.design), 1).expect("a scene");
+    let body = GrainBody::sphere(0.275, 2650.0);
+    let mut boulder = Grain::at(0, Vec3::new(-0.8, 1.43, 0.71), Vec3::x(), body);
+    boulder.velocity = Vec3::new(4.6, 0.3, -0.2);
+    let momentum = boulder.velocity * body.mass;
+    let mut model = Model { material: material(0.3, 0.8), ..free_model(vec![boulder], GrainShape::Sphere) };
+    model.barrier = scene.simulation.model.barrier;
+    let mut simulation = Simulation::new(model, 2e-5, 0.05, 1e3);
+    simulation.start_account();
+    let start = simulation.ledger;
+    let (mut taken, mut largest) = (Vec3::zeros(), 0.0_f64);
+    for _ in 0..20_000 {
+        simulation.step_and_account().expect("stable");
+        taken += simulation.sums.net.from_grains * simulation.time_step;
+        largest = largest.max(simulation.sums.net.from_grains.norm());
+    }
+    let boulder = &simulation.snapshot()[0];
+    assert!(boulder.velocity.x < 0.0, "it was not thrown back: {}", boulder.velocity);
+    let lost = momentum - boulder.velocity * body.mass;
+    assert!((lost - taken).norm() < 1e-6 * momentum.norm(), "{lost} lost, {taken} taken");
+    assert!(largest > 5e3, "{largest}");
+    let error = simulation.ledger.relative_error(&start);
+    assert!(error.abs() < 1e-4, "{error}");
 }
 
 /// Spread ones lie in the flow, none overlaps, and their mass is there.

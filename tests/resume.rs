@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 const DESIGN: &str = "tests/fixtures/tiny.yaml";
 const SURGES: &str = "tests/fixtures/tiny_surges.yaml";
 const WET: &str = "tests/fixtures/tiny_wet.yaml";
+const BOULDERS: &str = "tests/fixtures/tiny_boulders.yaml";
 const INLET: &str = "tests/fixtures/tiny_inlet.yaml";
 
 fn program() -> Command {
@@ -150,6 +151,14 @@ fn a_flow_by_its_hydrograph_that_is_killed_and_resumed_ends_with_the_same_bits()
     let whole = undisturbed(INLET, "whole_inlet", &[]);
     kill_and_resume(INLET, "inlet_killed", 4, &[], 5);
     assert_eq!(whole, numbers(&folder_of("inlet_killed")));
+}
+
+/// Boulders at the front and among the grains.
+#[test]
+fn boulders_that_are_killed_and_resumed_end_with_the_same_bits() {
+    let whole = undisturbed(BOULDERS, "whole_boulders", &[]);
+    kill_and_resume(BOULDERS, "boulders_killed", 4, &[], 6);
+    assert_eq!(whole, numbers(&folder_of("boulders_killed")));
 }
 
 /// Several starts side by side, and a barrier of cylinders.
