@@ -1,6 +1,8 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
-use crate::design::{Arrival, BarrierDesign, Bottom, DamBreak, Design, FlexibleNet, LateralTo, RunUp};
+use crate::design::{
+    Arrival, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, RunUp,
+};
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
@@ -8,7 +10,7 @@ pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::impact::hertz;
 use crate::loads::input::GuidelineInput;
-use crate::loads::rope::{RopeInput, RopeState};
+use crate::loads::rope::{RopeInput, RopeState, Yielding};
 use crate::loads::run_up;
 use crate::loads::wall::WallInput;
 use crate::section::{Section, Survey};
@@ -38,8 +40,8 @@ pub struct Guideline {
     pub bed_force: Option<f64>,
     /// Of it on one bolt, spread evenly, where the distance of the bolts is known (N).
     pub bolt_force: Option<f64>,
-    /// Plateau (N) and stroke (m) of the dissipators, if there are any.
-    pub dissipator: Option<[f64; 2]>,
+    /// The dissipators, if there are any.
+    pub dissipator: Option<Yielding>,
     /// Whether a dissipator caps the load of its anchor: not where lateral ropes are tied to the anchors, past it.
     pub anchors_capped: bool,
     /// Level that the event reaches in front of the barrier, run-up and deposit, normal to the bed (m), and whether it is known; where it is
@@ -139,12 +141,7 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         metre_force: stages.iter().map(|case| case.metre_force(hit, input.barrier_height)).fold(0.0, larger_or_nan),
         foot_moment: stages.iter().map(|case| case.foot_moment(hit, lean(design))).fold(0.0, larger_or_nan),
         ropes,
-        dissipator: match &design.barrier {
-            BarrierDesign::FlexibleNet(net) => {
-                net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke])
-            }
-            BarrierDesign::RigidWall(_) => None,
-        },
+        dissipator: dissipator(design),
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
         level: level.unwrap_or_else(|least| least),
         level_is_known: level.is_ok(),
@@ -453,10 +450,11 @@ fn gain_of(design: &Design, distance: f64) -> f64 {
     }
 }
 
-/// Plateau (N) and stroke (m) of the dissipators, if there are any.
-fn dissipator(design: &Design) -> Option<[f64; 2]> {
+/// The dissipators, if there are any.
+fn dissipator(design: &Design) -> Option<Yielding> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    net.dissipators.map(|dissipator| [dissipator.plateau, dissipator.stroke])
+    let DissipatorDesign { plateau, stroke, curve, .. } = net.dissipators.clone()?;
+    Some(Yielding { largest: plateau, stroke, curve })
 }
 
 /// Angle by which the barrier leans upstream from the bed's normal (rad).

@@ -14,6 +14,7 @@ use dem::elements::dissipator::Dissipator;
 use dem::elements::ring::RingSide;
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::sliding::Chain;
+use dem::elements::yield_curve::YieldCurve;
 use dem::model::Model;
 use dem::simulation::{Simulation, Unstable};
 use dem::tables::barrier::Barrier;
@@ -54,6 +55,7 @@ fn a_dissipator_stops_a_mass_over_its_plateau() {
         radius: 0.016,
         stiffness: 45.957e6,
         plateau: 250e3,
+        curve: YieldCurve::default(),
         stroke: 2.5,
         used: 0.0,
     }];
@@ -352,6 +354,7 @@ fn grains_meet_what_a_dissipator_has_paid_out() {
         radius: 0.016,
         stiffness: 46e6,
         plateau: 250e3,
+        curve: YieldCurve::default(),
         stroke: 2.5,
         used: 1.9,
     }];

@@ -47,7 +47,7 @@ const USUAL_OVERSTRENGTH: f64 = 1.15;
 
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
 fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capacity: Resistance) -> Option<Outcome> {
-    let plateau = net.dissipators?.plateau;
+    let plateau = net.dissipators.as_ref()?.plateau;
     let name = CheckName::new(
         "anchor_plateau",
         "Anchors against the force of a yielding dissipator",

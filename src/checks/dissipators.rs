@@ -7,9 +7,9 @@ use crate::quantities::dissipator;
 use crate::quantities::quantity::Unit;
 use crate::sources::{PLATEAU_DATA, STROKE_DATA};
 
-fn dissipators(design: &Design) -> Option<(&FlexibleNet, DissipatorDesign)> {
+fn dissipators(design: &Design) -> Option<(&FlexibleNet, &DissipatorDesign)> {
     match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.dissipators.map(|dissipators| (&**net, dissipators)),
+        BarrierDesign::FlexibleNet(net) => net.dissipators.as_ref().map(|dissipators| (&**net, dissipators)),
         BarrierDesign::RigidWall(_) => None,
     }
 }
@@ -32,7 +32,11 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
 /// is no utilisation to tell; more means that the stroke is used up.
 pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let Some((_, given)) = dissipators(design) else { return Vec::new() };
-    let name = CheckName::new("brake_plateau", "Dissipator tension against its plateau", Unit::Newton, PLATEAU_DATA);
+    let against = match given.curve.is_plateau() {
+        true => "Dissipator tension against its plateau",
+        false => "Dissipator tension against the largest of its curve",
+    };
+    let name = CheckName::new("brake_plateau", against, Unit::Newton, PLATEAU_DATA);
     let mut outcome = Outcome::at_most(
         name,
         demands.one(&dissipator::TENSION),
@@ -40,8 +44,9 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
         1.0,
     );
     outcome.kind = Kind::DissipatorTension;
-    if outcome.utilisation.is_some_and(|utilisation| utilisation <= CAP_TOLERANCE) {
-        outcome.utilisation = None;
+    if let Some(utilisation) = outcome.utilisation.filter(|utilisation| *utilisation <= CAP_TOLERANCE) {
+        // On a curve it yields below the largest force too.
+        outcome.utilisation = (!given.curve.is_plateau() && utilisation < 1.0).then_some(utilisation);
         outcome.verdict = CheckVerdict::Pass;
     }
     vec![outcome]

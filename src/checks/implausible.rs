@@ -96,7 +96,7 @@ fn of_net(net: &FlexibleNet) -> Vec<Usual> {
     all.push(usual("barrier.flexible_net.anchors.resistance", net.anchor_resistance, "N", [0.0, 3e6]));
     let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);
     all.extend(bolt.map(|it| usual("barrier.flexible_net.anchors.bed_bolt_resistance", it, "N", [0.0, 1e6])));
-    if let Some(dissipator) = net.dissipators {
+    if let Some(dissipator) = &net.dissipators {
         all.push(usual("barrier.flexible_net.dissipators.plateau_force", dissipator.plateau, "N", [0.0, 1e6]));
         all.push(usual("barrier.flexible_net.dissipators.stroke", dissipator.stroke, "m", [0.0, 6.0]));
     }

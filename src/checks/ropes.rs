@@ -97,7 +97,7 @@ pub fn leave_open_what_sockets_alone_hold(
 /// A dissipator at work pulls the end of its rope with its plateau, overstrength included, whatever the design flow shows.
 pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
-    let Some(dissipators) = net.dissipators else { return Vec::new() };
+    let Some(dissipators) = &net.dissipators else { return Vec::new() };
     let own = Demand { guideline: Some(design.factors.overstrength * dissipators.plateau), ..Demand::default() };
     let name = CheckName::new(
         "rope_plateau",

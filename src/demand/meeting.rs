@@ -4,6 +4,7 @@ use crate::demand::value::{Demand, Seen};
 use crate::design::Factors;
 use crate::guideline::{Guideline, RopeLoad};
 use crate::larger::larger_or_nan;
+use crate::loads::rope::Yielding;
 use crate::quantities::dissipator;
 use crate::quantities::observed::Observed;
 use crate::quantities::quantity::{Demanded, Quantity};
@@ -112,18 +113,19 @@ impl Meeting<'_> {
         Demand { simulation: both.reduce(smaller), characteristic, ..Demand::default() }
     }
 
-    /// What a dissipator of a rope may pull with beyond its plateau (N).
+    /// What a dissipator of a rope may pull with beyond its plateau, or beyond its curve wherever on it (N).
     fn excess(&self) -> f64 {
-        self.guideline.dissipator.map_or(0.0, |[plateau, _]| (self.factors.overstrength - 1.0) * plateau)
+        self.guideline.dissipator.as_ref().map_or(0.0, |given| (self.factors.overstrength - 1.0) * given.largest)
     }
 
     fn plateau(&self) -> f64 {
-        self.guideline.dissipator.map_or(f64::INFINITY, |[plateau, _]| plateau)
+        self.guideline.dissipator.as_ref().map_or(f64::INFINITY, |given| given.largest)
     }
 
     /// Whether a load of this size means that a dissipator yields; one that is not known may.
     fn yields(&self, load: f64) -> bool {
-        let stays = load < self.plateau() / CAP_TOLERANCE;
+        let least = self.guideline.dissipator.as_ref().map_or(f64::INFINITY, Yielding::least);
+        let stays = load < least / CAP_TOLERANCE;
         !stays
     }
 
@@ -167,7 +169,7 @@ impl Meeting<'_> {
 
     /// Strokes end at their stop, whatever the scatter says.
     fn strokes(&self, quantity: &Quantity) -> Vec<Demand> {
-        let stop = self.guideline.dissipator.map_or(f64::INFINITY, |[_, stroke]| stroke);
+        let stop = self.guideline.dissipator.as_ref().map_or(f64::INFINITY, |given| given.stroke);
         let of = |rope: usize| {
             let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
             // Asked so that what is not a number stays so.

@@ -1,7 +1,9 @@
-//! Files that a design names beside itself: a surveyed section, a terrain raster, a hydrograph.
+//! Files that a design names beside itself: a surveyed section, a terrain raster, a hydrograph, the curve of a dissipator.
 
 use std::collections::BTreeMap;
 
+use crate::design::curve_file::{self, Way};
+use crate::design::dissipator_entries::{CURVES, curve_key};
 use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::hydrograph_entries::{LISTS, key};
 use crate::design::hydrograph_file::{self, Column};
@@ -26,7 +28,7 @@ const SECTION: [&str; 2] = ["channel.section.file", "channel.section.points"];
 /// Reads the files that the entries name, and puts what they hold in their place.
 pub fn read_attached(entries: &mut Entries, open: Open, problems: &mut Vec<Problem>) -> Attached {
     let mut attached = Attached::new();
-    for read in [read_section, read_terrain, read_hydrograph] {
+    for read in [read_section, read_terrain, read_hydrograph, read_curve] {
         if let Some(read) = read(entries, open) {
             match read {
                 Ok((name, bytes)) => drop(attached.insert(name, bytes)),
@@ -120,6 +122,23 @@ fn read_hydrograph(entries: &mut Entries, open: Open) -> Read {
             let typed = format!("{} rows of {name}", values.len());
             put(entries, &file, &key(list), Value::Numbers(values), typed);
         }
+        Ok((name, bytes))
+    }))
+}
+
+fn read_curve(entries: &mut Entries, open: Open) -> Read {
+    let file = curve_key("file");
+    let wanted = "a table of stroke or travel, and force, beside the design file";
+    let read = opened(entries, &file, open, wanted)?;
+    Some(read.and_then(|(name, bytes)| {
+        let (way, points) = curve_file::parse(&bytes)
+            .map_err(|(found, hint)| Problem::new(&file, format!("`{name}`, {found}"), wanted).hint(hint))?;
+        let list = match way {
+            Way::Stroke => CURVES[0],
+            Way::Travel => CURVES[1],
+        };
+        let typed = format!("{} points of {name}", points.len());
+        put(entries, &file, &curve_key(list), Value::Points(points), typed);
         Ok((name, bytes))
     }))
 }

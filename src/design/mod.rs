@@ -4,6 +4,9 @@ pub mod attached;
 pub(crate) mod boulder_rules;
 pub(crate) mod channel_entries;
 pub(crate) mod channel_rules;
+pub(crate) mod curve_file;
+pub(crate) mod dissipator_entries;
+pub(crate) mod dissipator_rules;
 pub(crate) mod document;
 pub mod entries;
 pub(crate) mod factor_sets;
@@ -36,6 +39,8 @@ pub(crate) mod yaml_faults;
 use std::sync::Arc;
 
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
+
+use dem::elements::yield_curve::YieldCurve;
 
 use crate::profile::Profile;
 use crate::relief::Relief;
@@ -289,11 +294,15 @@ pub enum LateralTo {
 }
 
 /// Energy dissipators, one at each end of every main rope.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DissipatorDesign {
+    /// Plateau force (N), or the largest of the curve.
     pub plateau: f64,
+    /// How the force goes with the stroke.
+    pub curve: YieldCurve,
+    /// m
     pub stroke: f64,
-    /// Elastic stiffness before the plateau (N/m).
+    /// Elastic stiffness before it yields and when it is unloaded (N/m).
     pub stiffness: f64,
 }
 

@@ -169,21 +169,6 @@ pub fn opening_below_the_barrier(e: &Entries) -> Option<Problem> {
     })
 }
 
-/// Elastic travel of a dissipator before it yields, over its stroke, up to which it can be left out of the stroke.
-const ELASTIC_TRAVEL: f64 = 0.25;
-
-pub fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
-    let [plateau, stroke, stiffness] =
-        ["plateau_force", "stroke", "stiffness"].map(|key| e.number(&at(&format!("dissipators.{key}"))));
-    let (travel, stroke) = (plateau? / stiffness?, stroke?);
-    (travel > ELASTIC_TRAVEL * stroke).then(|| {
-        let found =
-            format!("an elastic travel of {} up to the plateau, with a stroke of {}", length(travel), length(stroke));
-        Problem::new(at("dissipators.stiffness"), found, "a plateau that is reached within a quarter of the stroke")
-            .hint("the stroke is the travel at the plateau; elastic travel does not count to it")
-    })
-}
-
 pub fn lateral_ropes_have_their_dissipators(e: &Entries) -> Option<Problem> {
     let path = at("lateral_ropes.tied_to");
     (e.text(&path) == Some("dissipators") && !e.mentions(&at("dissipators"))).then(|| {

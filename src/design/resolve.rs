@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
+use crate::design::dissipator_entries::{DISSIPATORS, dissipators};
 use crate::design::entries::Entries;
 use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::{
@@ -14,9 +15,9 @@ use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
 use crate::design::terrain_file::FINE;
 use crate::design::{
-    Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, DissipatorDesign,
-    Factors, FidelityWish, FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange,
-    OwnSizes, PoreFluid, Project, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, Factors, FidelityWish,
+    FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, OwnSizes, PoreFluid,
+    Project, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -231,13 +232,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
 
 fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{key}"));
-    let dissipators = e.has_section("barrier.flexible_net.dissipators").then(|| {
-        Some(DissipatorDesign {
-            plateau: value("dissipators.plateau_force")?,
-            stroke: value("dissipators.stroke")?,
-            stiffness: value("dissipators.stiffness")?,
-        })
-    });
+    let dissipators = e.has_section(DISSIPATORS).then(|| dissipators(e));
     let tied_to = e.text("barrier.flexible_net.lateral_ropes.tied_to")?;
     Some(FlexibleNet {
         height: value("height")?,

@@ -9,7 +9,9 @@ use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
-use crate::design::{boulder_rules, channel_rules, hydrograph_rules, net_rules, size_rules, surge_rules, wall_rules};
+use crate::design::{
+    boulder_rules, channel_rules, dissipator_rules, hydrograph_rules, net_rules, size_rules, surge_rules, wall_rules,
+};
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -88,7 +90,12 @@ pub const RULES: &[Rule] = &[
     slope_lets_a_dam_break_flow,
     dam_break_clears_the_barrier,
     net_rules::lateral_ropes_have_their_dissipators,
-    net_rules::dissipators_are_stiff,
+    dissipator_rules::they_yield_one_way,
+    dissipator_rules::curve_goes_forwards,
+    dissipator_rules::curve_is_within_bounds,
+    dissipator_rules::curve_is_no_stiffer_than_elastic,
+    dissipator_rules::curve_falls_gently,
+    dissipator_rules::dissipators_are_stiff,
     net_rules::cylinders_have_no_slack,
     net_rules::net_rope_draws_out_or_breaks,
     net_rules::main_rope_draws_out_or_breaks,

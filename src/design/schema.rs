@@ -596,9 +596,55 @@ const LATERAL_ROPES: &[Key] = &[
 ];
 
 const DISSIPATORS: &[Key] = &[
-    Key::required("plateau_force", quantity(D::Force, 1.0, 1e8), "force at which the dissipator yields"),
-    Key::required("stroke", quantity(D::Length, 0.001, 20.0), "maximum stroke"),
-    Key::required("stiffness", quantity(D::Stiffness, 1e2, 1e10), "elastic stiffness before it yields"),
+    Key::optional(
+        "plateau_force",
+        quantity(D::Force, 1.0, 1e8),
+        "force at which the dissipator yields; give this with the stroke, or a curve",
+    ),
+    Key::optional("stroke", quantity(D::Length, 0.001, 20.0), "maximum stroke; a curve has its own"),
+    Key::optional(
+        "curve",
+        Kind::OneOf(YIELD_CURVE),
+        "force at which it yields against its stroke, from a test; the end of the curve is the maximum stroke",
+    ),
+    Key::required(
+        "stiffness",
+        quantity(D::Stiffness, 1e2, 1e10),
+        "elastic stiffness before it yields and when it is unloaded",
+    ),
+    Key::default(
+        "in_series",
+        Kind::Count { low: 1, high: 10 },
+        "1",
+        "dissipators one behind the other at each end of a rope: strokes add up",
+    ),
+    Key::default(
+        "side_by_side",
+        Kind::Count { low: 1, high: 10 },
+        "1",
+        "dissipators next to each other at each end of a rope: forces add up",
+    ),
+];
+
+/// Travel and force of a dissipator.
+const TRAVEL_AND_FORCE: Kind = Kind::Pairs {
+    first: Bounded { dimension: D::Length, low: 0.0, high: 20.0 },
+    second: Bounded { dimension: D::Force, low: 0.0, high: 1e8 },
+    example: "[[0 m, 60 kN], [0.2 m, 110 kN], [0.9 m, 140 kN]]",
+};
+
+const YIELD_CURVE: &[Key] = &[
+    Key::optional("after_unloading", TRAVEL_AND_FORCE, "points of stroke and force, the stroke without elastic travel"),
+    Key::optional(
+        "under_load",
+        TRAVEL_AND_FORCE,
+        "points of travel and force as measured under the force, from [0 m, 0 kN] on; elastic travel is taken off",
+    ),
+    Key::optional(
+        "file",
+        Kind::File,
+        "the same points as a table whose head names what it holds: `stroke (mm),force (kN)` for strokes after unloading, `travel (mm),force (kN)` for travel under load",
+    ),
 ];
 
 const ANCHORS: &[Key] = &[
@@ -803,5 +849,6 @@ pub const EITHER: &[Either] = &[
     Either { keys: &["mass", "volume"], needed: true, instead: &[["arrival", "surges"], ["arrival", "hydrograph"]] },
     Either { keys: &["volume", "length"], needed: true, instead: &[] },
     Either { keys: &["count", "heights"], needed: true, instead: &[] },
+    Either { keys: &["plateau_force", "curve"], needed: true, instead: &[] },
     Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: &[] },
 ];

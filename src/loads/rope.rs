@@ -3,15 +3,39 @@
 //! Parabola with sag f over span L: H = q L²/(8 f), end tension T = √(H² + (qL/2)²), exact arc length S(f).
 //! The rope is as long as L (1 + T/EA) plus what both dissipators give.
 
+use dem::elements::yield_curve::YieldCurve;
+
+/// What the equations know of a dissipator: it is rigid until it yields.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Yielding {
+    /// Plateau force, or the largest of the curve (N).
+    pub largest: f64,
+    /// m
+    pub stroke: f64,
+    pub curve: YieldCurve,
+}
+
+impl Yielding {
+    /// Force at which it yields when it has paid out `stroke` (m).
+    fn force(&self, stroke: f64) -> f64 {
+        self.largest * self.curve.force(stroke / self.stroke)
+    }
+
+    /// Below this force (N) it never yields.
+    pub fn least(&self) -> f64 {
+        self.largest * self.curve.least()
+    }
+}
+
 /// A main rope with its dissipators, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RopeInput {
     /// Span between the anchors L (m).
     pub span: f64,
     /// Axial stiffness EA (N).
     pub axial_stiffness: f64,
-    /// Plateau force (N) and stroke (m) of each dissipator, if there are any.
-    pub dissipator: Option<[f64; 2]>,
+    /// How each dissipator yields, if there are any.
+    pub dissipator: Option<Yielding>,
 }
 
 /// State of the rope under its load.
@@ -32,10 +56,37 @@ impl RopeInput {
             return RopeState::default();
         }
         let elastic = self.with_stroke(load, 0.0);
-        match self.dissipator {
-            Some([plateau, stroke]) if elastic.tension > plateau => self.yielding(load, plateau, stroke),
+        match &self.dissipator {
+            Some(dissipator) if elastic.tension > dissipator.force(0.0) => match dissipator.curve.is_plateau() {
+                true => self.yielding(load, dissipator.largest, dissipator.stroke),
+                false => self.along_the_curve(load, dissipator),
+            },
             _ => elastic,
         }
+    }
+
+    /// Where the tension, which falls with the stroke, first meets the curve; beyond its end the rope takes what comes.
+    fn along_the_curve(&self, load: f64, dissipator: &Yielding) -> RopeState {
+        let short = |stroke: f64| self.with_stroke(load, stroke).tension > dissipator.force(stroke);
+        let ends = dissipator.curve.points().iter().map(|[share, _]| share * dissipator.stroke);
+        let mut low = 0.0;
+        for end in ends.skip(1) {
+            if short(end) {
+                low = end;
+                continue;
+            }
+            let mut high = end;
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if short(middle) {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            return self.with_stroke(load, high);
+        }
+        self.with_stroke(load, dissipator.stroke)
     }
 
     /// On the plateau as long as stroke is left; beyond it the rope takes what comes.
@@ -88,10 +139,42 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
+    fn plateau(largest: f64, stroke: f64) -> Yielding {
+        Yielding { largest, stroke, curve: YieldCurve::default() }
+    }
+
+    /// On the curve the tension is that of the dissipators at their stroke; a curve of one force is a plateau, and a harder one gives less stroke.
+    #[test]
+    fn a_rope_stops_where_its_tension_meets_the_curve() {
+        let held = |points: &[[f64; 2]]| {
+            let (curve, [largest, stroke]) = YieldCurve::of(points);
+            RopeInput { span: 15.0, axial_stiffness: 3.2e6, dissipator: Some(Yielding { largest, stroke, curve }) }
+        };
+        let flat = held(&[[0.0, 250e3], [2.5, 250e3]]);
+        assert_eq!(flat.under(20e3), RopeInput { dissipator: Some(plateau(250e3, 2.5)), ..flat.clone() }.under(20e3));
+        let rising = held(&[[0.0, 100e3], [0.5, 200e3], [2.5, 250e3]]);
+        for load in [10e3, 15e3, 20e3] {
+            let state = rising.under(load);
+            let wanted =
+                if state.stroke < 0.5 { 100e3 + 200e3 * state.stroke } else { 200e3 + 25e3 * (state.stroke - 0.5) };
+            assert_relative_eq!(state.tension, wanted, max_relative = 1e-6);
+            let more = flat.under(load);
+            assert!(state.stroke > more.stroke && state.tension < more.tension, "{state:?} {more:?}");
+        }
+        // Straight across a fall and up again: the first place where it can stop.
+        let falling = held(&[[0.0, 240e3], [0.4, 120e3], [2.5, 260e3]]);
+        let state = falling.under(20e3);
+        assert_relative_eq!(state.tension, 120e3 + 140e3 * (state.stroke - 0.4) / 2.1, max_relative = 1e-6);
+        // Used up.
+        let short = held(&[[0.0, 100e3], [0.2, 150e3]]);
+        assert_eq!(short.under(30e3).stroke, 0.2);
+        assert!(short.under(30e3).tension > 150e3);
+    }
+
     #[test]
     fn matches_the_worked_example_on_the_plateau() {
         // q 20 kN/m, L 15 m, plateau 250 kN: f = 2.8125 m, arc 16.306 m, ΔS = 1.306 m (inextensible rope).
-        let rope = RopeInput { span: 15.0, axial_stiffness: 1e15, dissipator: Some([250e3, 2.5]) };
+        let rope = RopeInput { span: 15.0, axial_stiffness: 1e15, dissipator: Some(plateau(250e3, 2.5)) };
         let state = rope.under(20e3);
         assert_relative_eq!(state.sag, 2.8125, max_relative = 1e-9);
         assert_relative_eq!(rope.arc(state.sag), 16.306, max_relative = 1e-4);
@@ -101,7 +184,7 @@ mod tests {
 
     #[test]
     fn exhausted_stroke_lets_the_tension_grow() {
-        let rope = RopeInput { span: 15.0, axial_stiffness: 3.2e6, dissipator: Some([250e3, 0.2]) };
+        let rope = RopeInput { span: 15.0, axial_stiffness: 3.2e6, dissipator: Some(plateau(250e3, 0.2)) };
         let state = rope.under(30e3);
         assert_eq!(state.stroke, 0.2);
         assert!(state.tension > 250e3);
@@ -120,9 +203,9 @@ mod tests {
     #[test]
     fn a_rope_is_in_balance_and_as_long_as_it_is_stretched() {
         let elastic = RopeInput { span: 12.0, axial_stiffness: 8e6, dissipator: None };
-        let used_up = RopeInput { dissipator: Some([100e3, 0.3]), ..elastic };
+        let used_up = RopeInput { dissipator: Some(plateau(100e3, 0.3)), ..elastic.clone() };
         // So much stroke that it hangs deeper than it spans.
-        let deep = RopeInput { span: 2.0, axial_stiffness: 8e6, dissipator: Some([1e3, 5.0]) };
+        let deep = RopeInput { span: 2.0, axial_stiffness: 8e6, dissipator: Some(plateau(1e3, 5.0)) };
         for (rope, load, stroke) in
             [(elastic, 15e3, 0.0), (elastic, 200.0, 0.0), (used_up, 40e3, 0.3), (deep, 10e3, 5.0)]
         {
@@ -140,7 +223,7 @@ mod tests {
     #[test]
     fn a_dissipator_below_its_plateau_is_as_if_it_were_not_there() {
         let free = RopeInput { span: 10.0, axial_stiffness: 1e7, dissipator: None };
-        let held = RopeInput { dissipator: Some([1e9, 1.0]), ..free };
+        let held = RopeInput { dissipator: Some(plateau(1e9, 1.0)), ..free.clone() };
         assert_eq!(held.under(5e3), free.under(5e3));
         assert!(free.under(5e3).tension < 1e9);
     }

@@ -285,7 +285,10 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let (q, sag) = (rope.load / 1e3, rope.state.sag);
     let line = RopeInput { span, axial_stiffness: axial_stiffness(run), dissipator: None };
     let arc = line.arc(sag);
-    let yields = run.guideline.dissipator.is_some_and(|[plateau, _]| rope.state.tension == plateau);
+    let yields = run.guideline.dissipator.as_ref().is_some_and(|dissipator| {
+        let on_its_way = rope.state.stroke > 0.0 && rope.state.stroke < dissipator.stroke;
+        on_its_way || rope.state.tension == dissipator.largest
+    });
     if yields {
         format!(
             "{load}; the dissipators yield, so T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola",

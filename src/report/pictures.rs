@@ -481,7 +481,7 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
 
 fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
     let limit = match &run.file.design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.dissipators.map(|dissipator| dissipator.stroke),
+        BarrierDesign::FlexibleNet(net) => net.dissipators.as_ref().map(|dissipator| dissipator.stroke),
         BarrierDesign::RigidWall(_) => None,
     };
     let chart = LineChart {

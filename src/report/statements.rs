@@ -72,8 +72,13 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             EITHER,
         ),
         (
-            net,
+            net && !curved(design),
             "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
+            EITHER,
+        ),
+        (
+            net && curved(design),
+            "Dissipators are elastic, then yield along the curve that is given, however fast they are drawn out, unload elastically, and are rigid at the end of the curve.",
             EITHER,
         ),
         (
@@ -201,6 +206,12 @@ fn of_gap(design: &Design) -> Option<String> {
 /// Whether sides of the mesh have fewer pieces in the simulation than the grains need.
 fn straight_sides(design: &Design) -> bool {
     matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net_pieces(design, net) < needed_pieces(design, net))
+}
+
+/// Whether the dissipators yield along a curve.
+fn curved(design: &Design) -> bool {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return false };
+    net.dissipators.as_ref().is_some_and(|dissipators| !dissipators.curve.is_plateau())
 }
 
 /// Whether any of the ropes breaks in the simulation.

@@ -366,7 +366,7 @@ fn compared(value: f64, other: f64) -> String {
 
 /// When the dissipators of a rope were used up in the first start, and when the force was largest.
 fn dissipators_used_up(run: &Run) -> Option<String> {
-    let (seen, dissipators) = (run.simulated.as_ref()?, net(run)?.dissipators?);
+    let (seen, dissipators) = (run.simulated.as_ref()?, net(run)?.dissipators.as_ref()?);
     let used_up =
         seen.histories.barrier.rows(&of_dissipators::STROKE).iter().enumerate().filter_map(|(rope, strokes)| {
             let at = strokes.iter().position(|stroke| *stroke >= 0.999 * dissipators.stroke)?;
@@ -428,7 +428,7 @@ fn soft_ropes(run: &Run) -> Option<String> {
 /// Validation cases that fail, for designs with what they fail in.
 fn validation_case_like_this(run: &Run) -> Option<String> {
     run.simulated.as_ref()?;
-    net(run)?.dissipators?;
+    net(run)?.dissipators.as_ref()?;
     let kept = Kept::of_this_version()?;
     let case = kept.cases.iter().find(|case| case.id == "FS1" && !case.held)?;
     Some(format!(

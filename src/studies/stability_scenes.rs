@@ -9,6 +9,7 @@ use dem::elements::cylinder::Cylinder;
 use dem::elements::dissipator::Dissipator;
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
+use dem::elements::yield_curve::YieldCurve;
 use dem::model::Model;
 use dem::tables::barrier::Barrier;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
@@ -347,6 +348,7 @@ fn stop() -> Model {
         radius: 0.016,
         stiffness: 46e6,
         plateau: 250e3,
+        curve: YieldCurve::default(),
         stroke: 2.5,
         used: 2.5,
     }];

@@ -238,7 +238,7 @@ impl Builder<'_> {
     pub(super) fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
         let anchor = self.add_node(place, true);
         self.barrier.anchors.push(Anchor { node: anchor, rope });
-        match self.design.dissipators {
+        match &self.design.dissipators {
             Some(dissipator) => self.barrier.dissipators.push(Dissipator {
                 nodes: [anchor, end],
                 rope,
@@ -246,6 +246,7 @@ impl Builder<'_> {
                 radius: 0.5 * self.design.main_ropes.rope.diameter,
                 stiffness: dissipator.stiffness,
                 plateau: dissipator.plateau,
+                curve: dissipator.curve.clone(),
                 stroke: dissipator.stroke,
                 used: 0.0,
             }),

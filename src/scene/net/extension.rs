@@ -12,6 +12,7 @@ use crate::scene::net::build::Builder;
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
 use dem::elements::segment::SegmentKind;
+use dem::elements::yield_curve::YieldCurve;
 
 /// Way after which a knot has its whole holding force (m).
 const GIVE: f64 = 0.01;
@@ -46,6 +47,7 @@ impl Builder<'_> {
                         radius: 0.0,
                         stiffness: extension.holding_force / GIVE,
                         plateau: extension.holding_force,
+                        curve: YieldCurve::default(),
                         stroke: f64::MAX,
                         used: 0.0,
                     });

@@ -1,9 +1,10 @@
-//! D18, D19: the dissipator pulled to and fro, and stopping a mass.
+//! D18 to D20: the dissipator pulled to and fro, and stopping a mass, on a plateau and along a curve.
 
 use crate::validation::barrier::stand::Stand;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::yield_curve::YieldCurve;
 use dem::tables::barrier::Barrier;
 use dem::tables::nodes::Node;
 
@@ -29,6 +30,17 @@ pub const STOPPING: Case = Case {
     run: stopping,
 };
 
+pub const CURVED: Case = Case {
+    id: "D20",
+    suite: Suite::Dissipator,
+    title: "A dissipator whose force rises from 100 kN to 300 kN at 0.4 m and falls to 200 kN at 2.5 m stops 1000 kg and 2000 kg at 10 m/s",
+    source: "½ m v² = ½ F²/k + area under the curve up to the stroke",
+    tier: Tier::ClosedForm,
+    weakness: "no rope between; no rate effect",
+    cost: Cost::Quick,
+    run: curved,
+};
+
 const PLATEAU: f64 = 250e3;
 const STIFFNESS: f64 = 45.957e6;
 const STROKE: f64 = 2.5;
@@ -41,6 +53,7 @@ fn dissipator() -> Dissipator {
         radius: 0.016,
         stiffness: STIFFNESS,
         plateau: PLATEAU,
+        curve: YieldCurve::default(),
         stroke: STROKE,
         used: 0.0,
     }
@@ -69,8 +82,8 @@ fn cycle() -> Result<Vec<Finding>, Broken> {
     ])
 }
 
-fn stopping() -> Result<Vec<Finding>, Broken> {
-    let (mass, speed) = (1000.0, 10.0);
+/// A mass at the end of a dissipator, moving away from its anchor.
+fn thrown(mass: f64, speed: f64, dissipator: Dissipator) -> Stand {
     let node = |x: f64, fixed| Node {
         position: Vec3::x() * x,
         velocity: Vec3::zeros(),
@@ -82,8 +95,50 @@ fn stopping() -> Result<Vec<Finding>, Broken> {
     };
     let mut barrier = Barrier { nodes: vec![node(0.0, true), node(1.0, false)], ..Barrier::default() };
     barrier.nodes[1].velocity.x = speed;
-    barrier.dissipators = vec![dissipator()];
-    let mut stand = Stand::new(barrier, 2e-7);
+    barrier.dissipators = vec![dissipator];
+    Stand::new(barrier, 2e-7)
+}
+
+/// Where a dissipator of the curve holds a mass that came with an energy (J): ∫ Y dp + Y²/2k = E, by bisection.
+fn stop_by_hand(energy: f64) -> f64 {
+    let force = |p: f64| if p < 0.4 { 100e3 + 500e3 * p } else { 300e3 - 100e3 / 2.1 * (p - 0.4) };
+    let area =
+        |p: f64| if p < 0.4 { 0.5 * p * (100e3 + force(p)) } else { 80e3 + 0.5 * (p - 0.4) * (300e3 + force(p)) };
+    let (mut low, mut high) = (0.0, 2.5);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        let taken = area(middle) + force(middle) * force(middle) / (2.0 * STIFFNESS);
+        if taken < energy { low = middle } else { high = middle }
+    }
+    low
+}
+
+fn curved() -> Result<Vec<Finding>, Broken> {
+    let (curve, [plateau, stroke]) = YieldCurve::of(&[[0.0, 100e3], [0.4, 300e3], [2.5, 200e3]]);
+    let mut findings = Vec::new();
+    for mass in [1000.0, 2000.0] {
+        let mut stand = thrown(mass, 10.0, Dissipator { plateau, stroke, curve: curve.clone(), ..dissipator() });
+        let mut lost = 0.0;
+        while stand.barrier.nodes[1].velocity.x > 0.0 {
+            stand.step();
+            lost += stand.net.lost_dissipators;
+        }
+        let by_hand = stop_by_hand(0.5 * mass * 100.0);
+        let elastic = stand.net.stored;
+        findings.push(Finding::near(
+            format!("stroke of {mass} kg (m)"),
+            stand.barrier.dissipators[0].used,
+            by_hand,
+            1e-4,
+        ));
+        let energy = (lost + elastic) / (0.5 * mass * 100.0);
+        findings.push(Finding::near(format!("work over energy of {mass} kg"), energy, 1.0, 1e-4));
+    }
+    Ok(findings)
+}
+
+fn stopping() -> Result<Vec<Finding>, Broken> {
+    let mut stand = thrown(1000.0, 10.0, dissipator());
     let (mut time, mut yielded) = (0.0, None);
     while stand.barrier.nodes[1].velocity.x > 0.0 {
         stand.step();

@@ -5,6 +5,7 @@ use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::GRAVITY;
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::yield_curve::YieldCurve;
 use dem::tables::barrier::Barrier;
 
 pub const BAR: Case = Case {
@@ -205,6 +206,7 @@ fn braked() -> Result<Vec<Finding>, Broken> {
             radius: 0.016,
             stiffness: 46e6,
             plateau,
+            curve: YieldCurve::default(),
             stroke: 2.5,
             used: 0.0,
         });

@@ -1,7 +1,7 @@
-//! Energy dissipator, also called a brake: elastic, then a constant plateau force, then rigid.
+//! Energy dissipator, also called a brake: elastic, then yielding at the force of a curve, which may be a plateau, then rigid.
 //!
 //! With e the elongation and p the plastic stroke so far, F = k (e − p) ≥ 0. While F would exceed the
-//! plateau and stroke is left, p grows so that F equals the plateau; unloading is elastic with slope k; once
+//! yield force Y(p) and stroke is left, p grows so that F equals it; unloading is elastic with slope k; once
 //! the stroke is used up, p stays and F grows with slope k: the load goes straight to the anchor.
 //! Source: Albaba 2015, section 4.2.4; unloading and hard stop are our choices (stated in the report).
 
@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::Vec3;
 use crate::elements::segment::SegmentKind;
 use crate::elements::segment::{Strand, Taut};
+use crate::elements::yield_curve::YieldCurve;
 use crate::tables::nodes::Node;
 
 /// A dissipator between an anchor (first node) and a rope end (second node).
@@ -24,8 +25,10 @@ pub struct Dissipator {
     pub radius: f64,
     /// Elastic stiffness k (N/m).
     pub stiffness: f64,
-    /// Plateau force (N).
+    /// Plateau force (N), or the largest of its curve.
     pub plateau: f64,
+    /// How the yield force goes with the stroke.
+    pub curve: YieldCurve,
     /// Stroke available (m).
     pub stroke: f64,
     /// Stroke used so far, p (m).
@@ -63,12 +66,10 @@ impl Dissipator {
         pull
     }
 
-    /// Sets the elongation (m), lets the plateau slip, and returns the force.
+    /// Sets the elongation (m), lets it yield, and returns the force.
     pub fn elongate(&mut self, elongation: f64) -> Pull {
-        let elastic_limit = self.plateau / self.stiffness;
-        let wanted = (elongation - elastic_limit).max(self.used).min(self.stroke.max(self.used));
-        let lost = self.plateau * (wanted - self.used);
-        self.used = wanted;
+        let [used, lost] = self.curve.pay_out([self.plateau, self.stroke], self.stiffness, self.used, elongation);
+        self.used = used;
         let elastic = (elongation - self.used).max(0.0);
         Pull {
             tension: self.stiffness * elastic,
@@ -92,6 +93,7 @@ mod tests {
             radius: 0.016,
             stiffness: 45.957e6,
             plateau: 250e3,
+            curve: YieldCurve::default(),
             stroke: 2.5,
             used: 0.0,
         }

@@ -8,3 +8,4 @@ pub mod rope;
 pub mod segment;
 pub mod sliding;
 pub mod strength;
+pub mod yield_curve;

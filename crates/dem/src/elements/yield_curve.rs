@@ -1,0 +1,138 @@
+//! Force at which a dissipator yields, against the stroke that it has paid out.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+/// The shape of a yield curve: points of stroke and force, straight between them, as shares of the whole stroke and of the largest force.
+/// Without points it is a plateau: the largest force from the beginning to the end.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct YieldCurve(Arc<[[f64; 2]]>);
+
+/// The points of a plateau.
+const PLATEAU: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, 1.0]];
+
+impl YieldCurve {
+    /// From points of stroke (m) and force (N), two at least, the first without stroke and the strokes rising; with them the largest force (N)
+    /// and the whole stroke (m).
+    pub fn of(points: &[[f64; 2]]) -> (Self, [f64; 2]) {
+        let largest = points.iter().map(|[_, force]| *force).fold(0.0, f64::max);
+        let whole = points.last().map_or(0.0, |[stroke, _]| *stroke);
+        let shares = points.iter().map(|[stroke, force]| [stroke / whole, force / largest]);
+        (Self(shares.collect()), [largest, whole])
+    }
+
+    /// Points as shares of the whole stroke and of the largest force.
+    pub fn points(&self) -> &[[f64; 2]] {
+        if self.0.is_empty() { &PLATEAU } else { &self.0 }
+    }
+
+    /// Whether it yields at one force only.
+    pub fn is_plateau(&self) -> bool {
+        self.points().iter().all(|[_, force]| *force == 1.0)
+    }
+
+    /// The smallest force over the largest: below it nothing yields.
+    pub fn least(&self) -> f64 {
+        self.points().iter().map(|[_, force]| *force).fold(1.0, f64::min)
+    }
+
+    /// Force at a stroke, as shares.
+    pub fn force(&self, stroke: f64) -> f64 {
+        let points = self.points();
+        let next = points.partition_point(|[at, _]| *at <= stroke).clamp(1, points.len() - 1);
+        let [[from, before], [to, after]] = [points[next - 1], points[next]];
+        before + (after - before) * ((stroke - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// How far it pays out under an elongation (m), and the work of that (J), for a dissipator of the given largest force (N), whole
+    /// stroke (m) and elastic stiffness (N/m), which has paid out `used` (m) already. A force that falls must do so by less than the elastic
+    /// stiffness, or how far it pays out would have no single answer.
+    pub fn pay_out(&self, [largest, whole]: [f64; 2], stiffness: f64, used: f64, elongation: f64) -> [f64; 2] {
+        let points = self.points();
+        let (mut paid, mut work) = (used, 0.0);
+        for (index, pair) in points.windows(2).enumerate() {
+            let last = index + 2 == points.len();
+            let [from, to] = [pair[0][0], pair[1][0]].map(|share| if share == 0.0 { 0.0 } else { share * whole });
+            if paid >= to && !last {
+                continue;
+            }
+            let [start, end] = [pair[0][1] * largest, pair[1][1] * largest];
+            let slope = (end - start) / (to - from);
+            // k (e − p) = Y + m (p − p₀): where elastic force and yield force are the same.
+            let meeting = from + (elongation - from - start / stiffness) * (stiffness / (stiffness + slope));
+            let wanted = meeting.max(paid).min(to.max(paid));
+            let [before, after] = [paid, wanted].map(|stroke| start + slope * (stroke - from));
+            work += 0.5 * (before + after) * (wanted - paid);
+            paid = wanted;
+            if wanted < to {
+                break;
+            }
+        }
+        [paid, work]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// 40 kN rising to 100 kN over 0.6 m, falling to 70 kN at 1 m.
+    fn example() -> (YieldCurve, [f64; 2]) {
+        YieldCurve::of(&[[0.0, 40e3], [0.6, 100e3], [1.0, 70e3]])
+    }
+
+    #[test]
+    fn force_is_straight_between_the_points() {
+        let (curve, scale) = example();
+        assert_eq!(scale, [100e3, 1.0]);
+        for (stroke, force) in [(0.0, 40e3), (0.3, 70e3), (0.6, 100e3), (0.8, 85e3), (1.0, 70e3), (2.0, 70e3)] {
+            assert_relative_eq!(curve.force(stroke) * 100e3, force, max_relative = 1e-12);
+        }
+        assert_relative_eq!(curve.least(), 0.4);
+        assert!(!curve.is_plateau() && YieldCurve::default().is_plateau());
+    }
+
+    /// Whatever the steps, it pulls with the force of the curve at the stroke, and the work is the area under it.
+    #[test]
+    fn it_follows_the_curve_in_steps_of_any_size() {
+        let (curve, scale) = example();
+        let stiffness = 2e6;
+        for steps in [1, 7, 1000] {
+            let (mut used, mut lost) = (0.0, 0.0);
+            for step in 1..=steps {
+                let elongation = 0.9 * f64::from(step) / f64::from(steps);
+                let [paid, work] = curve.pay_out(scale, stiffness, used, elongation);
+                (used, lost) = (paid, lost + work);
+                assert_relative_eq!(stiffness * (elongation - used), scale[0] * curve.force(used), max_relative = 1e-9);
+            }
+            let area = 0.6 * 70e3 + (used - 0.6) * 0.5 * (100e3 + scale[0] * curve.force(used));
+            assert_relative_eq!(lost, area, max_relative = 1e-9);
+            // Back and out again nothing is paid out before the force is there anew.
+            assert_eq!(curve.pay_out(scale, stiffness, used, 0.5), [used, 0.0]);
+            // At the end of its stroke it stays.
+            let [paid, work] = curve.pay_out(scale, stiffness, used, 5.0);
+            assert_eq!(paid, 1.0);
+            assert_relative_eq!(lost + work, 0.6 * 70e3 + 0.4 * 85e3, max_relative = 1e-9);
+        }
+    }
+
+    /// Of two points with the same force to the last bit what a plateau gives.
+    #[test]
+    fn a_plateau_is_the_curve_of_two_points() {
+        let (two, scale) = YieldCurve::of(&[[0.0, 123e3], [0.7, 123e3]]);
+        let mut random = fastrand::Rng::with_seed(3);
+        let (mut used, plateau) = (0.0_f64, YieldCurve::default());
+        for _ in 0..2000 {
+            let elongation = 0.9 * random.f64();
+            let by_hand = (elongation - 123e3 / 7.7e6).max(used).min(0.7_f64.max(used));
+            let paid = two.pay_out(scale, 7.7e6, used, elongation);
+            assert_eq!(paid, plateau.pay_out(scale, 7.7e6, used, elongation));
+            assert_eq!(paid, [by_hand, 123e3 * (by_hand - used)]);
+            used = if random.f64() < 0.05 { 0.0 } else { paid[0] };
+        }
+        // And without an end.
+        assert_eq!(plateau.pay_out([5.0, f64::INFINITY], 10.0, 0.0, 3.0), [2.5, 12.5]);
+    }
+}

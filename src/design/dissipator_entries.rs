@@ -1,0 +1,64 @@
+//! What the entries of a design say of its dissipators.
+
+use dem::elements::yield_curve::YieldCurve;
+
+use crate::design::DissipatorDesign;
+use crate::design::entries::Entries;
+
+pub const DISSIPATORS: &str = "barrier.flexible_net.dissipators";
+
+/// Keys of a curve: strokes as they are left after unloading, travel as it was measured under the force.
+pub const CURVES: [&str; 2] = ["after_unloading", "under_load"];
+
+/// Where a key of them stands.
+pub fn key(name: &str) -> String {
+    format!("{DISSIPATORS}.{name}")
+}
+
+/// Where a curve stands that was told one way or the other.
+pub fn curve_key(name: &str) -> String {
+    format!("{DISSIPATORS}.curve.{name}")
+}
+
+/// Share of the whole stroke below which two points of a curve are one.
+const SAME: f64 = 1e-6;
+
+/// Points of stroke after unloading (m) and force (N) of one dissipator; nothing where none are given. Under a force F the elastic travel F/k is
+/// a part of what was measured.
+pub fn points(e: &Entries) -> Option<Vec<[f64; 2]>> {
+    if let Some(points) = e.points(&curve_key(CURVES[0])) {
+        return Some(points.to_vec());
+    }
+    let (travels, stiffness) = (e.points(&curve_key(CURVES[1]))?, e.number(&key("stiffness"))?);
+    let whole = travels.last()?[0];
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for [travel, force] in travels {
+        let stroke = travel - force / stiffness;
+        match points.last_mut() {
+            // As stiff as it is elastically: it has not yielded up to here.
+            Some(last) if (stroke - last[0]).abs() < SAME * whole => last[1] = *force,
+            _ => points.push([stroke, *force]),
+        }
+    }
+    Some(points)
+}
+
+/// Dissipators of one rope end, all that stand there together; nothing where they are not told soundly.
+pub fn dissipators(e: &Entries) -> Option<DissipatorDesign> {
+    let number = |name: &str| e.number(&key(name));
+    let (curve, [plateau, stroke]) = match points(e) {
+        Some(points) => {
+            let sound = points.len() > 1 && points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+            let (curve, scale) = sound.then(|| YieldCurve::of(&points))?;
+            (curve, scale)
+        }
+        None => (YieldCurve::default(), [number("plateau_force")?, number("stroke")?]),
+    };
+    let [in_series, side_by_side] = [number("in_series")?, number("side_by_side")?];
+    Some(DissipatorDesign {
+        plateau: plateau * side_by_side,
+        curve,
+        stroke: stroke * in_series,
+        stiffness: number("stiffness")? * side_by_side / in_series,
+    })
+}

@@ -1,0 +1,126 @@
+//! Contradictions between the values of dissipators.
+
+use crate::design::dissipator_entries::{CURVES, DISSIPATORS, curve_key, dissipators, key, points};
+use crate::design::entries::Entries;
+use crate::design::show::length;
+use crate::problem::Problem;
+use crate::units::Dimension;
+
+/// Largest travel (m) and force (N) of a point.
+const BOUNDS: [f64; 2] = [20.0, 1e8];
+
+/// They yield at one force or by a curve.
+pub fn they_yield_one_way(e: &Entries) -> Option<Problem> {
+    if !e.has_section(DISSIPATORS) {
+        return None;
+    }
+    let [plateau, stroke, curve] = ["plateau_force", "stroke", "curve"].map(|name| e.mentions(&key(name)));
+    let found = match (plateau, stroke, curve) {
+        (true, true, false) | (false, false, true) => return None,
+        (true, _, true) => "a plateau_force and a curve",
+        (false, true, true) => "a stroke and a curve",
+        (true, false, false) => "a plateau_force without a stroke",
+        (false, true, false) => "a stroke without a plateau_force",
+        (false, false, false) => "neither a plateau_force nor a curve",
+    };
+    Some(Problem::new(DISSIPATORS, found, "either plateau_force and stroke, or a curve").hint(
+        "a curve tells force against stroke as tests show it: `curve: {after_unloading: [[0 m, 60 kN], [0.9 m, 140 kN]]}`",
+    ))
+}
+
+/// The key of the curve as given, with its points.
+fn typed(e: &Entries) -> Option<(String, &[[f64; 2]])> {
+    CURVES.iter().find_map(|name| Some((curve_key(name), e.points(&curve_key(name))?)))
+}
+
+/// From the beginning on, to and fro in no place.
+pub fn curve_goes_forwards(e: &Entries) -> Option<Problem> {
+    let (path, points) = typed(e)?;
+    let wanted = "two points or more, the first at 0 m, with a travel that rises";
+    if points.len() < 2 {
+        return Some(Problem::new(path, format!("{} point(s)", points.len()), wanted));
+    }
+    if points[0][0] != 0.0 {
+        return Some(Problem::new(path, format!("a first point at {}", length(points[0][0])), wanted));
+    }
+    let pair = points.windows(2).find(|pair| pair[1][0] <= pair[0][0])?;
+    Some(Problem::new(path, format!("{} after {}", length(pair[1][0]), length(pair[0][0])), wanted))
+}
+
+/// What a file gives is within the bounds of what may be typed, and some force is there.
+pub fn curve_is_within_bounds(e: &Entries) -> Option<Problem> {
+    let (path, points) = typed(e)?;
+    let dimensions = [Dimension::Length, Dimension::Force];
+    let outside = points.iter().find_map(|point| {
+        (0..2).find(|&side| !(0.0..=BOUNDS[side]).contains(&point[side])).map(|side| (side, point[side]))
+    });
+    if let Some((side, value)) = outside {
+        let show = |value: f64| dimensions[side].show(value);
+        return Some(Problem::new(path, show(value), format!("0 to {}", show(BOUNDS[side]))));
+    }
+    points
+        .iter()
+        .all(|[_, force]| *force < 1.0)
+        .then(|| Problem::new(path, "a curve without force", "a force of 1 N or more at one of its points"))
+}
+
+/// What is elastic comes back: a curve under load is nowhere stiffer than the elastic stiffness.
+pub fn curve_is_no_stiffer_than_elastic(e: &Entries) -> Option<Problem> {
+    if curve_goes_forwards(e).is_some() || curve_is_within_bounds(e).is_some() {
+        return None;
+    }
+    let path = curve_key(CURVES[1]);
+    let travels = e.points(&path)?;
+    if travels[0][1] > 0.0 {
+        let found = format!("{} at 0 m", Dimension::Force.show(travels[0][1]));
+        return Some(Problem::new(path, found, "no force without travel").hint(
+            "under load a dissipator stretches elastically before it yields; strokes without that go under `after_unloading`",
+        ));
+    }
+    let points = points(e)?;
+    let back = points.windows(2).find(|pair| pair[1][0] <= pair[0][0])?;
+    let steepest =
+        travels.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).fold(0.0, f64::max);
+    let found = format!("a rise to {} that is stiffer than the elastic stiffness", Dimension::Force.show(back[1][1]));
+    let hint = format!("the steepest part of this curve has {}", Dimension::Stiffness.show(steepest));
+    Some(Problem::new(path, found, format!("no more than `{}` anywhere", e.typed(&key("stiffness")))).hint(hint))
+}
+
+/// Share of the elastic stiffness by which a force may fall with the stroke.
+const STEEPEST_FALL: f64 = 0.5;
+
+/// A force that falls faster than the dissipator relaxes makes it jump.
+pub fn curve_falls_gently(e: &Entries) -> Option<Problem> {
+    if curve_goes_forwards(e).is_some() || curve_is_no_stiffer_than_elastic(e).is_some() {
+        return None;
+    }
+    let ((path, _), points, stiffness) = (typed(e)?, points(e)?, e.number(&key("stiffness"))?);
+    let limit = STEEPEST_FALL * stiffness;
+    let steep = points.windows(2).find(|pair| pair[0][1] - pair[1][1] > limit * (pair[1][0] - pair[0][0]))?;
+    let show = |force: f64| Dimension::Force.show(force);
+    let found = format!(
+        "a fall from {} to {} within {}",
+        show(steep[0][1]),
+        show(steep[1][1]),
+        length(steep[1][0] - steep[0][0])
+    );
+    let allowed = format!("a fall by no more than {}, half the elastic stiffness", Dimension::Stiffness.show(limit));
+    Some(Problem::new(path, found, allowed).hint("draw the mean line through the peaks of a test"))
+}
+
+/// Elastic travel of a dissipator before it yields, over its stroke, up to which it can be left out of the stroke.
+const ELASTIC_TRAVEL: f64 = 0.25;
+
+pub fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
+    let given = dissipators(e)?;
+    let travel = given.plateau / given.stiffness;
+    (travel > ELASTIC_TRAVEL * given.stroke).then(|| {
+        let found = format!(
+            "an elastic travel of {} up to the plateau, with a stroke of {}",
+            length(travel),
+            length(given.stroke)
+        );
+        Problem::new(key("stiffness"), found, "a plateau that is reached within a quarter of the stroke")
+            .hint("the stroke is the travel at the plateau; elastic travel does not count to it")
+    })
+}
