@@ -94,7 +94,7 @@ fn of_a_net(net: &FlexibleNet, factors: &Factors) -> Vec<Combination> {
         by_simulation: "the same",
     });
     if net.dissipators.is_some() {
-        let given = "where a dissipator yields, (factor − 1) × plateau is added to the load of its rope and anchor";
+        let given = "where a dissipator yields, (factor − 1) × plateau, or × the largest force of its curve, is added to the load of its rope and anchor";
         let taken = "the same; not given, so taken as the factor on loads";
         rows.push(Combination {
             what: "Overstrength of dissipators",

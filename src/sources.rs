@@ -16,5 +16,5 @@ pub const DESIGN_LIMIT: &str = "limit of the design file, or its default (see th
 pub const ROPE_FACTOR: &str = "breaking load × termination efficiency / partial factor of the rope (after EN 1993-1-11, not checked against the original; all are in the design file)";
 pub const ANCHOR_FACTOR: &str = "anchor resistance / partial factor (after EN 1997-1; set it in the design file)";
 pub const STROKE_DATA: &str = "stroke of the dissipator, data of the design file";
-pub const PLATEAU_DATA: &str = "plateau force of the dissipator, data of the design file; yielding passes, more than the plateau means that the stroke is used up and fails";
+pub const PLATEAU_DATA: &str = "plateau of the dissipator or largest force of its curve, data of the design file; yielding passes, more than that means that the stroke is used up and fails";
 pub const WALL_BALANCE: &str = "balance of forces and moments on the wall, with the factors of the design file";

@@ -52,6 +52,17 @@ fn a_curve_is_the_same_however_it_is_told() {
     assert_eq!([six.plateau, six.stroke, six.stiffness], [2.0 * 120e3, 3.0 * 0.2, 8e6 * 2.0 / 3.0]);
 }
 
+/// Stiff again after it has yielded: the flat part stays flat, and the area under it.
+#[test]
+fn a_second_stiff_part_does_not_lift_the_first() {
+    let two_stage = told(&with(
+        "      curve: {under_load: [[0 mm, 0 kN], [6 mm, 48 kN], [566 mm, 48 kN], [578 mm, 144 kN], [600 mm, 144 kN]]}\n",
+    ));
+    assert!((two_stage.plateau * two_stage.curve.force(0.5 * 0.56 / two_stage.stroke) - 48e3).abs() < 1.0);
+    assert!((two_stage.plateau * two_stage.curve.force(0.999 * 0.56 / two_stage.stroke) - 48e3).abs() < 1.0);
+    assert!((two_stage.stroke - (0.6 - 144e3 / 8e6)).abs() < 1e-12 && two_stage.plateau == 144e3);
+}
+
 /// A curve of two points with one force gives the bits of a plateau; one that begins softer pays out more.
 #[test]
 fn a_curve_of_one_force_is_a_plateau() {

@@ -74,7 +74,7 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capaci
     let known = design.factors.overstrength_given || design.factors.load >= USUAL_OVERSTRENGTH;
     if !known && matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
         outcome.leave_open(Opening::NotGiven(
-            "how far above its plateau a dissipator may pull is not given (give factors.dissipator_overstrength from its tests; 1 if the plateau is the upper bound)".into(),
+            "how far above its plateau or curve a dissipator may pull is not given (give factors.dissipator_overstrength from its tests; 1 if what is given is the upper bound)".into(),
         ));
     }
     Some(outcome)

@@ -1,7 +1,7 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Outcome, Resistance};
-use crate::demand::{CAP_TOLERANCE, Demands};
+use crate::demand::{CAP_TOLERANCE, Demands, USED_UP};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
 use crate::quantities::dissipator;
 use crate::quantities::quantity::Unit;
@@ -43,13 +43,21 @@ pub fn check_plateau(design: &Design, demands: &Demands) -> Vec<Outcome> {
         Resistance { characteristic: given.plateau, factor: 1.0 },
         1.0,
     );
-    outcome.kind = Kind::DissipatorTension;
-    if let Some(utilisation) = outcome.utilisation.filter(|utilisation| *utilisation <= CAP_TOLERANCE) {
-        // On a curve it yields below the largest force too.
-        outcome.utilisation = (!given.curve.is_plateau() && utilisation < 1.0).then_some(utilisation);
-        outcome.verdict = CheckVerdict::Pass;
+    outcome.kind = if given.curve.is_plateau() { Kind::DissipatorTension } else { Kind::DissipatorCurve };
+    if outcome.utilisation.is_some_and(|utilisation| utilisation <= CAP_TOLERANCE) {
+        // The end of a curve may have less than its largest force: there the stroke tells.
+        let used_up = !given.curve.is_plateau() && stroke_is_used_up(given, demands);
+        outcome.utilisation = None;
+        outcome.verdict = if used_up { CheckVerdict::Fail } else { CheckVerdict::Pass };
     }
     vec![outcome]
+}
+
+/// Whether any stroke is at its end, by any route; one that is not known may be.
+fn stroke_is_used_up(given: &DissipatorDesign, demands: &Demands) -> bool {
+    let strokes = demands.each(&dissipator::STROKE).iter().flat_map(|demand| [demand.guideline, demand.simulation]);
+    let left = |stroke: f64| stroke < USED_UP * given.stroke;
+    strokes.flatten().any(|stroke| !left(stroke))
 }
 
 #[cfg(test)]
@@ -58,6 +66,28 @@ mod tests {
     use crate::demand::Demand;
     use crate::design::read::read_design;
     use crate::quantities::dissipator;
+    use dem::elements::yield_curve::YieldCurve;
+
+    /// Along a curve that ends with less than its largest force a stroke that is used up fails, whatever the tension.
+    #[test]
+    fn a_curve_is_used_up_by_its_stroke() {
+        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        let given = net.dissipators.as_mut().expect("dissipators");
+        let (curve, [plateau, stroke]) = YieldCurve::of(&[[0.0, 150e3], [0.9, 60e3]]);
+        (given.curve, given.plateau, given.stroke) = (curve, plateau, stroke);
+        let told = |tension: f64, stroke: f64| {
+            let demand = |value: f64| [Demand { simulation: Some(value), ..Demand::default() }];
+            let demands = Demands::default()
+                .with(&dissipator::TENSION, &demand(tension))
+                .with(&dissipator::STROKE, &demand(stroke));
+            check_plateau(&design, &demands)[0].verdict
+        };
+        assert_eq!(told(100e3, 0.5), CheckVerdict::Pass);
+        assert_eq!(told(100e3, 0.9), CheckVerdict::Fail);
+        assert_eq!(told(100e3, f64::NAN), CheckVerdict::Fail);
+        assert_eq!(told(160e3, 0.5), CheckVerdict::Fail);
+    }
 
     /// A plateau of 150 kN: at it and 1 % above, which is rounding, a dissipator works; above that its stroke is used up.
     #[test]

@@ -97,8 +97,13 @@ fn of_net(net: &FlexibleNet) -> Vec<Usual> {
     let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);
     all.extend(bolt.map(|it| usual("barrier.flexible_net.anchors.bed_bolt_resistance", it, "N", [0.0, 1e6])));
     if let Some(dissipator) = &net.dissipators {
-        all.push(usual("barrier.flexible_net.dissipators.plateau_force", dissipator.plateau, "N", [0.0, 1e6]));
-        all.push(usual("barrier.flexible_net.dissipators.stroke", dissipator.stroke, "m", [0.0, 6.0]));
+        let path = "barrier.flexible_net.dissipators";
+        let [force, stroke] = match dissipator.curve.is_plateau() {
+            true => ["plateau_force", "stroke"],
+            false => ["curve: the largest force at one end of a rope", "curve: the stroke at one end of a rope"],
+        };
+        all.push(usual(format!("{path}.{force}"), dissipator.plateau, "N", [0.0, 1e6]));
+        all.push(usual(format!("{path}.{stroke}"), dissipator.stroke, "m", [0.0, 6.0]));
     }
     all
 }

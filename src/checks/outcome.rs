@@ -54,6 +54,8 @@ pub enum Kind {
     Stroke,
     /// The tension of dissipators, which passes their plateau only once a stroke is used up.
     DissipatorTension,
+    /// The same of dissipators that yield along a curve, whose end may have less than its largest force.
+    DissipatorCurve,
     /// The tension of a free main rope, of the lateral ropes, of the net.
     MainRope,
     LateralRopes,

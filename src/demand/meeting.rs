@@ -13,6 +13,9 @@ use crate::starts::Spread;
 /// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
 pub const CAP_TOLERANCE: f64 = 1.01;
 
+/// Share of its stroke from which a dissipator counts as used up.
+pub const USED_UP: f64 = 0.999;
+
 type Read<'q> = &'q dyn Fn(&Observed) -> f64;
 
 fn spread(observed: &[&Observed], read: Read) -> Option<Spread> {
@@ -129,13 +132,24 @@ impl Meeting<'_> {
         !stays
     }
 
+    /// Whether the dissipators of a rope, which yield along a curve, are at its end, which may have less than the largest force.
+    fn may_be_used_up(&self, rope: usize) -> bool {
+        let Some(given) = self.guideline.dissipator.as_ref().filter(|given| !given.curve.is_plateau()) else {
+            return false;
+        };
+        let stroke = |seen: &Observed| seen.each(&dissipator::STROKE).get(rope).copied().unwrap_or(f64::NAN);
+        let left = largest(self.governing, &stroke) < USED_UP * given.stroke;
+        !left
+    }
+
     fn ropes(&self, quantity: &Quantity) -> usize {
         self.governing.first().map_or(self.guideline.ropes.len(), |seen| seen.each(quantity).len())
     }
 
     fn by_rope(&self, quantity: &Quantity, at_plateau: bool) -> Vec<Demand> {
-        let cap = if at_plateau && self.guideline.anchors_capped { self.plateau() } else { f64::INFINITY };
         let of = |rope: usize| {
+            let is_capped = at_plateau && self.guideline.anchors_capped && !self.may_be_used_up(rope);
+            let cap = if is_capped { self.plateau() } else { f64::INFINITY };
             // What a run does not give is not a number, so that nothing is judged by it.
             let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
             let yields = self.yields(largest(self.governing, &|seen: &Observed| {

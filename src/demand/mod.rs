@@ -5,8 +5,8 @@ mod value;
 
 use std::collections::BTreeMap;
 
-pub use self::meeting::CAP_TOLERANCE;
 use self::meeting::Meeting;
+pub use self::meeting::{CAP_TOLERANCE, USED_UP};
 pub use self::value::{Demand, Seen};
 use crate::design::Factors;
 use crate::guideline::Guideline;

@@ -21,7 +21,7 @@ pub fn curve_key(name: &str) -> String {
 }
 
 /// Share of the whole stroke below which two points of a curve are one.
-const SAME: f64 = 1e-6;
+pub const SAME: f64 = 1e-6;
 
 /// Points of stroke after unloading (m) and force (N) of one dissipator; nothing where none are given. Under a force F the elastic travel F/k is
 /// a part of what was measured.
@@ -34,10 +34,15 @@ pub fn points(e: &Entries) -> Option<Vec<[f64; 2]>> {
     let mut points: Vec<[f64; 2]> = Vec::new();
     for [travel, force] in travels {
         let stroke = travel - force / stiffness;
-        match points.last_mut() {
+        let last = points.last().map_or(f64::NEG_INFINITY, |last| last[0]);
+        if (stroke - last).abs() >= SAME * whole {
+            points.push([stroke, *force]);
+        } else if points.len() == 1 {
             // As stiff as it is elastically: it has not yielded up to here.
-            Some(last) if (stroke - last[0]).abs() < SAME * whole => last[1] = *force,
-            _ => points.push([stroke, *force]),
+            points[0][1] = *force;
+        } else {
+            // As stiff again further on, after it has yielded: up to the higher force on hardly any stroke.
+            points.push([last + SAME * whole, *force]);
         }
     }
     Some(points)

@@ -1,6 +1,6 @@
 //! Contradictions between the values of dissipators.
 
-use crate::design::dissipator_entries::{CURVES, DISSIPATORS, curve_key, dissipators, key, points};
+use crate::design::dissipator_entries::{CURVES, DISSIPATORS, SAME, curve_key, dissipators, key, points};
 use crate::design::entries::Entries;
 use crate::design::show::length;
 use crate::problem::Problem;
@@ -28,9 +28,13 @@ pub fn they_yield_one_way(e: &Entries) -> Option<Problem> {
     ))
 }
 
-/// The key of the curve as given, with its points.
+/// The key of the curve as given, a file included, with its points.
 fn typed(e: &Entries) -> Option<(String, &[[f64; 2]])> {
-    CURVES.iter().find_map(|name| Some((curve_key(name), e.points(&curve_key(name))?)))
+    let file = curve_key("file");
+    CURVES.iter().find_map(|name| {
+        let points = e.points(&curve_key(name))?;
+        Some((if e.mentions(&file) { file.clone() } else { curve_key(name) }, points))
+    })
 }
 
 /// From the beginning on, to and fro in no place.
@@ -43,8 +47,13 @@ pub fn curve_goes_forwards(e: &Entries) -> Option<Problem> {
     if points[0][0] != 0.0 {
         return Some(Problem::new(path, format!("a first point at {}", length(points[0][0])), wanted));
     }
-    let pair = points.windows(2).find(|pair| pair[1][0] <= pair[0][0])?;
-    Some(Problem::new(path, format!("{} after {}", length(pair[1][0]), length(pair[0][0])), wanted))
+    let least = SAME * points.last()?[0];
+    let pair = points.windows(2).find(|pair| pair[1][0] - pair[0][0] <= least)?;
+    let found = format!("{} after {}", length(pair[1][0]), length(pair[0][0]));
+    Some(
+        Problem::new(path, found, wanted)
+            .hint("keep one point for each travel, and leave out what a test records after its largest travel"),
+    )
 }
 
 /// What a file gives is within the bounds of what may be typed, and some force is there.
@@ -69,8 +78,8 @@ pub fn curve_is_no_stiffer_than_elastic(e: &Entries) -> Option<Problem> {
     if curve_goes_forwards(e).is_some() || curve_is_within_bounds(e).is_some() {
         return None;
     }
-    let path = curve_key(CURVES[1]);
-    let travels = e.points(&path)?;
+    let travels = e.points(&curve_key(CURVES[1]))?;
+    let (path, _) = typed(e)?;
     if travels[0][1] > 0.0 {
         let found = format!("{} at 0 m", Dimension::Force.show(travels[0][1]));
         return Some(Problem::new(path, found, "no force without travel").hint(
@@ -78,12 +87,31 @@ pub fn curve_is_no_stiffer_than_elastic(e: &Entries) -> Option<Problem> {
         ));
     }
     let points = points(e)?;
+    if points.len() < 2 {
+        let found = format!("a curve that is elastic up to its end at {}", length(travels.last()?[0]));
+        return Some(Problem::new(path, found, "a part with less than the elastic stiffness, where it yields").hint(
+            "with `under_load` the elastic travel, force over stiffness, is taken off; what is left is the stroke",
+        ));
+    }
     let back = points.windows(2).find(|pair| pair[1][0] <= pair[0][0])?;
     let steepest =
         travels.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).fold(0.0, f64::max);
     let found = format!("a rise to {} that is stiffer than the elastic stiffness", Dimension::Force.show(back[1][1]));
-    let hint = format!("the steepest part of this curve has {}", Dimension::Stiffness.show(steepest));
+    let least = Dimension::Stiffness.show((1.01 * steepest * 1e-4).ceil() * 1e4);
+    let hint = format!("give a stiffness of {least} or more, which is that of the steepest part of this curve");
     Some(Problem::new(path, found, format!("no more than `{}` anywhere", e.typed(&key("stiffness")))).hint(hint))
+}
+
+/// Two that fall do not share a stroke: the weaker runs down its curve alone.
+pub fn only_what_does_not_fall_stands_in_series(e: &Entries) -> Option<Problem> {
+    let (points, in_series) = (points(e)?, e.number(&key("in_series"))?);
+    let falls = points.windows(2).any(|pair| pair[1][1] < pair[0][1]);
+    (in_series > 1.0 && falls).then(|| {
+        let found = format!("{in_series} in series, with a curve whose force falls");
+        Problem::new(key("in_series"), found, "one, or a curve that nowhere falls").hint(
+            "where the force falls the weaker of them pays out alone: give the curve of all together, one stroke after the other",
+        )
+    })
 }
 
 /// Share of the elastic stiffness by which a force may fall with the stroke.
@@ -115,6 +143,16 @@ pub fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
     let given = dissipators(e)?;
     let travel = given.plateau / given.stiffness;
     (travel > ELASTIC_TRAVEL * given.stroke).then(|| {
+        if let Some((path, _)) = typed(e) {
+            let (travel, stroke) = (length(travel), length(given.stroke));
+            let found = format!("an elastic travel of {travel} up to the largest force, with a stroke of {stroke}");
+            return Problem::new(
+                path,
+                found,
+                "a largest force that is reached elastically within a quarter of the stroke",
+            )
+            .hint("a higher stiffness, or more stroke");
+        }
         let found = format!(
             "an elastic travel of {} up to the plateau, with a stroke of {}",
             length(travel),

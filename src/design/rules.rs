@@ -95,6 +95,7 @@ pub const RULES: &[Rule] = &[
     dissipator_rules::curve_is_within_bounds,
     dissipator_rules::curve_is_no_stiffer_than_elastic,
     dissipator_rules::curve_falls_gently,
+    dissipator_rules::only_what_does_not_fall_stands_in_series,
     dissipator_rules::dissipators_are_stiff,
     net_rules::cylinders_have_no_slack,
     net_rules::net_rope_draws_out_or_breaks,

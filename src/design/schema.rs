@@ -735,7 +735,7 @@ const FACTORS: &[Key] = &[
     Key::optional(
         "dissipator_overstrength",
         Kind::Number { low: 1.0, high: 3.0 },
-        "largest force of a dissipator that yields, over its plateau, from its tests: ropes and anchors must bear it; by default the partial factor on loads",
+        "largest force of a dissipator that yields, over its plateau or its curve, from its tests: ropes and anchors must bear it; by default the partial factor on loads",
     ),
 ];
 

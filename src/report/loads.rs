@@ -285,19 +285,30 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
     let (q, sag) = (rope.load / 1e3, rope.state.sag);
     let line = RopeInput { span, axial_stiffness: axial_stiffness(run), dissipator: None };
     let arc = line.arc(sag);
+    let dissipator = run.guideline.dissipator.as_ref();
+    let from = match dissipator.filter(|dissipator| !dissipator.curve.is_plateau()) {
+        Some(_) => format!("yield along their curve, after {:.3} m with", rope.state.stroke),
+        None => "yield, so".to_string(),
+    };
+    let paid_out = dissipator.filter(|dissipator| rope.state.stroke >= dissipator.stroke).map_or(String::new(), |_| {
+        format!(
+            ", and longer by the strokes of its two dissipators, which are used up ({:.3} m each)",
+            rope.state.stroke
+        )
+    });
     let yields = run.guideline.dissipator.as_ref().is_some_and(|dissipator| {
         let on_its_way = rope.state.stroke > 0.0 && rope.state.stroke < dissipator.stroke;
         on_its_way || rope.state.tension == dissipator.largest
     });
     if yields {
         format!(
-            "{load}; the dissipators yield, so T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola",
+            "{load}; the dissipators {from} T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola",
             span * (1.0 + tension * 1e3 / line.axial_stiffness),
             rope.state.stroke
         )
     } else {
         format!(
-            "{load}; f = {sag:.3} m, at which the rope, stretched by H = q L²/(8 f) = {q:.2} · {span:.2}²/(8 · {sag:.3}) = {horizontal:.1} kN, has the length of its curve; T = √(H² + (q L/2)²) = √({horizontal:.1}² + {half:.1}²) = {tension:.1} kN"
+            "{load}; f = {sag:.3} m, at which the rope, stretched by H = q L²/(8 f) = {q:.2} · {span:.2}²/(8 · {sag:.3}) = {horizontal:.1} kN{paid_out}, has the length of its curve; T = √(H² + (q L/2)²) = √({horizontal:.1}² + {half:.1}²) = {tension:.1} kN"
         )
     }
 }

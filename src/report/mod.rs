@@ -1,6 +1,7 @@
 //! The report: HTML and Markdown for people, JSON and CSV for programs. Computes no engineering number.
 
 pub(crate) mod compare;
+pub(crate) mod dissipators;
 pub(crate) mod findings;
 pub(crate) mod folder;
 pub(crate) mod holding;

@@ -48,10 +48,21 @@ pub fn with_scatter(mean: f64, deviation: f64, unit: &str) -> String {
     match unit {
         "-" => format!("{:.1} ± {:.1} %", 100.0 * mean, 100.0 * deviation),
         "N" | "N/m" | "Pa" | "N m/m" if mean.abs() >= 2000.0 => {
-            format!("{} ± {} k{unit}", figures(mean / 1e3), figures(deviation / 1e3))
+            format!("{} k{unit}", alike(mean / 1e3, deviation / 1e3))
         }
-        unit => format!("{} ± {} {unit}", figures(mean), figures(deviation)).trim_end().to_string(),
+        unit => format!("{} {unit}", alike(mean, deviation)).trim_end().to_string(),
     }
+}
+
+/// A mean and its scatter with the same number of decimals: those of the mean, and more where the scatter would read as none.
+fn alike(mean: f64, deviation: f64) -> String {
+    if !(mean.is_finite() && deviation.is_finite()) {
+        return format!("{} ± {}", figures(mean), figures(deviation));
+    }
+    let of_mean = figures(mean).split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let shows = |decimals: &usize| deviation == 0.0 || deviation.abs() >= 0.5 * 0.1_f64.powi(*decimals as i32);
+    let decimals = (of_mean..=4).find(shows).unwrap_or(4);
+    format!("{mean:.decimals$} ± {deviation:.decimals$}")
 }
 
 /// Three significant figures, whole numbers from 100 on.
@@ -68,6 +79,20 @@ pub fn figures(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scatter_has_the_decimals_of_its_mean() {
+        for (mean, deviation, text) in [
+            (0.77, 0.051, "0.77 ± 0.05 m"),
+            (0.77, 0.003, "0.770 ± 0.003 m"),
+            (119.2, 8.84, "119 ± 9 m"),
+            (119.2, 0.3, "119.2 ± 0.3 m"),
+            (12.34, 0.0, "12.3 ± 0.0 m"),
+            (2.0, 0.00001, "2.0000 ± 0.0000 m"),
+        ] {
+            assert_eq!(with_scatter(mean, deviation, "m"), text);
+        }
+    }
 
     #[test]
     fn what_is_beyond_all_bounds_has_a_sign_for_it() {

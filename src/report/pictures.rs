@@ -7,6 +7,7 @@ use crate::design::{BarrierDesign, Bottom, Channel};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::quantities::{mass, total_force, wall};
+use crate::report::dissipators;
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::escape;
@@ -22,7 +23,7 @@ use dem::elements::segment::SegmentKind;
 use dem::ledger::Ledger;
 use dem::recorders::histories::smoothed;
 use dem::recorders::snapshots::{Moment, Snapshot};
-use dem::recorders::{of_anchors, of_dissipators, of_ropes, of_wall};
+use dem::recorders::{of_anchors, of_ropes, of_wall};
 
 #[derive(Debug, Serialize)]
 pub struct Chart {
@@ -69,9 +70,7 @@ fn file_name(title: &str) -> String {
 
 pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let mut charts = vec![force_chart(run, seen), mass_chart(run, seen)];
-    if seen.histories.barrier.rows(&of_dissipators::STROKE).iter().flatten().any(|stroke| *stroke > 0.0) {
-        charts.push(stroke_chart(run, seen));
-    }
+    charts.extend(dissipators::charts(run, seen));
     if !seen.histories.barrier.rows(&of_ropes::MEAN).is_empty() {
         charts.push(rope_chart(run, seen));
     }
@@ -479,24 +478,6 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
     )
 }
 
-fn stroke_chart(run: &Run, seen: &Simulated) -> Chart {
-    let limit = match &run.file.design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.dissipators.as_ref().map(|dissipator| dissipator.stroke),
-        BarrierDesign::RigidWall(_) => None,
-    };
-    let chart = LineChart {
-        title: "stroke used",
-        unit: "m",
-        factor: 1.0,
-        along: TIME,
-        time: &seen.histories.time,
-        series: rope_series(seen.histories.barrier.rows(&of_dissipators::STROKE)),
-        levels: limit.map(|value| Level { label: "available".into(), value }).into_iter().collect(),
-        band: None,
-    };
-    Chart::of("Dissipators", chart.svg(), "The longer of the two strokes of each main rope.")
-}
-
 fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
     let design = &run.file.design;
     let resistance = match &design.barrier {
@@ -534,7 +515,7 @@ fn velocity_chart(seen: &Simulated) -> Chart {
     Chart::of("Velocity of the flow", chart.svg(), "Mean over all grains that have not left the model.")
 }
 
-fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {
+pub fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {
     let moving = rows.iter().enumerate().filter(|(_, row)| row.iter().any(|value| *value > 0.0));
     moving.map(|(index, row)| Series { label: format!("rope {}", index + 1), values: row, colour: index % 6 }).collect()
 }

@@ -52,6 +52,7 @@ pub fn used(outcome: &Outcome) -> String {
         outcome.resistance.filter(|_| outcome.kind == Kind::Stroke).map(|(resistance, _)| resistance.characteristic);
     let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
     match (outcome.utilisation, outcome.verdict) {
+        (None, CheckVerdict::Pass) if outcome.kind == Kind::DissipatorCurve => "within its curve".to_string(),
         (None, CheckVerdict::Pass) => at_the_plateau(outcome).to_string(),
         (Some(_), _) if is_share(outcome) => {
             outcome.demand.simulation.map_or("–".to_string(), |kept| with_unit(kept, outcome.unit.symbol()))
@@ -77,7 +78,7 @@ fn at_the_plateau(outcome: &Outcome) -> &'static str {
 
 /// Whether a check only says that a stroke is used up, which the check of the stroke says as well.
 pub fn is_stop(outcome: &Outcome) -> bool {
-    outcome.kind == Kind::DissipatorTension
+    matches!(outcome.kind, Kind::DissipatorTension | Kind::DissipatorCurve)
 }
 
 /// The check in a line: "tension of main rope 3 (75 %)", "mass held by the barrier (99.9 %, at least 90.0 %)".

@@ -383,7 +383,7 @@ fn dissipators_used_up(run: &Run) -> Option<String> {
         String::new()
     };
     Some(format!(
-        "The dissipators of main rope {rope} are used up after {time:.2} s{after}. From there on nothing limits the load of its anchors: more stroke, a higher plateau or more ropes would."
+        "The dissipators of main rope {rope} are used up after {time:.2} s{after}. From there on nothing limits the load of its anchors: more stroke, a higher yield force or more ropes would."
     ))
 }
 

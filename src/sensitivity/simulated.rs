@@ -20,7 +20,7 @@ const CHANGES: &[(&str, f64, Change)] = &[
     }),
     ("Friction on the bed", 0.2, |design, factor| design.channel.base_friction *= factor),
     ("Friction between grains", 0.2, |design, factor| design.flow.grain_friction *= factor),
-    ("Plateau of the dissipators", 0.2, scale_plateau),
+    ("Force of the dissipators", 0.2, scale_plateau),
 ];
 
 /// An input with the designs that it makes, taken down and up.

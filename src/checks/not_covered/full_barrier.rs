@@ -72,7 +72,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
     let (demand, capacity) = (outcome.demand.simulation?, outcome.capacity?);
     match outcome.kind {
         // The share held has its own rule: what a full barrier does not hold is not asked for.
-        Kind::MassHeld | Kind::DissipatorTension => return None,
+        Kind::MassHeld | Kind::DissipatorTension | Kind::DissipatorCurve => return None,
         // A level does not grow with the load; what surges over a deposit reach is in the equations.
         Kind::Level => return None,
         // A net that sinks in by a share under the first surge sinks in by that much more when it is full.
