@@ -109,3 +109,4 @@ mod studies;
 pub mod terminal;
 mod units;
 pub mod validation;
+pub mod yield_curve;

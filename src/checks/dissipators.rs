@@ -66,7 +66,7 @@ mod tests {
     use crate::demand::Demand;
     use crate::design::read::read_design;
     use crate::quantities::dissipator;
-    use dem::elements::yield_curve::YieldCurve;
+    use crate::yield_curve::YieldCurve;
 
     /// Along a curve that ends with less than its largest force a stroke that is used up fails, whatever the tension.
     #[test]

@@ -4,7 +4,6 @@ use crate::demand::value::{Demand, Seen};
 use crate::design::Factors;
 use crate::guideline::{Guideline, RopeLoad};
 use crate::larger::larger_or_nan;
-use crate::loads::rope::Yielding;
 use crate::quantities::dissipator;
 use crate::quantities::observed::Observed;
 use crate::quantities::quantity::{Demanded, Quantity};
@@ -127,7 +126,7 @@ impl Meeting<'_> {
 
     /// Whether a load of this size means that a dissipator yields; one that is not known may.
     fn yields(&self, load: f64) -> bool {
-        let least = self.guideline.dissipator.as_ref().map_or(f64::INFINITY, Yielding::least);
+        let least = self.guideline.dissipator.as_ref().map_or(f64::INFINITY, |given| given.least());
         let stays = load < least / CAP_TOLERANCE;
         !stays
     }

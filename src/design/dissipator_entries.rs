@@ -1,6 +1,6 @@
 //! What the entries of a design say of its dissipators.
 
-use dem::elements::yield_curve::YieldCurve;
+use crate::yield_curve::YieldCurve;
 
 use crate::design::DissipatorDesign;
 use crate::design::entries::Entries;

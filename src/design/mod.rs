@@ -40,7 +40,7 @@ use std::sync::Arc;
 
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
 
-use dem::elements::yield_curve::YieldCurve;
+use crate::yield_curve::YieldCurve;
 
 use crate::profile::Profile;
 use crate::relief::Relief;

@@ -3,7 +3,7 @@
 //! Parabola with sag f over span L: H = q L²/(8 f), end tension T = √(H² + (qL/2)²), exact arc length S(f).
 //! The rope is as long as L (1 + T/EA) plus what both dissipators give.
 
-use dem::elements::yield_curve::YieldCurve;
+use crate::yield_curve::YieldCurve;
 
 /// What the equations know of a dissipator: it is rigid until it yields.
 #[derive(Clone, Debug, Default, PartialEq)]

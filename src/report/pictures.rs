@@ -7,7 +7,6 @@ use crate::design::{BarrierDesign, Bottom, Channel};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::quantities::{mass, total_force, wall};
-use crate::report::dissipators;
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::escape;
@@ -70,7 +69,6 @@ fn file_name(title: &str) -> String {
 
 pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let mut charts = vec![force_chart(run, seen), mass_chart(run, seen)];
-    charts.extend(dissipators::charts(run, seen));
     if !seen.histories.barrier.rows(&of_ropes::MEAN).is_empty() {
         charts.push(rope_chart(run, seen));
     }

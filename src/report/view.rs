@@ -12,6 +12,7 @@ use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
+use crate::report::dissipators;
 use crate::report::holding;
 use crate::report::loads::{self, CaseRow, ModelRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, with_scatter, with_unit};
@@ -183,7 +184,7 @@ impl View {
             classes: class_names(),
             replay: run.simulated.as_ref().and_then(|seen| pictures::replay(run, seen)),
             replay_script: REPLAY_SCRIPT,
-            charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
+            charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| charts(run, seen)),
             inputs: input_rows(run),
             derived: derived_rows(run),
             assumptions: assumptions(run),
@@ -209,6 +210,13 @@ impl View {
         let cases = self.cases.iter().map(|case| (case.file.clone(), pictures::alone(&case.svg)));
         pictures.map(|chart| (chart.file.clone(), chart.alone())).chain(cases).collect()
     }
+}
+
+/// Charts of the simulation; those of the dissipators after force and mass.
+fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
+    let mut charts = pictures::charts(run, seen);
+    charts.splice(2..2, dissipators::charts(run, seen));
+    charts
 }
 
 /// What the report is of, and what made it.

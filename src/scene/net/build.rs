@@ -14,6 +14,7 @@ use dem::elements::dissipator::Dissipator;
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::sliding::Chain;
 use dem::elements::strength::Strength;
+use dem::elements::yield_curve::YieldCurve;
 use dem::tables::barrier::{Anchor, Barrier};
 use dem::tables::nodes::{Frame, Node};
 
@@ -246,7 +247,7 @@ impl Builder<'_> {
                 radius: 0.5 * self.design.main_ropes.rope.diameter,
                 stiffness: dissipator.stiffness,
                 plateau: dissipator.plateau,
-                curve: dissipator.curve.clone(),
+                curve: YieldCurve::new(dissipator.curve.points()),
                 stroke: dissipator.stroke,
                 used: 0.0,
             }),

@@ -114,7 +114,8 @@ fn stop_by_hand(energy: f64) -> f64 {
 }
 
 fn curved() -> Result<Vec<Finding>, Broken> {
-    let (curve, [plateau, stroke]) = YieldCurve::of(&[[0.0, 100e3], [0.4, 300e3], [2.5, 200e3]]);
+    let (curve, [plateau, stroke]) =
+        (YieldCurve::new(&[[0.0, 1.0 / 3.0], [0.16, 1.0], [1.0, 2.0 / 3.0]]), [300e3, 2.5]);
     let mut findings = Vec::new();
     for mass in [1000.0, 2000.0] {
         let mut stand = thrown(mass, 10.0, Dissipator { plateau, stroke, curve: curve.clone(), ..dissipator() });
