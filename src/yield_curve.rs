@@ -1,12 +1,15 @@
 //! Force at which a dissipator yields, against the stroke that it has paid out.
 
 /// The shape of a yield curve: points of stroke and force, straight between them, as shares of the whole stroke and of the largest force.
-/// Without points it is a plateau: the largest force from the beginning to the end.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// By default a plateau: the largest force from the beginning to the end.
+#[derive(Clone, Debug, PartialEq)]
 pub struct YieldCurve(Vec<[f64; 2]>);
 
-/// The points of a plateau.
-const PLATEAU: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, 1.0]];
+impl Default for YieldCurve {
+    fn default() -> Self {
+        Self(vec![[0.0, 1.0], [1.0, 1.0]])
+    }
+}
 
 impl YieldCurve {
     /// From points of stroke (m) and force (N), two at least, the first without stroke and the strokes rising; with them the largest force (N)
@@ -20,7 +23,7 @@ impl YieldCurve {
 
     /// Points as shares of the whole stroke and of the largest force.
     pub fn points(&self) -> &[[f64; 2]] {
-        if self.0.is_empty() { &PLATEAU } else { &self.0 }
+        &self.0
     }
 
     /// Whether it yields at one force only.

@@ -296,7 +296,7 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
             rope.state.stroke
         )
     });
-    let yields = run.guideline.dissipator.as_ref().is_some_and(|dissipator| {
+    let yields = dissipator.is_some_and(|dissipator| {
         let on_its_way = rope.state.stroke > 0.0 && rope.state.stroke < dissipator.stroke;
         on_its_way || rope.state.tension == dissipator.largest
     });

@@ -5,12 +5,15 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 /// The shape of a yield curve: points of stroke and force, straight between them, as shares of the whole stroke and of the largest force.
-/// Without points it is a plateau: the largest force from the beginning to the end.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// By default a plateau: the largest force from the beginning to the end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct YieldCurve(Arc<[[f64; 2]]>);
 
-/// The points of a plateau.
-const PLATEAU: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, 1.0]];
+impl Default for YieldCurve {
+    fn default() -> Self {
+        Self::new(&[[0.0, 1.0], [1.0, 1.0]])
+    }
+}
 
 impl YieldCurve {
     /// Through points of stroke and force as shares of the whole stroke and of the largest force: two at least, from no stroke to all of it.
@@ -18,15 +21,11 @@ impl YieldCurve {
         Self(points.into())
     }
 
-    fn points(&self) -> &[[f64; 2]] {
-        if self.0.is_empty() { &PLATEAU } else { &self.0 }
-    }
-
     /// How far it pays out under an elongation (m), and the work of that (J), for a dissipator of the given largest force (N), whole
     /// stroke (m) and elastic stiffness (N/m), which has paid out `used` (m) already. A force that falls must do so by less than the elastic
     /// stiffness, or how far it pays out would have no single answer.
     pub fn pay_out(&self, [largest, whole]: [f64; 2], stiffness: f64, used: f64, elongation: f64) -> [f64; 2] {
-        let points = self.points();
+        let points = &self.0;
         let (mut paid, mut work) = (used, 0.0);
         for (index, pair) in points.windows(2).enumerate() {
             let last = index + 2 == points.len();
