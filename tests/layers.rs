@@ -33,7 +33,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("checkpoint", &["dem", "lock", "program", "container", "terminal"]),
     ("guideline", &["design", "larger", "loads", "section", "units"]),
     ("quantities", &["dem", "design", "guideline", "loads", "section"]),
-    ("demand", &["design", "guideline", "larger", "quantities", "starts"]),
+    ("demand", &["design", "guideline", "larger", "quantities", "starts", "yield_curve"]),
     ("checks", &["demand", "design", "guideline", "larger", "loads", "quantities", "sources", "units", "yield_curve"]),
     ("fidelity", &["checks", "dem", "demand", "design", "guideline", "quantities", "scene"]),
     ("scene", &["checkpoint", "dem", "design", "fidelity", "profile", "relief", "section", "units"]),

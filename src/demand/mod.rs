@@ -256,6 +256,30 @@ mod tests {
         assert_eq!(met.each(&anchor_load::PEAK)[1].cap, None);
     }
 
+    /// Along a curve that falls from 100 to 40 kN over 1 m: at its end nothing caps the anchor, and from 40 kN on it may yield, so that overstrength
+    /// comes on top.
+    #[test]
+    fn a_curve_caps_while_stroke_is_left_and_yields_from_its_least_force_on() {
+        let mut design = small_net();
+        design.factors.overstrength = 1.25;
+        let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        let given = net.dissipators.as_mut().expect("dissipators");
+        let (curve, [plateau, stroke]) = crate::yield_curve::YieldCurve::of(&[[0.0, 100e3], [1.0, 40e3]]);
+        (given.curve, given.plateau, given.stroke) = (curve, plateau, stroke);
+        let met = |tension: f64, stroke: f64| {
+            let seen = Observed::of_nothing(3, 0)
+                .with(&anchor_load::PEAK, &[0.0, tension, 0.0])
+                .with(&dissipator::TENSION, &[0.0, tension, 0.0])
+                .with(&dissipator::STROKE, &[0.0, stroke, 0.0]);
+            let seen = Seen { characteristic: vec![&seen], factored: Vec::new() };
+            Demands::meet(&guideline(&design), &seen, &design.factors).each(&anchor_load::PEAK)[1]
+        };
+        assert_eq!((met(60e3, 0.5).simulation, met(60e3, 0.5).cap), (Some(85e3), Some(125e3)));
+        assert_eq!((met(60e3, 1.0).simulation, met(60e3, 1.0).cap), (Some(85e3), None));
+        assert_eq!(met(30e3, 0.0).simulation, Some(30e3));
+        assert_eq!(met(60e3, f64::NAN).cap, None);
+    }
+
     /// Strokes of 0.9, 0.5 and 0.7 m scatter to 1.4 m; the stop is at 1 m. One that is not a number stays so.
     #[test]
     fn a_stroke_scatters_no_further_than_its_stop() {

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::checks::not_covered::rigid_wall::SIMULATIONS_REACH;
 use crate::checks::outcome::{CheckVerdict, Kind, Opening, Outcome, Route};
+use crate::demand::USED_UP;
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
 use crate::fidelity::{needed_pieces, net_pieces};
 
@@ -235,7 +236,7 @@ impl Rung {
             // A stroke that is used up would be longer if there were more of it.
             Some((resistance, _))
                 if outcome.kind == Kind::Stroke
-                    && outcome.demand.simulation >= Some(0.999 * resistance.characteristic) =>
+                    && outcome.demand.simulation >= Some(USED_UP * resistance.characteristic) =>
             {
                 true
             }

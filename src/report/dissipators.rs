@@ -4,8 +4,8 @@ use dem::recorders::of_dissipators;
 
 use crate::design::{BarrierDesign, DissipatorDesign};
 use crate::pipeline::Run;
-use crate::report::pictures::{Chart, rope_series};
-use crate::report::plots::line_chart::{Level, LineChart, Series, TIME};
+use crate::report::chart::Chart;
+use crate::report::plots::line_chart::{Level, LineChart, Series, TIME, rope_series};
 use crate::simulated::Simulated;
 
 pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {

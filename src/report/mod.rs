@@ -1,5 +1,6 @@
 //! The report: HTML and Markdown for people, JSON and CSV for programs. Computes no engineering number.
 
+pub(crate) mod chart;
 pub(crate) mod compare;
 pub(crate) mod dissipators;
 pub(crate) mod findings;

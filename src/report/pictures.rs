@@ -1,16 +1,15 @@
 //! The pictures of the report: charts over time, the flow from the side, the barrier from upstream, pressure over height.
 
-use serde::Serialize;
-
 use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::design::{BarrierDesign, Bottom, Channel};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::quantities::{mass, total_force, wall};
+use crate::report::chart::{Chart, file_name, labelled};
+use crate::report::dissipators;
 use crate::report::numbers::with_unit;
 use crate::report::plots::elevation::elevation;
-use crate::report::plots::escape;
-use crate::report::plots::line_chart::{Level, LineChart, Series, TIME, resampled};
+use crate::report::plots::line_chart::{Level, LineChart, Series, TIME, resampled, rope_series};
 use crate::report::plots::profile::profile;
 use crate::report::plots::side_view::{Setting, side_view};
 use crate::report::plots::utilisation::{Bar, utilisation};
@@ -24,51 +23,11 @@ use dem::recorders::histories::smoothed;
 use dem::recorders::snapshots::{Moment, Snapshot};
 use dem::recorders::{of_anchors, of_ropes, of_wall};
 
-#[derive(Debug, Serialize)]
-pub struct Chart {
-    pub title: &'static str,
-    /// Name of the picture's file beside the Markdown report.
-    pub file: String,
-    pub svg: String,
-    pub note: String,
-}
-
-impl Chart {
-    /// A picture whose file is called as its title is.
-    pub fn of(title: &'static str, svg: String, note: impl Into<String>) -> Self {
-        let note = note.into();
-        Self { title, file: file_name(title), svg: labelled(&svg, title), note }
-    }
-
-    /// The picture as a file that stands alone.
-    pub fn alone(&self) -> String {
-        alone(&self.svg)
-    }
-}
-
-/// The picture with its title as what is read out in its place.
-pub fn labelled(svg: &str, title: &str) -> String {
-    let Some((before, rest)) = svg.split_once("aria-label=\"") else { return svg.to_string() };
-    let Some((_, after)) = rest.split_once('"') else { return svg.to_string() };
-    format!("{before}aria-label=\"{}\"{after}", escape(title))
-}
-
-/// A picture of the page as a file that stands alone.
-pub fn alone(svg: &str) -> String {
-    let styled = svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1);
-    styled.replacen('>', &format!("><style>{PICTURE_STYLE}</style>"), 1) + "\n"
-}
-
-pub const PICTURE_STYLE: &str = include_str!("../../templates/pictures.css");
 pub const REPLAY_SCRIPT: &str = include_str!("../../templates/replay.js");
-
-fn file_name(title: &str) -> String {
-    let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '_' };
-    format!("{}.svg", title.replace('λ', "lambda").chars().map(letter).collect::<String>())
-}
 
 pub fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
     let mut charts = vec![force_chart(run, seen), mass_chart(run, seen)];
+    charts.extend(dissipators::charts(run, seen));
     if !seen.histories.barrier.rows(&of_ropes::MEAN).is_empty() {
         charts.push(rope_chart(run, seen));
     }
@@ -511,9 +470,4 @@ fn velocity_chart(seen: &Simulated) -> Chart {
         band: None,
     };
     Chart::of("Velocity of the flow", chart.svg(), "Mean over all grains that have not left the model.")
-}
-
-pub fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {
-    let moving = rows.iter().enumerate().filter(|(_, row)| row.iter().any(|value| *value > 0.0));
-    moving.map(|(index, row)| Series { label: format!("rope {}", index + 1), values: row, colour: index % 6 }).collect()
 }

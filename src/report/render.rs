@@ -3,7 +3,7 @@
 use serde::Serialize;
 use tera::{Context, Kwargs, State, Tera};
 
-use crate::report::pictures::PICTURE_STYLE;
+use crate::report::chart::PICTURE_STYLE;
 use crate::report::view::View;
 
 const HTML: &str = include_str!("../../templates/report.html");

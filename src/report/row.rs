@@ -1,7 +1,7 @@
 //! A row of a table of the report, and how an outcome is told in one.
 
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
-use crate::demand::CAP_TOLERANCE;
+use crate::demand::{CAP_TOLERANCE, USED_UP};
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
 use crate::report::numbers::{percent, with_unit};
@@ -50,7 +50,7 @@ pub fn is_share(outcome: &Outcome) -> bool {
 pub fn used(outcome: &Outcome) -> String {
     let stroke =
         outcome.resistance.filter(|_| outcome.kind == Kind::Stroke).map(|(resistance, _)| resistance.characteristic);
-    let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
+    let used_up = stroke.zip(outcome.demand.largest()).is_some_and(|(stroke, demand)| demand >= USED_UP * stroke);
     match (outcome.utilisation, outcome.verdict) {
         (None, CheckVerdict::Pass) if outcome.kind == Kind::DissipatorCurve => "within its curve".to_string(),
         (None, CheckVerdict::Pass) => at_the_plateau(outcome).to_string(),

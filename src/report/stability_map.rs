@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use crate::report::chart::Chart;
 use crate::report::folder::ReportFile;
 use crate::report::numbers::quoted;
-use crate::report::pictures::Chart;
 use crate::report::plots::escape;
 use crate::report::render::{Rendered, render_as};
 use crate::studies::stability::{Fate, Mapped};

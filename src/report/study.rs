@@ -5,9 +5,9 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use crate::report::chart::Chart;
 use crate::report::folder::{ReportFile, free_name};
 use crate::report::numbers::quoted;
-use crate::report::pictures::Chart;
 use crate::report::plots::pareto::{Line, Pareto};
 use crate::report::render::{Rendered, render_as};
 use crate::studies::knobs::Knob;

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::pipeline::Run;
+use crate::report::chart::Chart;
 use crate::report::numbers::{figures, with_scatter, with_unit};
-use crate::report::pictures::Chart;
 use crate::report::plots::surges::{Pair, surges};
 use crate::stages::{Stage, hardest, stages};
 use crate::starts::Spread;

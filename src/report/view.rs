@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
+use crate::demand::USED_UP;
 use crate::design::entries::Origin;
 use crate::design::hydrograph::{Hard, Moment};
 use crate::design::read::sha256;
@@ -12,11 +13,11 @@ use crate::design::{Arrival, BarrierDesign, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
-use crate::report::dissipators;
+use crate::report::chart::{self, Chart};
 use crate::report::holding;
 use crate::report::loads::{self, CaseRow, ModelRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, with_scatter, with_unit};
-use crate::report::pictures::{self, Chart, REPLAY_SCRIPT};
+use crate::report::pictures::{self, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
 use crate::report::replay::Replay;
@@ -184,7 +185,7 @@ impl View {
             classes: class_names(),
             replay: run.simulated.as_ref().and_then(|seen| pictures::replay(run, seen)),
             replay_script: REPLAY_SCRIPT,
-            charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| charts(run, seen)),
+            charts: run.simulated.as_ref().map_or_else(Vec::new, |seen| pictures::charts(run, seen)),
             inputs: input_rows(run),
             derived: derived_rows(run),
             assumptions: assumptions(run),
@@ -207,16 +208,9 @@ impl View {
             .chain(&self.profiles)
             .chain(&self.elevation)
             .chain(&self.utilisation);
-        let cases = self.cases.iter().map(|case| (case.file.clone(), pictures::alone(&case.svg)));
+        let cases = self.cases.iter().map(|case| (case.file.clone(), chart::alone(&case.svg)));
         pictures.map(|chart| (chart.file.clone(), chart.alone())).chain(cases).collect()
     }
-}
-
-/// Charts of the simulation; those of the dissipators after force and mass.
-fn charts(run: &Run, seen: &Simulated) -> Vec<Chart> {
-    let mut charts = pictures::charts(run, seen);
-    charts.splice(2..2, dissipators::charts(run, seen));
-    charts
 }
 
 /// What the report is of, and what made it.
@@ -334,7 +328,7 @@ fn check_row(outcome: &Outcome) -> CheckRow {
     // A stroke ends where there is no more of it: the demand is at least that.
     let stroke =
         outcome.resistance.filter(|_| outcome.kind == Kind::Stroke).map(|(resistance, _)| resistance.characteristic);
-    let used_up = |demand: Option<f64>| stroke.zip(demand).is_some_and(|(stroke, demand)| demand >= 0.999 * stroke);
+    let used_up = |demand: Option<f64>| stroke.zip(demand).is_some_and(|(stroke, demand)| demand >= USED_UP * stroke);
     let demand =
         |demand: Option<f64>| if used_up(demand) { format!("≥ {}, used up", show(demand)) } else { show(demand) };
     CheckRow {

@@ -5,6 +5,7 @@ use crate::checks::detailing::{Bearing, rules};
 use crate::checks::implausible::implausible;
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::checks::range::rope_outside;
+use crate::demand::USED_UP;
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::rung_of;
 use crate::loads::run_up;
@@ -369,7 +370,7 @@ fn dissipators_used_up(run: &Run) -> Option<String> {
     let (seen, dissipators) = (run.simulated.as_ref()?, net(run)?.dissipators.as_ref()?);
     let used_up =
         seen.histories.barrier.rows(&of_dissipators::STROKE).iter().enumerate().filter_map(|(rope, strokes)| {
-            let at = strokes.iter().position(|stroke| *stroke >= 0.999 * dissipators.stroke)?;
+            let at = strokes.iter().position(|stroke| *stroke >= USED_UP * dissipators.stroke)?;
             Some((rope + 1, *seen.histories.time.get(at)?))
         });
     let (rope, time) = used_up.min_by(|a, b| a.1.total_cmp(&b.1))?;

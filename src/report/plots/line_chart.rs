@@ -32,6 +32,12 @@ pub struct LineChart<'a> {
     pub band: Option<[Vec<f64>; 2]>,
 }
 
+/// One curve for each main rope that moves, from rows of values by rope.
+pub fn rope_series(rows: &[Vec<f64>]) -> Vec<Series<'_>> {
+    let moving = rows.iter().enumerate().filter(|(_, row)| row.iter().any(|value| *value > 0.0));
+    moving.map(|(index, row)| Series { label: format!("rope {}", index + 1), values: row, colour: index % 6 }).collect()
+}
+
 /// Of charts over time.
 pub const TIME: &str = "time since release (s)";
 
