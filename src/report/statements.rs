@@ -28,7 +28,8 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
     let design = &run.file.design;
     let simulated = run.simulated.is_some();
     let of_grains = if simulated { of_the_grains(design) } else { Vec::new() };
-    let list = of_grains.into_iter().chain(of_the_model(design, simulated)).chain(of_the_equations(design));
+    let of_the_model = [of_the_channel(design), of_the_net(design, simulated), of_the_arrival(design, simulated)];
+    let list = of_grains.into_iter().chain(of_the_model.into_iter().flatten()).chain(of_the_equations(design));
     let kept = list.filter(|(applies, ..)| *applies);
     let kept = kept.map(|(_, text, safe)| Assumption { text: text.to_string(), safe });
     let of_net = [of_ropes(design).map(str::to_string), of_gap(design)].into_iter().flatten().filter(|_| simulated);
@@ -38,13 +39,10 @@ pub fn assumptions(run: &Run) -> Vec<Assumption> {
 /// A statement: whether it applies, what it says, on which side it errs.
 type Statement = (bool, &'static str, &'static str);
 
-/// What is taken of net and channel, in the simulation and for it.
-fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
-    let hydrograph = design.flow.hydrograph.as_ref();
-    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+/// What is taken of the channel.
+fn of_the_channel(design: &Design) -> Vec<Statement> {
     let raster = design.channel.relief.is_some();
     let (rectangular, even) = (design.channel.survey.is_none(), design.channel.profile.is_none());
-    let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     vec![
         (
             rectangular && even,
@@ -71,6 +69,14 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             "In the guideline calculation the depth of the flow and of the deposit is that over the lowest point of the bed, under a surface that is level across the gully.",
             EITHER,
         ),
+    ]
+}
+
+/// What is taken of the net.
+fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
+    let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
+    let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
+    vec![
         (
             net && !curved(design),
             "Dissipators are elastic, then perfectly plastic at their plateau, unload elastically, and are rigid once their stroke is used up.",
@@ -111,6 +117,13 @@ fn of_the_model(design: &Design, simulated: bool) -> Vec<Statement> {
             "The partial factor on loads makes the flow heavier, in the equations and in the simulation; its velocity, depth and volume stay as given.",
             EITHER,
         ),
+    ]
+}
+
+/// How the flow comes.
+fn of_the_arrival(design: &Design, simulated: bool) -> Vec<Statement> {
+    let hydrograph = design.flow.hydrograph.as_ref();
+    vec![
         (
             !design.flow.boulders.is_empty(),
             "Boulders are a part of the flow's mass, of the shape of its grains and with its contact law; those at the front lie side by side on the bed ahead of it, with its velocity. On a rigid wall the equations add the largest of them as a point load, its elastic force (Hertz 1882) times loads.impact_reduction, a tenth by default, which is uncertain; on a net boulders are in the simulation alone (loads.point_load adds one to the equations).",
