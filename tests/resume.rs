@@ -153,7 +153,7 @@ fn a_flow_by_its_hydrograph_that_is_killed_and_resumed_ends_with_the_same_bits()
     assert_eq!(whole, numbers(&folder_of("inlet_killed")));
 }
 
-/// Boulders at the front and among the grains.
+/// Boulders at the front and among the grains, and dissipators by a curve.
 #[test]
 fn boulders_that_are_killed_and_resumed_end_with_the_same_bits() {
     let whole = undisturbed(BOULDERS, "whole_boulders", &[]);

@@ -61,7 +61,7 @@ fn alike(mean: f64, deviation: f64) -> String {
     }
     let of_mean = figures(mean).split_once('.').map_or(0, |(_, decimals)| decimals.len());
     let shows = |decimals: &usize| deviation == 0.0 || deviation.abs() >= 0.5 * 0.1_f64.powi(*decimals as i32);
-    let decimals = (of_mean..=4).find(shows).unwrap_or(4);
+    let decimals = (of_mean..=4).find(shows).unwrap_or(of_mean);
     format!("{mean:.decimals$} ± {deviation:.decimals$}")
 }
 
@@ -88,7 +88,7 @@ mod tests {
             (119.2, 8.84, "119 ± 9 m"),
             (119.2, 0.3, "119.2 ± 0.3 m"),
             (12.34, 0.0, "12.3 ± 0.0 m"),
-            (2.0, 0.00001, "2.0000 ± 0.0000 m"),
+            (2.0, 0.00001, "2.00 ± 0.00 m"),
         ] {
             assert_eq!(with_scatter(mean, deviation, "m"), text);
         }

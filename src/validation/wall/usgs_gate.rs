@@ -116,7 +116,8 @@ fn run() -> Result<Vec<Finding>, Broken> {
         let run = run?;
         for (station, passed) in STATIONS.iter().zip(run.stations) {
             let at = |what: &str, [from, to]: [f64; 2]| {
-                format!("{ratio}: {what} at {} m, measured {from} to {to}", station.at)
+                let measured = if from == to { format!("{from}") } else { format!("{from} to {to}") };
+                format!("{ratio}: {what} at {} m, measured {measured}", station.at)
             };
             findings.push(Finding::told(at("arrival (s)", station.arrival), passed.arrival));
             findings.extend(station.depth.map(|depth| Finding::told(at("largest depth (m)", depth), passed.depth)));
