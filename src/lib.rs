@@ -98,6 +98,7 @@ pub mod quantities;
 pub(crate) mod raster;
 pub mod relief;
 pub mod report;
+pub mod ring_law;
 pub mod scene;
 pub mod section;
 mod sensitivity;

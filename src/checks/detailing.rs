@@ -313,7 +313,7 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
     let mut rules = vec![
         most(
             "Mesh opening against D90",
-            net.mesh_opening,
+            net.opening(),
             coarse,
             "m",
             ALBABA,

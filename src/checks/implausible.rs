@@ -1,7 +1,7 @@
 //! Inputs that are allowed but outside what such barriers usually have: mostly a wrong unit or a slip of the decimal point. They are
 //! told to the reviewer and change no verdict.
 
-use crate::design::{Arrival, BarrierDesign, Design, FlexibleNet, RigidWall, Rope};
+use crate::design::{Arrival, BarrierDesign, Design, FlexibleNet, NetRings, RigidWall, Rope};
 
 /// An input and the range in which it usually lies, both in `unit`.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,9 +90,10 @@ fn of_wall(wall: &RigidWall, width: f64) -> Vec<Usual> {
 
 /// Of anchors, bolts and dissipators in use; the resistance of the ground is seldom more.
 fn of_net(net: &FlexibleNet) -> Vec<Usual> {
-    let ropes =
-        [("net_rope", &net.net_rope), ("main_ropes", &net.main_ropes.rope), ("lateral_ropes", &net.lateral_rope)];
-    let mut all: Vec<Usual> = ropes.into_iter().flat_map(|(name, rope)| of_rope(name, rope)).collect();
+    let of_net = net.rings.is_none().then_some(("net_rope", &net.net_rope));
+    let ropes = [("main_ropes", &net.main_ropes.rope), ("lateral_ropes", &net.lateral_rope)];
+    let mut all: Vec<Usual> = of_net.into_iter().chain(ropes).flat_map(|(name, rope)| of_rope(name, rope)).collect();
+    all.extend(net.rings.iter().flat_map(of_rings));
     all.push(usual("barrier.flexible_net.anchors.resistance", net.anchor_resistance, "N", [0.0, 3e6]));
     let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);
     all.extend(bolt.map(|it| usual("barrier.flexible_net.anchors.bed_bolt_resistance", it, "N", [0.0, 1e6])));
@@ -106,6 +107,16 @@ fn of_net(net: &FlexibleNet) -> Vec<Usual> {
         all.push(usual(format!("{path}.{stroke}"), dissipator.stroke, "m", [0.0, 6.0]));
     }
     all
+}
+
+/// Of ring nets in use: rings of 300 to 420 mm, wires of 3 to 4.6 mm.
+fn of_rings(rings: &NetRings) -> [Usual; 3] {
+    let path = "barrier.flexible_net.net.rings";
+    [
+        usual(format!("{path}.diameter"), rings.diameter, "m", [0.2, 0.5]),
+        usual(format!("{path}.wire_diameter"), rings.wires.diameter, "m", [0.002, 0.005]),
+        usual(format!("{path}.wire_strength"), rings.wires.strength * 1e-9, "GPa", [1.3, 2.2]),
+    ]
 }
 
 /// Wire is drawn to 1570 to 2160 MPa and fills 45 to 60 % of the circle; with the full circle the modulus of the best strands is about

@@ -63,6 +63,8 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
 fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let rope = match outcome.kind {
+        // The law of rings is known up to their break.
+        Kind::NetRopes if net.rings.is_some() => return None,
         Kind::NetRopes => &net.net_rope,
         Kind::LateralRopes => &net.lateral_rope,
         Kind::MainRope | Kind::BetweenBolts => &net.main_ropes.rope,

@@ -5,7 +5,7 @@ use crate::design::entries::Entries;
 use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::flow_volume;
 use crate::design::hydrograph_entries::HYDROGRAPH;
-use crate::design::net_rules::rope_heights;
+use crate::design::net_rules::{Lattice, rope_heights};
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{of_the_first, volume_of_all};
 use crate::problem::Problem;
@@ -220,8 +220,8 @@ pub fn ropes_of_cylinders_are_straight(e: &Entries) -> Option<Problem> {
 const SHORTEST_ROPE: f64 = 2.0;
 
 pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
-    let (survey, mesh) = (survey(e)?, e.number(&at("mesh_opening"))?);
-    let least = SHORTEST_ROPE * mesh * std::f64::consts::SQRT_2;
+    let (survey, lattice) = (survey(e)?, Lattice::of(e)?);
+    let least = SHORTEST_ROPE * lattice.diagonal;
     let opening = e.number(&at("bottom.opening"));
     let bed = survey.bed();
     let width = match opening {
@@ -243,7 +243,7 @@ pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
             ),
         };
         let found = format!("{} {what} for the lowest rope", length(width));
-        Problem::new(path, found, format!("at least two mesh diagonals, {}", length(least))).hint(hint)
+        Problem::new(path, found, format!("at least two {}s, {}", lattice.wide(), length(least))).hint(hint)
     })
 }
 
@@ -258,10 +258,10 @@ fn over_the_bed(e: &Entries, along: f64) -> Option<f64> {
 
 /// The second rope hangs above a bed that is not level.
 pub fn second_rope_above_the_bed(e: &Entries) -> Option<Problem> {
-    let (survey, heights, mesh) = (survey(e)?, rope_heights(e)?, e.number(&at("mesh_opening"))?);
+    let (survey, heights, lattice) = (survey(e)?, rope_heights(e)?, Lattice::of(e)?);
     let bed = survey.bed().iter().map(|point| point[1]).fold(0.0, f64::max);
     let second = over_the_bed(e, *heights.get(1)?)?;
-    let least = bed + ABOVE_THE_BED * mesh * std::f64::consts::SQRT_2;
+    let least = bed + ABOVE_THE_BED * lattice.diagonal;
     (e.number(&at("bottom.opening")).is_none() && bed > 0.0 && second < least).then(|| {
         let found = format!("main rope 2, {} above the lowest point, over a bed that rises by {}", length(second), length(bed));
         let allowed = format!("at least {} (normal to the bed)", length(least));

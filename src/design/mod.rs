@@ -19,9 +19,12 @@ pub(crate) mod hydrograph_entries;
 pub(crate) mod hydrograph_file;
 pub(crate) mod hydrograph_rules;
 pub(crate) mod key;
+pub(crate) mod net_ring_rules;
+pub(crate) mod net_rings;
 pub(crate) mod net_rules;
 pub mod read;
 pub(crate) mod resolve;
+pub(crate) mod rope;
 pub(crate) mod rope_rules;
 pub(crate) mod rules;
 pub(crate) mod schema;
@@ -39,6 +42,8 @@ pub(crate) mod yaml_faults;
 use std::sync::Arc;
 
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
+pub use self::net_rings::NetRings;
+pub use self::rope::Rope;
 
 use crate::yield_curve::YieldCurve;
 
@@ -182,9 +187,12 @@ pub struct FlexibleNet {
     pub height: f64,
     /// Angle against plumb (rad), positive towards the flow.
     pub tilt: f64,
-    /// Side of the square mesh, which stands on its corner (m).
+    /// Side of the square mesh, which stands on its corner (m); in a ring net the contacts of the rings lie as its knots do.
     pub mesh_opening: f64,
+    /// Rope of the net; in a ring net the one that is like a leg of a ring.
     pub net_rope: Rope,
+    /// The rings of a ring net.
+    pub rings: Option<NetRings>,
     /// How much longer the net's ropes are than the straight sides of the mesh, as a share.
     pub net_slack: f64,
     /// Straight pieces of which a side of the mesh is made in the simulation, if the design says so.
@@ -240,30 +248,14 @@ impl FlexibleNet {
         WIDEST_GAP.min(GAP_OF_MESH * self.mesh_opening)
     }
 
+    /// Diameter of the largest stone that passes the net by itself (m): the mesh, or a whole ring.
+    pub fn opening(&self) -> f64 {
+        self.rings.map_or(self.mesh_opening, |rings| rings.diameter)
+    }
+
     /// Number of main ropes, from the bottom, that the bed holds along their length.
     pub fn ropes_held_by_bed(&self) -> usize {
         usize::from(self.bottom == Bottom::Fixed)
-    }
-}
-
-/// A wire rope.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rope {
-    pub diameter: f64,
-    /// Modulus that, with the full circle of the diameter, gives the rope's EA (Pa).
-    pub modulus: f64,
-    /// N
-    pub breaking_load: f64,
-    /// Tension beyond which the simulated rope draws out and stays longer (N), if it does.
-    pub elastic_limit: Option<f64>,
-    /// Whether the simulated rope breaks at its breaking load.
-    pub breaks: bool,
-}
-
-impl Rope {
-    /// EA with the full circle of the diameter (N).
-    pub fn axial_stiffness(&self) -> f64 {
-        self.modulus * std::f64::consts::FRAC_PI_4 * self.diameter.powi(2)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
+use crate::design::net_rings::ring_key;
 use crate::design::show::{at, length};
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -26,11 +27,47 @@ pub fn bolts_have_their_distance(e: &Entries) -> Option<Problem> {
     })
 }
 
+/// The lattice of the net: square meshes, or the contacts of rings.
+pub struct Lattice {
+    /// The key that tells it.
+    pub path: String,
+    /// Diagonal of a mesh, or diameter of a ring (m).
+    pub diagonal: f64,
+    /// Side of the mesh, or diameter of the ring (m).
+    size: f64,
+    rings: bool,
+}
+
+impl Lattice {
+    /// Nothing where it is not told.
+    pub fn of(e: &Entries) -> Option<Self> {
+        if let Some(diameter) = e.number(&ring_key("diameter")) {
+            return Some(Self { path: ring_key("diameter"), diagonal: diameter, size: diameter, rings: true });
+        }
+        let mesh = e.number(&at("mesh_opening"))?;
+        Some(Self { path: at("mesh_opening"), diagonal: mesh * std::f64::consts::SQRT_2, size: mesh, rings: false })
+    }
+
+    fn shown(&self) -> String {
+        format!("{} of {}", if self.rings { "rings" } else { "a mesh" }, length(self.size))
+    }
+
+    /// What is as wide as its diagonal.
+    pub fn wide(&self) -> &'static str {
+        if self.rings { "ring" } else { "mesh diagonal" }
+    }
+}
+
 pub fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
-    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
-    (mesh * std::f64::consts::SQRT_2 > height).then(|| {
-        let found = format!("a mesh of {} in a barrier {} high", length(mesh), length(height));
-        Problem::new(at("mesh_opening"), found, "a mesh whose diagonal fits the barrier's height")
+    let (lattice, height) = (Lattice::of(e)?, e.number(&at("height"))?);
+    (lattice.diagonal > height).then(|| {
+        let found = format!("{} in a barrier {} high", lattice.shown(), length(height));
+        let allowed = if lattice.rings {
+            "rings that fit the barrier's height"
+        } else {
+            "a mesh whose diagonal fits the barrier's height"
+        };
+        Problem::new(lattice.path, found, allowed)
     })
 }
 
@@ -72,33 +109,40 @@ pub fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
 }
 
 pub fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
-    let (mesh, heights) = (e.number(&at("mesh_opening"))?, rope_heights(e)?);
-    let diagonal = mesh * std::f64::consts::SQRT_2;
+    let (lattice, heights) = (Lattice::of(e)?, rope_heights(e)?);
+    let (diagonal, wide) = (lattice.diagonal, lattice.wide());
     let bay = heights.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     (bay > 0.0 && bay < 0.6 * diagonal).then(|| {
-        let found = format!("ropes {} apart with a mesh diagonal of {}", length(bay), length(diagonal));
-        Problem::new(at("main_ropes"), found, "at least one mesh diagonal between two main ropes")
+        let found = format!("ropes {} apart with a {wide} of {}", length(bay), length(diagonal));
+        Problem::new(at("main_ropes"), found, format!("at least one {wide} between two main ropes"))
     })
 }
 
 pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
-    let (mesh, width) = (e.number(&at("mesh_opening"))?, section(e)?.width(height_of_barrier(e)?));
-    (3.0 * mesh * std::f64::consts::SQRT_2 > width).then(|| {
-        let found = format!("a mesh of {} across a channel of {}", length(mesh), length(width));
-        Problem::new(at("mesh_opening"), found, "at least three mesh diagonals across the channel")
+    let (lattice, width) = (Lattice::of(e)?, section(e)?.width(height_of_barrier(e)?));
+    (3.0 * lattice.diagonal > width).then(|| {
+        let found = format!("{} across a channel of {}", lattice.shown(), length(width));
+        let allowed = format!("at least three {}s across the channel", lattice.wide());
+        Problem::new(lattice.path, found, allowed)
     })
 }
 
 pub fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
-    let (spacing, mesh) = (e.number(&at("main_ropes.rings.spacing"))?, e.number(&at("mesh_opening"))?);
-    let diagonal = mesh * std::f64::consts::SQRT_2;
+    let (spacing, lattice) = (e.number(&at("main_ropes.rings.spacing"))?, Lattice::of(e)?);
+    let (diagonal, wide) = (lattice.diagonal, lattice.wide());
     ((spacing / diagonal - 1.0).abs() > 0.1).then(|| {
-        let found = format!("rings every {} with a mesh diagonal of {}", length(spacing), length(diagonal));
-        Problem::new(
-            at("main_ropes.rings.spacing"),
-            found,
-            "one ring to each mesh along the rope (the diagonal to 10 %)",
-        )
+        let (found, allowed) = if lattice.rings {
+            (
+                format!("a spacing of {} with rings of {} in the net", length(spacing), length(diagonal)),
+                "the diameter of the net's rings, each of which hangs on the rope (to 10 %)",
+            )
+        } else {
+            (
+                format!("rings every {} with a {wide} of {}", length(spacing), length(diagonal)),
+                "one ring to each mesh along the rope (the diagonal to 10 %)",
+            )
+        };
+        Problem::new(at("main_ropes.rings.spacing"), found, allowed)
     })
 }
 
@@ -184,10 +228,12 @@ pub fn lateral_ropes_have_their_dissipators(e: &Entries) -> Option<Problem> {
 const MOST_KNOTS: f64 = 50_000.0;
 
 pub fn knots_are_bearable(e: &Entries) -> Option<Problem> {
-    let (mesh, height) = (e.number(&at("mesh_opening"))?, e.number(&at("height"))?);
-    let knots = section(e)?.mean_width(height_of_barrier(e)?) * height / (mesh * mesh);
+    let (lattice, height) = (Lattice::of(e)?, e.number(&at("height"))?);
+    let of_one = 0.5 * lattice.diagonal * lattice.diagonal;
+    let knots = section(e)?.mean_width(height_of_barrier(e)?) * height / of_one;
     (knots > MOST_KNOTS).then(|| {
-        let found = format!("a mesh of {} with about {knots:.0} knots", length(mesh));
-        Problem::new(at("mesh_opening"), found, format!("at most {MOST_KNOTS:.0} knots")).hint("is the unit right?")
+        let what = if lattice.rings { "contacts" } else { "knots" };
+        let found = format!("{} with about {knots:.0} {what}", lattice.shown());
+        Problem::new(lattice.path, found, format!("at most {MOST_KNOTS:.0} {what}")).hint("is the unit right?")
     })
 }

@@ -10,6 +10,7 @@ use crate::design::flow_entries::{
     SIZES, boulders, coarsened, curve_known_from, flow_volume, size_curve, size_curve_at,
 };
 use crate::design::hydrograph_entries::{HYDROGRAPH, as_of_a_surge, hydrograph};
+use crate::design::net_rings::net_rings;
 use crate::design::net_rules::rope_heights;
 use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
@@ -234,11 +235,22 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{key}"));
     let dissipators = e.has_section(DISSIPATORS).then(|| dissipators(e));
     let tied_to = e.text("barrier.flexible_net.lateral_ropes.tied_to")?;
+    let rings = match e.mentions("barrier.flexible_net.net") {
+        true => Some(net_rings(e)?),
+        false => None,
+    };
     Some(FlexibleNet {
         height: value("height")?,
         tilt: value("tilt")?,
-        mesh_opening: value("mesh_opening")?,
-        net_rope: rope(e, "net_rope")?,
+        mesh_opening: match &rings {
+            Some(rings) => rings.mesh(),
+            None => value("mesh_opening")?,
+        },
+        net_rope: match &rings {
+            Some(rings) => rings.as_rope(),
+            None => rope(e, "net_rope")?,
+        },
+        rings,
         net_slack: value("net_slack")?,
         net_pieces: value("net_pieces").map(|pieces| pieces as u32),
         main_ropes: MainRopes {

@@ -10,7 +10,8 @@ use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
 use crate::design::{
-    boulder_rules, channel_rules, dissipator_rules, hydrograph_rules, net_rules, size_rules, surge_rules, wall_rules,
+    boulder_rules, channel_rules, dissipator_rules, hydrograph_rules, net_ring_rules, net_rules, size_rules,
+    surge_rules, wall_rules,
 };
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -76,6 +77,11 @@ pub const RULES: &[Rule] = &[
     freeboard_is_of_an_emptied_barrier,
     freeboard_within_the_barrier,
     overflow_has_friction_and_length,
+    net_ring_rules::net_is_of_one_kind,
+    net_ring_rules::chain_test_has_its_two_points,
+    net_ring_rules::chain_is_no_stronger_than_its_wires,
+    net_ring_rules::rings_are_thinner_than_they_are_wide,
+    net_ring_rules::ring_nets_have_no_sides,
     net_rules::mesh_within_the_barrier,
     net_rules::main_ropes_counted_once,
     net_rules::rope_heights_increase,

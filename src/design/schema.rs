@@ -483,8 +483,13 @@ const FLEXIBLE_NET: &[Key] = &[
         "0 deg",
         "angle against the vertical, positive leans upstream",
     ),
-    Key::required("mesh_opening", Kind::LengthOrGrains { low: 0.005, high: 3.0 }, "side of the square mesh"),
-    Key::required("net_rope", Kind::Section(ROPE), "rope of the net"),
+    Key::optional(
+        "mesh_opening",
+        Kind::LengthOrGrains { low: 0.005, high: 3.0 },
+        "side of the square mesh; give this with net_rope, or net.rings",
+    ),
+    Key::optional("net_rope", Kind::Section(ROPE), "rope of the net"),
+    Key::optional("net", Kind::OneOf(NETS), "a net that is no square mesh of ropes"),
     Key::default(
         "net_slack",
         quantity(D::Share, 0.0, 0.2),
@@ -506,6 +511,25 @@ const FLEXIBLE_NET: &[Key] = &[
         Kind::Section(SIDE_EXTENSION),
         "strips of net along the side walls, which close the windows that open beside the barrier when dissipators pay out",
     ),
+];
+
+const NETS: &[Key] = &[Key::optional("rings", Kind::Section(NET_RINGS), "a ring net: each ring meets four others")];
+
+const NET_RINGS: &[Key] = &[
+    Key::required("diameter", quantity(D::Length, 0.02, 3.0), "diameter of a ring"),
+    Key::required("windings", Kind::Count { low: 1, high: 100 }, "windings of wire in a ring"),
+    Key::required("wire_diameter", quantity(D::Length, 2e-4, 0.02), "diameter of the wire"),
+    Key::required("wire_strength", quantity(D::Pressure, 1e8, 4e9), "tensile strength of the wire"),
+    Key::optional(
+        "chain_test",
+        Kind::Pairs {
+            first: Bounded { dimension: D::Share, low: 0.01, high: 2.0 },
+            second: Bounded { dimension: D::Force, low: 1.0, high: 1e7 },
+            example: "[[48 %, 16 kN], [57 %, 108 kN]]",
+        },
+        "a chain of the very rings pulled to break: elongation over its length and force, where bending ends and at the break, as characteristic values; by default they follow from the wires, as tests of rings of 300 mm with 5 to 19 windings of 3 mm have them",
+    ),
+    AT_BREAKING_LOAD,
 ];
 
 const SIDE_EXTENSION: &[Key] = &[

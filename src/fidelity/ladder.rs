@@ -184,7 +184,7 @@ impl Rung {
         match &design.barrier {
             // If only the finest tenth could pass, coarse grains hide little.
             BarrierDesign::FlexibleNet(net) if self.kind == RungKind::CoarseGrains => {
-                design.flow.sizes.quantile(0.1) > net.mesh_opening
+                design.flow.sizes.quantile(0.1) > net.opening()
             }
             // Slack is a matter of ropes that only pull.
             BarrierDesign::FlexibleNet(net) if self.kind == RungKind::Fine => net.net_slack == 0.0,

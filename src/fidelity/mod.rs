@@ -2,7 +2,8 @@
 
 pub(crate) mod ladder;
 
-use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, Rope};
+use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, NetRings, Rope};
+use crate::ring_law;
 use crate::scene::flow::release::bodies;
 use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
 use dem::contact::law::contact_stiffness;
@@ -55,13 +56,17 @@ pub fn choose(design: &Design) -> Fidelity {
 
 /// Straight pieces of which a side of the mesh is made: what the design says, or one, and on the finest rung what the grains need.
 pub fn net_pieces(design: &Design, net: &FlexibleNet) -> u32 {
-    let fine = design.simulation.fidelity == FidelityWish::Fine;
+    // The sides of a ring are one closed line.
+    let fine = design.simulation.fidelity == FidelityWish::Fine && net.rings.is_none();
     net.net_pieces.unwrap_or(if fine { needed_pieces(design, net) } else { 1 })
 }
 
 /// Pieces that grains of the median size need.
 pub fn needed_pieces(design: &Design, net: &FlexibleNet) -> u32 {
-    pieces_for(net.mesh_opening, 0.5 * design.flow.sizes.quantile(0.5))
+    match net.rings {
+        Some(_) => 1,
+        None => pieces_for(net.mesh_opening, 0.5 * design.flow.sizes.quantile(0.5)),
+    }
 }
 
 /// Pieces of a side of a mesh (m) with which a body of a radius (m) that pushes beside a knot meets, within 8 %, what it would with many:
@@ -107,7 +112,10 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let pieces = net_pieces(design, net);
     // A node between two pieces of a side is lighter than a knot, of four.
     let meeting = if pieces > 1 { 2.0 } else { 4.0 };
-    let (net_mass, net_stiffness) = knot(&net.net_rope, net.mesh_opening / f64::from(pieces), meeting, 4.0);
+    let (net_mass, net_stiffness) = match &net.rings {
+        Some(rings) => contact_of_rings(rings),
+        None => knot(&net.net_rope, net.mesh_opening / f64::from(pieces), meeting, 4.0),
+    };
     let (rope_mass, rope_stiffness) = knot(&net.main_ropes.rope, diagonal, 2.0, 4.0);
     let radius = 0.42 * design.flow.sizes.quantile(0.5);
     let grain = design.flow.modulus * radius;
@@ -121,6 +129,14 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let on_net = net_mass / (net_stiffness + contact);
     let on_rope = (rope_mass + net_mass) / (rope_stiffness + net_stiffness + contact);
     critical_step_of_pair(1.0, on_net.min(on_rope), ROPE_DAMPING_RATIO)
+}
+
+/// Mass of a contact of two rings (kg), and their stiffness there (N/m) when neighbours breathe against each other: with all contacts of a
+/// ring out by u its way grows by 4 √2 u, and each pulls its contact by √2 k 4 √2 u = 8 k u; opposite contacts bend it by 2 u.
+fn contact_of_rings(rings: &NetRings) -> (f64, f64) {
+    let law = rings.law();
+    let mass = 0.5 * ring_law::mass(&rings.wires, rings.diameter, ROPE_DENSITY);
+    (mass, 2.0 * (8.0 * law.stiffness + 2.0 * law.bending))
 }
 
 /// Two significant digits, downwards: a step a person can read.

@@ -1,6 +1,7 @@
 //! The pictures of the report: charts over time, the flow from the side, the barrier from upstream, pressure over height.
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::ropes;
 use crate::design::{BarrierDesign, Bottom, Channel};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
@@ -291,12 +292,12 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let snapshot = seen.histories.snapshots.iter().find(|snapshot| snapshot.moment == Moment::LargestForce)?;
     let resistance = |kind: SegmentKind| {
-        let rope = match kind {
-            SegmentKind::Main(_) => &net.main_ropes.rope,
-            SegmentKind::Lateral => &net.lateral_rope,
-            SegmentKind::Net | SegmentKind::Ring => &net.net_rope,
+        let holds = match kind {
+            SegmentKind::Main(_) => ropes::resistance(design, &net.main_ropes.rope),
+            SegmentKind::Lateral => ropes::resistance(design, &net.lateral_rope),
+            SegmentKind::Net | SegmentKind::Ring => ropes::resistance_of_net(design, net),
         };
-        rope.breaking_load * design.factors.rope_end / design.factors.rope / design.factors.load
+        holds.characteristic / holds.factor / design.factors.load
     };
     Some(Chart {
         title: "Barrier from upstream, at its largest load",

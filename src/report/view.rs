@@ -9,7 +9,7 @@ use crate::demand::USED_UP;
 use crate::design::entries::Origin;
 use crate::design::hydrograph::{Hard, Moment};
 use crate::design::read::sha256;
-use crate::design::{Arrival, BarrierDesign, Rope};
+use crate::design::{Arrival, BarrierDesign, NetRings, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
@@ -527,12 +527,38 @@ fn derived_rows(run: &Run) -> Vec<Row> {
     rows.extend(hydrograph_rows(run));
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
         let axial = Rope::axial_stiffness;
-        for (name, rope) in [("main", &net.main_ropes.rope), ("net", &net.net_rope), ("lateral", &net.lateral_rope)] {
+        let of_net = net.rings.is_none().then_some(("net", &net.net_rope));
+        let ropes = [("main", &net.main_ropes.rope)].into_iter().chain(of_net);
+        for (name, rope) in ropes.chain([("lateral", &net.lateral_rope)]) {
             let how = "modulus times the full circle of the diameter".to_string();
             rows.push(row(&format!("EA of the {name} ropes"), with_unit(axial(rope), "N"), how));
         }
+        rows.extend(net.rings.iter().flat_map(ring_rows));
     }
     rows
+}
+
+/// What the rings of a net come to.
+fn ring_rows(rings: &NetRings) -> [Row; 3] {
+    let [[bent, knee], [broken, force]] = rings.chain;
+    let source = if rings.tested { "a test of such a chain" } else { "follows from the wires (Guo 2022)" };
+    [
+        row(
+            "Steel of a leg of a ring",
+            format!("{} mm²", figures(rings.wires.area() * 1e6)),
+            format!("all wires pulled straight would hold {}", with_unit(rings.wires.breaking_load(), "N")),
+        ),
+        row(
+            "Chain of rings, bending ends",
+            format!("{} at {:.1} %", with_unit(knee, "N"), 100.0 * bent),
+            format!("of its length; {source}"),
+        ),
+        row(
+            "Chain of rings, break",
+            format!("{} at {:.1} %", with_unit(force, "N"), 100.0 * broken),
+            format!("a leg is held against {}", with_unit(rings.characteristic_leg(), "N")),
+        ),
+    ]
 }
 
 /// What the table of a hydrograph comes to, where its inlet is, and what of it the equations take.

@@ -255,7 +255,7 @@ fn discharge_and_volume(run: &Run) -> Option<String> {
 fn grains_that_hide_losses(run: &Run) -> Option<String> {
     run.simulated.as_ref()?;
     let flow = &run.file.design.flow;
-    let mesh = net(run).map(|net| net.mesh_opening);
+    let mesh = net(run).map(FlexibleNet::opening);
     if let Some(cut) = &flow.cut {
         let through = mesh.map_or(String::new(), |mesh| {
             format!(
@@ -414,9 +414,10 @@ const SOFT: f64 = 20e9;
 
 fn soft_ropes(run: &Run) -> Option<String> {
     let net = net(run)?;
-    let ropes =
-        [("main", net.main_ropes.rope.modulus), ("lateral", net.lateral_rope.modulus), ("net", net.net_rope.modulus)];
-    let soft: Vec<&str> = ropes.iter().filter(|(_, modulus)| *modulus < SOFT).map(|(name, _)| *name).collect();
+    let of_net = net.rings.is_none().then_some(("net", net.net_rope.modulus));
+    let ropes = [("main", net.main_ropes.rope.modulus), ("lateral", net.lateral_rope.modulus)];
+    let ropes = ropes.into_iter().chain(of_net);
+    let soft: Vec<&str> = ropes.filter(|(_, modulus)| *modulus < SOFT).map(|(name, _)| name).collect();
     (!soft.is_empty()).then(|| {
         format!(
             "Ropes with a modulus below {} ({}): wire ropes have several times as much. A softer rope sags more and is loaded less; state the source of the value.",

@@ -80,7 +80,8 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
         BarrierDesign::FlexibleNet(net) => {
             let barrier =
                 build_net(net, &design.channel, design.simulation.barrier_model, net_pieces(design, net)).barrier;
-            (barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len()) as f64
+            let sides: usize = barrier.net_rings.iter().map(|ring| ring.nodes.len()).sum();
+            (barrier.segments.len() + sides + barrier.cylinders.len() + barrier.dissipators.len()) as f64
         }
     };
     // The longest time is counted from where the last of a hydrograph has come in.

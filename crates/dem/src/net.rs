@@ -23,6 +23,8 @@ pub struct NetForces {
     pub torques: Vec<Vec3>,
     /// Axial force of each cylinder (N), tension positive.
     pub axial: Vec<f64>,
+    /// Force of a leg of each ring of the net, as that of a chain that is as near to breaking (N), at each of its sides.
+    pub rings: Vec<f64>,
     /// Force of all grains on the barrier (N).
     pub from_grains: Vec3,
     /// Elastic energy (J).
@@ -42,6 +44,8 @@ pub struct NetForces {
     /// Pieces of rope that were overloaded.
     overloaded: Vec<(usize, Fate)>,
     bent: Vec<(usize, Cylinder)>,
+    /// Rings of the net that broke.
+    torn: Vec<usize>,
 }
 
 /// Stretches every element to the present places of the nodes; `law` holds the barrier's own step.
@@ -56,6 +60,7 @@ pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
         ..NetForces::default()
     };
     net.pull_segments(barrier, law.time_step);
+    net.pull_rings(barrier, law.time_step);
     net.pull_dissipators(barrier);
     net.hold(barrier);
     net.rest_on_ground(barrier, law);
@@ -91,6 +96,18 @@ impl NetForces {
             self.lost_ropes += result.lost;
             self.tensions.push(result.tension);
             self.overloaded.extend(result.fate.map(|fate| (number, fate)));
+        }
+    }
+
+    fn pull_rings(&mut self, barrier: &Barrier, step: f64) {
+        for (number, ring) in barrier.net_rings.iter().enumerate() {
+            let result = ring.pull(&barrier.nodes, &mut self.forces, step);
+            self.stored += result.stored;
+            self.lost_ropes += result.lost;
+            self.rings.extend(std::iter::repeat_n(result.as_in_chain, ring.nodes.len()));
+            if result.breaks {
+                self.torn.push(number);
+            }
         }
     }
 
@@ -184,7 +201,7 @@ impl NetForces {
 
     /// Tensions of all that pulls (N), in the order of [`Barrier::strands`].
     pub fn strand_tensions(&self) -> impl Iterator<Item = f64> {
-        self.tensions.iter().chain(&self.axial).chain(&self.dissipators).copied()
+        self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators).copied()
     }
 
     /// Adds the force of a grain on a line, `times` over.
@@ -216,6 +233,9 @@ impl NetForces {
                 barrier.lose_line(nodes);
             }
         }
+        for &number in &self.torn {
+            barrier.lose_ring(number);
+        }
         barrier.dissipators.clone_from_slice(&self.slipped);
         barrier.holds.clone_from_slice(&self.let_go);
         barrier.footings.clone_from(&self.lies);
@@ -236,13 +256,14 @@ impl NetForces {
         add(&mut self.tensions, &later.tensions);
         add(&mut self.dissipators, &later.dissipators);
         add(&mut self.axial, &later.axial);
+        add(&mut self.rings, &later.rings);
     }
 
     /// Turns sums over `parts` parts of a step into means.
     pub fn share_out(&mut self, parts: u32) {
         let share = 1.0 / f64::from(parts);
         self.forces.iter_mut().for_each(|force| *force *= share);
-        for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial] {
+        for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial, &mut self.rings] {
             sums.iter_mut().for_each(|sum| *sum *= share);
         }
     }

@@ -68,14 +68,20 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
         knots: BTreeMap::new(),
         rope_nodes: BTreeMap::new(),
         wings: Vec::new(),
+        cut_sides: BTreeMap::new(),
     };
     if let Some(survey) = &channel.survey {
         builder.add_cut_net(survey);
     } else {
         builder.add_knots();
-        builder.add_net();
+        if design.rings.is_none() {
+            builder.add_net();
+        }
         builder.add_main_ropes();
         builder.add_lateral_ropes();
+    }
+    if let Some(rings) = &design.rings {
+        builder.add_net_rings(rings);
     }
     if let Some(extension) = &design.side_extension {
         builder.add_side_extensions(extension);
@@ -99,6 +105,8 @@ pub(super) struct Builder<'a> {
     pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
     /// Knots of the side extensions by row, on either side, from the net outwards.
     pub(super) wings: Vec<[Vec<u32>; 2]>,
+    /// In a ring net, the node on the edge at which a side between two places of the lattice was cut, by the place that is left.
+    pub(super) cut_sides: BTreeMap<((usize, usize), (usize, usize)), u32>,
 }
 
 impl Builder<'_> {

@@ -18,8 +18,22 @@ const APART: f64 = 0.4;
 /// Rounding, over half a diagonal, within which a knot lies on the lowest rope.
 const ON_THE_ROPE: f64 = 1e-6;
 
-/// Sides of the mesh that end on an edge: how far along it (m), and the knot from which they come.
-type Ends = BTreeMap<(u8, usize), Vec<(f64, u32)>>;
+/// A place of the lattice, by column and row.
+type Place = (usize, usize);
+
+/// A side of the mesh that ends on an edge.
+#[derive(Clone, Copy, Debug)]
+struct SideEnd {
+    /// How far along the edge (m).
+    way: f64,
+    /// The knot from which it comes.
+    knot: u32,
+    /// The place of that knot, and the one to which it would lead.
+    places: [Place; 2],
+}
+
+/// Sides of the mesh that end on an edge.
+type Ends = BTreeMap<(u8, usize), Vec<SideEnd>>;
 
 fn key(edge: Edge) -> (u8, usize) {
     match edge {
@@ -89,7 +103,7 @@ impl Builder<'_> {
                     let known = usize::try_from(neighbour).ok().zip(usize::try_from(other_row).ok());
                     let other = known.and_then(|place| self.knots.get(&place)).copied();
                     match other {
-                        Some(other) if upwards => self.add_side_of_mesh([node, other]),
+                        Some(other) if upwards && self.design.rings.is_none() => self.add_side_of_mesh([node, other]),
                         Some(_) => {}
                         None => {
                             // Above the top there is nothing, and below the lowest rope neither.
@@ -100,7 +114,9 @@ impl Builder<'_> {
                             let to =
                                 [self.across(0) + half * neighbour as f64, self.grid.row_heights[other_row as usize]];
                             if let Some(crossing) = outline.crossing(from, beyond(from, to)) {
-                                ends.entry(key(crossing.edge)).or_default().push((crossing.way, node));
+                                let places = [(column, row), known.unwrap_or((usize::MAX, usize::MAX))];
+                                let end = SideEnd { way: crossing.way, knot: node, places };
+                                ends.entry(key(crossing.edge)).or_default().push(end);
                             }
                         }
                     }
@@ -114,12 +130,12 @@ impl Builder<'_> {
     fn add_ends(&mut self, edge: Edge, outline: &Outline, ends: &Ends, stops: &[f64], held: bool) -> Vec<(f64, u32)> {
         let apart = APART * self.half_diagonal();
         let mut list = ends.get(&key(edge)).cloned().unwrap_or_default();
-        for (way, _) in &mut list {
-            *way = clear_of(*way, stops, apart);
+        for end in &mut list {
+            end.way = clear_of(end.way, stops, apart);
         }
-        list.sort_by(|a, b| a.0.total_cmp(&b.0));
+        list.sort_by(|a, b| a.way.total_cmp(&b.way));
         let mut nodes: Vec<(f64, u32)> = Vec::new();
-        for (way, knot) in list {
+        for SideEnd { way, knot, places } in list {
             let node = match nodes.last() {
                 Some((before, node)) if way - before < apart => *node,
                 _ => {
@@ -129,7 +145,10 @@ impl Builder<'_> {
                     node
                 }
             };
-            self.add_side_of_mesh([knot, node]);
+            match &self.design.rings {
+                Some(_) => _ = self.cut_sides.insert((places[0], places[1]), node),
+                None => self.add_side_of_mesh([knot, node]),
+            }
         }
         nodes
     }

@@ -5,5 +5,6 @@ pub(crate) mod cut;
 mod extension;
 pub(crate) mod grid;
 pub(crate) mod outline;
+pub(crate) mod ring_net;
 pub(crate) mod ring_shape;
 pub(crate) mod rings;

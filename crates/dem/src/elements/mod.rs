@@ -3,6 +3,7 @@
 pub mod cylinder;
 pub mod dissipator;
 pub mod ground;
+pub mod net_ring;
 pub mod ring;
 pub mod rope;
 pub mod segment;

@@ -20,7 +20,7 @@ pub const EXTENSION: Channel = Channel { name: "rope_extension", unit: "m", rows
 pub const LATERAL: Channel = Channel { name: "lateral_largest", unit: "n", rows: Rows::One };
 /// Largest tension in the net.
 pub const NET: Channel = Channel { name: "net_largest", unit: "n", rows: Rows::One };
-/// Pieces of rope that have broken so far.
+/// Pieces of rope, and rings of the net, that have broken so far.
 pub const BROKEN: Channel = Channel { name: "broken_pieces", unit: "", rows: Rows::One };
 /// Largest permanent elongation of a piece of rope so far, over its first length.
 pub const DRAWN_OUT: Channel = Channel { name: "drawn_out", unit: "share", rows: Rows::One };
@@ -84,9 +84,10 @@ impl BodyRecorder for OfRopes {
     }
 }
 
-/// How many pieces of rope have broken, and the largest permanent elongation of one over its first length.
+/// How many pieces of rope and rings of the net have broken, and the largest permanent elongation of one over its first length.
 fn wear(barrier: &Barrier) -> [f64; 2] {
-    barrier.strengths().fold([0.0, 0.0], |[broken, drawn_out], strength| {
+    let torn = barrier.net_rings.iter().filter(|ring| ring.strength.broken).count();
+    barrier.strengths().fold([torn as f64, 0.0], |[broken, drawn_out], strength| {
         let elongation = strength.drawn_out / strength.first_length;
         [broken + f64::from(u8::from(strength.broken)), larger_or_nan(drawn_out, elongation)]
     })

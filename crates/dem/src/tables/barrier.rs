@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::elements::cylinder::Cylinder;
 use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::{Footing, Ground};
+use crate::elements::net_ring::NetRing;
 use crate::elements::ring::RingSide;
 use crate::elements::segment::{Segment, SegmentKind};
 use crate::elements::segment::{Strand, Taut};
@@ -45,6 +46,8 @@ pub struct Barrier {
     pub lines: Vec<Line>,
     /// Ropes that slide through their rings; empty where rings are pinned.
     pub chains: Vec<Chain>,
+    /// Rings of a ring net.
+    pub net_rings: Vec<NetRing>,
     /// Sides of rings round ropes of cylinders, and the moduli of ring and rope in contact (Pa).
     pub rings: Vec<RingSide>,
     pub ring_moduli: [f64; 2],
@@ -63,13 +66,15 @@ impl Barrier {
         let segments = self.segments.iter().map(Segment::strand);
         segments
             .chain(self.cylinders.iter().map(Cylinder::strand))
+            .chain(self.net_rings.iter().flat_map(NetRing::strands))
             .chain(self.dissipators.iter().map(Dissipator::strand))
     }
 
     /// All springs between two nodes that go slack, in a fixed order.
     pub fn springs(&self) -> impl Iterator<Item = Taut> {
         let segments = self.segments.iter().map(Segment::taut);
-        segments.chain(self.dissipators.iter().chain(&self.holds).map(Dissipator::taut))
+        let rings = self.net_rings.iter().flat_map(|ring| ring.springs(&self.nodes));
+        segments.chain(self.dissipators.iter().chain(&self.holds).map(Dissipator::taut)).chain(rings)
     }
 
     /// Radius with which grains may touch a line or either of its nodes (m).
@@ -88,6 +93,14 @@ impl Barrier {
         }
     }
 
+    /// Lets a ring of the net break.
+    pub fn lose_ring(&mut self, number: usize) {
+        self.net_rings[number].strength.broken = true;
+        for side in std::mem::take(&mut self.net_rings[number].touched) {
+            self.lose_line(side);
+        }
+    }
+
     /// What every piece of rope withstands and has suffered.
     pub fn strengths(&self) -> impl Iterator<Item = &Strength> {
         let cylinders = self.cylinders.iter().map(|cylinder| &cylinder.strength);
@@ -100,6 +113,10 @@ impl Barrier {
         let cylinders = self.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes, cylinder.section.radius));
         let touchable = segments.chain(cylinders).filter(|(kind, ..)| *kind != SegmentKind::Ring);
         self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius, broken: false }).collect();
+        for ring in &self.net_rings {
+            let radius = ring.radius;
+            self.lines.extend(ring.touched.iter().map(|&nodes| Line { nodes, radius, broken: false }));
+        }
         self.lines.extend(self.dissipators.iter().map(|dissipator| Line {
             nodes: dissipator.nodes,
             radius: dissipator.radius,

@@ -1,0 +1,310 @@
+//! A ring of a ring net: a closed bundle of wires that slides through its contacts with the rings beside it.
+//!
+//! The ring runs straight from contact to contact. Two springs stand for its two stages, after Volkwein 2004 and the ring element of Kratos:
+//!
+//! - **bending**: each pair of opposite contacts, further apart than the diameter D, is pulled together with f = b (d − D);
+//! - **tension**: the ring slides freely, so that one tension acts all round: T = max(0, k (P − P₁) + c Ṗ) once the way round all contacts,
+//!   P, is longer than P₁.
+//!
+//! Both come from a potential, ½ b Σ (d − D)₊² + ½ k (P − P₁)₊², so that a ring gives back what was put in, but for the dashpot c. Real rings
+//! bend for good: what they take away by that is left out.
+//!
+//! The wires of one leg carry N = T + ½ max f. They break earlier the more sharply the ring is turned round a contact: N is told as that of
+//! a chain of rings that breaks as soon, N' = N R₁₈₀ / R(θ), with R between R₉₀ at a turn of 90° or less and R₁₈₀ at 180°, in proportion
+//! to −cos θ of the sharpest turn.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+use crate::elements::segment::{SegmentKind, Strand, Taut};
+use crate::tables::nodes::Node;
+
+/// Most contacts of a ring, with those along an edge to which it was cut.
+pub const MOST_CONTACTS: usize = 12;
+
+/// A ring and its contacts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NetRing {
+    /// Contacts in their order round the ring: two or more.
+    pub nodes: Vec<u32>,
+    /// Way round all contacts from which the ring is taut, P₁ (m).
+    pub taut_from: f64,
+    /// Stiffness of the taut ring against a longer way, k (N/m).
+    pub stiffness: f64,
+    /// Dashpot of the taut ring, c (N s/m).
+    pub damping: f64,
+    /// Stiffness of bending between two opposite contacts, b (N/m); nothing for a ring that is cut.
+    pub bending: f64,
+    /// D (m)
+    pub diameter: f64,
+    /// Radius of the bundle, with which grains touch it (m).
+    pub radius: f64,
+    /// Sides that grains touch: all but those along a rope.
+    pub touched: Vec<[u32; 2]>,
+    pub strength: RingStrength,
+}
+
+/// What the wires of one leg of a ring withstand.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RingStrength {
+    /// In a chain of rings, where each contact turns the ring by 180° (N), and in a net, where it turns it by 90°.
+    pub in_chain: f64,
+    pub in_net: f64,
+    /// Whether it breaks there, or holds on.
+    pub breaks: bool,
+    pub broken: bool,
+}
+
+impl RingStrength {
+    /// The force of a leg in a chain (N) that is as near to breaking as `force` is with this cosine of the sharpest turn.
+    fn as_in_chain(&self, force: f64, cosine: f64) -> f64 {
+        let sharpness = (-cosine).clamp(0.0, 1.0);
+        force * self.in_chain / (self.in_net + (self.in_chain - self.in_net) * sharpness)
+    }
+}
+
+/// What a ring does at the present places of its contacts.
+#[derive(Clone, Debug, Default)]
+pub struct RingPull {
+    /// Tension all round (N).
+    pub tension: f64,
+    /// Force of a leg as that of a chain that is as near to breaking (N).
+    pub as_in_chain: f64,
+    /// Elastic energy (J).
+    pub stored: f64,
+    /// Dissipated in the step just made (J).
+    pub lost: f64,
+    /// Whether it has just broken.
+    pub breaks: bool,
+}
+
+impl NetRing {
+    pub fn sides(&self) -> impl Iterator<Item = [u32; 2]> {
+        let next = self.nodes.iter().cycle().skip(1);
+        self.nodes.iter().zip(next).map(|(&from, &to)| [from, to])
+    }
+
+    /// Pairs of opposite contacts.
+    fn diagonals(&self) -> impl Iterator<Item = [u32; 2]> {
+        let bends = self.bending > 0.0 && !self.strength.broken;
+        let count = if bends { self.nodes.len() / 2 } else { 0 };
+        (0..count).map(move |contact| [self.nodes[contact], self.nodes[contact + count]])
+    }
+
+    pub fn strands(&self) -> impl Iterator<Item = Strand> {
+        self.sides().map(|nodes| Strand { nodes, kind: SegmentKind::Net, rest_length: None })
+    }
+
+    /// Way round all contacts (m).
+    fn way(&self, nodes: &[Node]) -> f64 {
+        let length = |[a, b]: [u32; 2]| (nodes[b as usize].position - nodes[a as usize].position).norm();
+        self.sides().map(length).sum()
+    }
+
+    /// Springs of which each ring is no stiffer than their sum: for e the elongations of n sides, (Σ e)² ≤ n Σ e². Neighbouring rings that
+    /// breathe against each other reach it.
+    pub fn springs<'a>(&'a self, nodes: &'a [Node]) -> impl Iterator<Item = Taut> + 'a {
+        let count = self.nodes.len() as f64;
+        let over = (self.way(nodes) - self.taut_from) / count;
+        let taut = over >= 0.0 && !self.strength.broken;
+        let sides = self.sides().filter(move |_| taut).map(move |ends| {
+            let [a, b] = ends.map(|node| nodes[node as usize].position);
+            let (stiffness, damping) = (count * self.stiffness, count * self.damping);
+            Taut { nodes: ends, stiffness, damping, slack: (b - a).norm() - over }
+        });
+        let diagonals =
+            self.diagonals().map(|nodes| Taut { nodes, stiffness: self.bending, damping: 0.0, slack: self.diameter });
+        sides.chain(diagonals)
+    }
+
+    /// Puts its forces on the contacts, after a step of length `step` (s).
+    pub fn pull(&self, nodes: &[Node], forces: &mut [Vec3], step: f64) -> RingPull {
+        if self.strength.broken {
+            return RingPull::default();
+        }
+        let count = self.nodes.len();
+        let mut directions = [Vec3::zeros(); MOST_CONTACTS];
+        let (mut way, mut rate) = (0.0, 0.0);
+        for (side, [from, to]) in self.sides().enumerate() {
+            let [a, b] = [from, to].map(|node| &nodes[node as usize]);
+            let line = b.position - a.position;
+            let length = line.norm();
+            // Two contacts at one place pull each other nowhere.
+            let direction = if length > 0.0 { line / length } else { Vec3::zeros() };
+            way += length;
+            rate += (b.velocity - a.velocity).dot(&direction);
+            directions[side] = direction;
+        }
+        let bent = self.bend(nodes);
+        let over = (way - self.taut_from).max(0.0);
+        let spring = self.stiffness * over;
+        let stored = 0.5 * spring * over + bent.stored;
+        let cosine = |contact: usize| directions[(contact + count - 1) % count].dot(&directions[contact]);
+        let force = spring + 0.5 * bent.largest;
+        let as_in_chain = if force > 0.0 {
+            self.strength.as_in_chain(force, (0..count).map(cosine).fold(1.0, f64::min))
+        } else {
+            force
+        };
+        if self.strength.breaks && as_in_chain > self.strength.in_chain {
+            // Had it held, the step would have put half of its forces times its displacements into it; it stores nothing more.
+            let work = 0.5 * (spring * rate + bent.power) * step;
+            return RingPull { lost: stored - work, breaks: true, ..RingPull::default() };
+        }
+        let tension = if over > 0.0 { (spring + self.damping * rate).max(0.0) } else { spring };
+        for (contact, &node) in self.nodes.iter().enumerate() {
+            forces[node as usize] += (directions[contact] - directions[(contact + count - 1) % count]) * tension;
+        }
+        self.put_bending(nodes, forces);
+        RingPull { tension, as_in_chain, stored, lost: (tension - spring) * rate * step, breaks: false }
+    }
+
+    fn bend(&self, nodes: &[Node]) -> Bending {
+        let mut sums = Bending::default();
+        for (direction, force, [a, b]) in self.bent_diagonals(nodes) {
+            sums.largest = sums.largest.max(force);
+            sums.stored += 0.5 * force * force / self.bending;
+            sums.power += force * (nodes[b].velocity - nodes[a].velocity).dot(&direction);
+        }
+        sums
+    }
+
+    fn put_bending(&self, nodes: &[Node], forces: &mut [Vec3]) {
+        for (direction, force, [a, b]) in self.bent_diagonals(nodes) {
+            forces[a] += direction * force;
+            forces[b] -= direction * force;
+        }
+    }
+
+    /// Direction, force and contacts of each diagonal that is longer than the diameter.
+    fn bent_diagonals<'a>(&'a self, nodes: &'a [Node]) -> impl Iterator<Item = (Vec3, f64, [usize; 2])> + 'a {
+        self.diagonals().filter_map(|ends| {
+            let [a, b] = ends.map(|node| node as usize);
+            let line = nodes[b].position - nodes[a].position;
+            let square = line.norm_squared();
+            // Asked so that a NaN is seen.
+            if square <= self.diameter * self.diameter {
+                return None;
+            }
+            let length = square.sqrt();
+            Some((line / length, self.bending * (length - self.diameter), [a, b]))
+        })
+    }
+}
+
+/// Sums over the diagonals of a ring.
+#[derive(Default)]
+struct Bending {
+    /// N
+    largest: f64,
+    /// J
+    stored: f64,
+    /// W
+    power: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn node(x: f64, y: f64) -> Node {
+        Node {
+            position: Vec3::new(x, y, 0.0),
+            velocity: Vec3::zeros(),
+            pace: Vec3::zeros(),
+            mass: 1.0,
+            fixed: false,
+            radius: 0.0,
+            lines: Vec::new(),
+        }
+    }
+
+    fn ring(contacts: u32) -> NetRing {
+        NetRing {
+            nodes: (0..contacts).collect(),
+            taut_from: 0.9,
+            stiffness: 1000.0,
+            damping: 0.0,
+            bending: 10.0,
+            diameter: 0.3,
+            radius: 0.006,
+            touched: Vec::new(),
+            strength: RingStrength { in_chain: 38.0, in_net: 55.0, breaks: false, broken: false },
+        }
+    }
+
+    /// By hand: contacts 0.5 m apart in a chain, a way of 1 m: tension 1000 × 0.1 = 100 N in each leg, bending 10 × 0.2 = 2 N.
+    #[test]
+    fn a_chain_pulls_with_both_legs_and_its_bending() {
+        let nodes = [node(0.0, 0.0), node(0.5, 0.0)];
+        let mut forces = [Vec3::zeros(); 2];
+        let pull = ring(2).pull(&nodes, &mut forces, 1e-3);
+        assert_relative_eq!(forces[0].x, 202.0, max_relative = 1e-12);
+        assert_relative_eq!(forces[1].x, -202.0, max_relative = 1e-12);
+        assert_relative_eq!(pull.as_in_chain, 101.0, max_relative = 1e-12);
+        assert_relative_eq!(pull.stored, 0.5 * 1000.0 * 0.01 + 0.5 * 10.0 * 0.04, max_relative = 1e-12);
+    }
+
+    /// By hand: a square of diagonals 0.4 m has a way of 4 × 0.2828 = 1.1314 m, and pulls each contact inwards with √2 T and the bending of 1 N.
+    #[test]
+    fn a_ring_in_a_net_breaks_later_than_one_in_a_chain() {
+        let nodes = [node(0.2, 0.0), node(0.0, 0.2), node(-0.2, 0.0), node(0.0, -0.2)];
+        let mut forces = [Vec3::zeros(); 4];
+        let pull = ring(4).pull(&nodes, &mut forces, 1e-3);
+        let tension = 1000.0 * (0.8 * 2.0_f64.sqrt() - 0.9);
+        assert_relative_eq!(forces[0].x, -(2.0_f64.sqrt() * tension + 1.0), max_relative = 1e-12);
+        assert_relative_eq!(pull.as_in_chain, (tension + 0.5) * 38.0 / 55.0, max_relative = 1e-12);
+        assert_eq!(forces.iter().sum::<Vec3>().norm(), 0.0);
+    }
+
+    /// The force is the slope of the energy, at places without any symmetry.
+    #[test]
+    fn forces_are_slopes_of_the_energy() {
+        let mut nodes = [node(0.24, 0.02), node(0.03, 0.21), node(-0.2, -0.01), node(0.02, -0.22)];
+        let ring = ring(4);
+        let mut forces = [Vec3::zeros(); 4];
+        ring.pull(&nodes, &mut forces, 1e-3);
+        for contact in 0..4 {
+            for axis in 0..3 {
+                let mut energy = |by: f64| {
+                    nodes[contact].position[axis] += by;
+                    let stored = ring.pull(&nodes, &mut [Vec3::zeros(); 4], 1e-3).stored;
+                    nodes[contact].position[axis] -= by;
+                    stored
+                };
+                let slope = (energy(1e-6) - energy(-1e-6)) / 2e-6;
+                assert_relative_eq!(forces[contact][axis], -slope, epsilon = 1e-5);
+            }
+        }
+    }
+
+    /// A slack ring does nothing, a broken one neither, and one that breaks has lost what it had stored.
+    #[test]
+    fn a_ring_breaks_once() {
+        let mut ring = ring(2);
+        ring.strength.breaks = true;
+        let mut forces = [Vec3::zeros(); 2];
+        assert_eq!(ring.pull(&[node(0.0, 0.0), node(0.2, 0.0)], &mut forces, 1e-3).stored, 0.0);
+        let wide = [node(0.0, 0.0), node(0.5, 0.0)];
+        let pull = ring.pull(&wide, &mut forces, 1e-3);
+        assert!(pull.breaks && pull.lost > 0.0 && pull.stored == 0.0);
+        ring.strength.broken = true;
+        assert!(!ring.pull(&wide, &mut forces, 1e-3).breaks);
+        assert_eq!(forces, [Vec3::zeros(); 2]);
+    }
+
+    #[test]
+    fn springs_of_the_stable_step_are_no_softer_than_the_ring() {
+        let nodes = [node(0.2, 0.0), node(0.0, 0.2), node(-0.2, 0.0), node(0.0, -0.2)];
+        let ring = ring(4);
+        let springs: Vec<Taut> = ring.springs(&nodes).collect();
+        assert_eq!(springs.len(), 6);
+        // The tension of each side is that of the ring.
+        let tension = ring.pull(&nodes, &mut [Vec3::zeros(); 4], 1e-3).tension;
+        let length = 0.2 * 2.0_f64.sqrt();
+        for side in &springs[..4] {
+            assert_relative_eq!(side.stiffness * (length - side.slack), tension, max_relative = 1e-12);
+        }
+    }
+}

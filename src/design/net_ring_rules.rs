@@ -1,0 +1,100 @@
+//! Contradictions between values of a ring net; listed in [`super::rules`].
+
+use crate::design::entries::Entries;
+use crate::design::net_rings::{ring_key, tested_chain, wires};
+use crate::design::show::{NET, at};
+use crate::problem::Problem;
+use crate::units::Dimension;
+
+/// A net is of rings, or of ropes in square meshes.
+pub fn net_is_of_one_kind(e: &Entries) -> Option<Problem> {
+    if !e.has_section(NET) {
+        return None;
+    }
+    let given = |key: &str| e.mentions(&at(key));
+    let [rings, mesh, rope] = [given("net"), given("mesh_opening"), given("net_rope")];
+    let found = match (rings, mesh, rope) {
+        (true, false, false) | (false, true, true) => return None,
+        (true, ..) => "rings and a mesh of ropes",
+        (false, true, false) => "a mesh_opening without a net_rope",
+        (false, false, true) => "a net_rope without a mesh_opening",
+        (false, false, false) => "neither a mesh of ropes nor rings",
+    };
+    Some(
+        Problem::new(NET, found, "mesh_opening and net_rope, or net.rings")
+            .hint("mesh_opening and net_rope describe square meshes of rope; net: {rings: ...} a ring net"),
+    )
+}
+
+pub fn chain_test_has_its_two_points(e: &Entries) -> Option<Problem> {
+    let path = ring_key("chain_test");
+    let points = e.points(&path)?;
+    let allowed = "two points, [[elongation, force] where bending ends, [elongation, force] at the break]";
+    let hint = "the elongation is told over the length of the chain, as 57 %";
+    let problem = |found: String| Some(Problem::new(path.clone(), found, allowed).hint(hint));
+    let [[bent, knee], [broken, force]] = *points else { return problem(format!("{} points", points.len())) };
+    let show = |force: f64| Dimension::Force.show(force);
+    if broken <= bent {
+        return problem(format!("a break at {:.1} % after {:.1} %", 100.0 * broken, 100.0 * bent));
+    }
+    // Else it would be no stiffer when it is taut.
+    (force / broken <= knee / bent)
+        .then(|| problem(format!("{} at the break after {}, no steeper than it bends", show(force), show(knee))))
+        .flatten()
+}
+
+/// No chain holds more than all wires of both legs.
+pub fn chain_is_no_stronger_than_its_wires(e: &Entries) -> Option<Problem> {
+    let (wires, chain) = (wires(e)?, tested_chain(e)?);
+    let most = 2.0 * wires.breaking_load();
+    (chain[1][1] > most).then(|| {
+        let found = format!("a break at {}", Dimension::Force.show(chain[1][1]));
+        let allowed = format!("at most {}, the strength of all wires of both legs", Dimension::Force.show(most));
+        Problem::new(ring_key("chain_test"), found, allowed).hint("look at the units, at windings and at wire_diameter")
+    })
+}
+
+pub fn rings_are_thinner_than_they_are_wide(e: &Entries) -> Option<Problem> {
+    let (wires, diameter) = (wires(e)?, e.number(&ring_key("diameter"))?);
+    (wires.bundle() > 0.25 * diameter).then(|| {
+        let [bundle, ring] = [wires.bundle(), diameter].map(|length| Dimension::Length.show(length));
+        let found = format!("a bundle of about {bundle} in a ring of {ring}");
+        Problem::new(ring_key("windings"), found, "a bundle of wires no thicker than a quarter of the ring")
+            .hint("look at the units of wire_diameter and diameter")
+    })
+}
+
+/// What belongs to ropes between knots.
+pub fn ring_nets_have_no_sides(e: &Entries) -> Option<Problem> {
+    if !e.mentions(&at("net")) {
+        return None;
+    }
+    let slack = at("net_slack");
+    if e.number(&slack).is_some_and(|slack| slack > 0.0) {
+        let found = format!("`{}` with a ring net", e.typed(&slack));
+        return Some(Problem::new(slack, found, "0 % with rings, whose slack follows from their diameter"));
+    }
+    let pieces = at("net_pieces");
+    if e.mentions(&pieces) {
+        return Some(
+            Problem::new(
+                pieces,
+                "pieces of the sides of a mesh, in a ring net",
+                "nothing: a ring slides through its contacts",
+            )
+            .hint("leave it out"),
+        );
+    }
+    let strips = at("side_extension");
+    if e.has_section(&strips) {
+        return Some(
+            Problem::new(strips, "side extensions of a ring net", "nothing: they are known for meshes of rope alone")
+                .hint("leave them out; what passes beside the net is then on the high side"),
+        );
+    }
+    let model = "simulation.barrier_model";
+    (e.text(model) == Some("cylinders")).then(|| {
+        Problem::new(model, "cylinders with a ring net", "sliding_ropes or pinned_ropes")
+            .hint("a ring net is modelled of rings that slide, and its ropes of segments")
+    })
+}
