@@ -13,10 +13,11 @@
 //! and the strength f, and the shape of the curve of rings of 300 mm with 3 mm wires of 1770 MPa. Its four numbers are means of the tests
 //! with 7 and with 12 windings (Guo 2022, Zenodo 6482654; three rings each): η = 0.398 and 0.369; e₂ = 0.535 m and 0.509 m, 0.523 m and
 //! 0.491 m over 0.9 m in the two versions of that file; bending ends at 15 % of the force and 85 % of the elongation. Chains of 5, 9, 16 and
-//! 19 windings are predicted by it within 15 % (validation case D27).
+//! 19 windings are predicted by it within 15 % (validation case D28).
 //!
 //! The share η is that of a ring that every contact turns by 180°. A ring pulled by four others, each of which turns it by 90°, used 0.554
-//! of its wires with 7 windings (the same source; 0.551 and 0.559 with 5 and 9).
+//! of its wires with 7 windings (the same source; 0.551 and 0.559 with 5 and 9): by the same case because one of the others broke, so that
+//! it holds as much at the least.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 

@@ -81,6 +81,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     (
         "validation",
         &[
+            "ring_law",
             "dem",
             "demand",
             "design",
@@ -107,6 +108,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "guideline",
             "problem",
             "quantities",
+            "ring_law",
             "scene",
             "simulated",
             "starts",

@@ -2,11 +2,13 @@
 
 use nalgebra::UnitQuaternion;
 
+use crate::ring_law::{RingLaw, Wires, chain_of, mass};
 use crate::validation::scenes::{MODULUS, ball, closed_box, free_model, material, plane};
 use dem::Vec3;
 use dem::contact::law::contact_stiffness;
 use dem::elements::cylinder::Cylinder;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::net_ring::{NetRing, RingStrength};
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::elements::yield_curve::YieldCurve;
@@ -25,7 +27,7 @@ pub struct Scene {
     pub build: fn() -> Model,
 }
 
-pub const SCENES: [Scene; 16] = [
+pub const SCENES: [Scene; 19] = [
     Scene {
         name: "row of balls", what: "eight balls pressed together between walls, ε = 1", linear: true, build: row
     },
@@ -78,6 +80,24 @@ pub const SCENES: [Scene; 16] = [
         what: "a grain of 0.45 m pressed on a taut rope of 16 mm",
         linear: true,
         build: || grain_on_rope(0.0),
+    },
+    Scene {
+        name: "taut rings",
+        what: "16 rings of 300 mm with 12 windings of 3 mm in a frame, stretched by a hundredth",
+        linear: true,
+        build: || rings(1.01),
+    },
+    Scene {
+        name: "bent rings",
+        what: "the same, drawn from circles to where they are nearly taut",
+        linear: true,
+        build: || rings(0.99),
+    },
+    Scene {
+        name: "rings from slack to taut",
+        what: "the same, nearly taut, with contacts at 5 m/s",
+        linear: false,
+        build: swinging_rings,
     },
     Scene {
         name: "used-up dissipator",
@@ -215,6 +235,49 @@ fn taut(element: f64, stiffer: f64, ropes: usize, radius: f64) -> Barrier {
     }
     barrier.connect();
     barrier
+}
+
+/// Four by four rings whose contacts lie on a square lattice, those on the frame fixed; `stretch` is the way round each over the one from
+/// which it is taut.
+fn rings(stretch: f64) -> Model {
+    const ACROSS: i32 = 4;
+    let wires = Wires { windings: 12, diameter: 3e-3, strength: 1.77e9 };
+    let (diameter, mut barrier) = (0.3, Barrier { friction: 0.4, contact_modulus: ROPE_MODULUS, ..Barrier::default() });
+    let law = RingLaw::of(&chain_of(&wires), diameter);
+    let half = stretch * law.taut_from / (4.0 * std::f64::consts::SQRT_2);
+    let mut numbers = std::collections::BTreeMap::new();
+    for (x, y) in (0..ACROSS).flat_map(|column| (0..ACROSS).map(move |row| (2 * column + 1, 2 * row + 1))) {
+        let nodes = [(x + 1, y), (x, y + 1), (x - 1, y), (x, y - 1)].map(|place| {
+            *numbers.entry(place).or_insert_with(|| {
+                let fixed = [place.0, place.1].into_iter().any(|at| at == 0 || at == 2 * ACROSS);
+                let number = barrier.nodes.len();
+                let place = Vec3::new(f64::from(place.0), f64::from(place.1), 0.0) * half;
+                barrier.nodes.push(node(place, 0.5 * mass(&wires, diameter, STEEL), fixed, number));
+                number as u32
+            })
+        });
+        barrier.net_rings.push(NetRing {
+            nodes: nodes.to_vec(),
+            taut_from: law.taut_from,
+            stiffness: law.stiffness,
+            damping: 0.1 * (law.stiffness * mass(&wires, diameter, STEEL) / 32.0).sqrt(),
+            bending: law.bending,
+            diameter,
+            radius: 0.5 * wires.bundle(),
+            touched: Vec::new(),
+            strength: RingStrength { in_chain: f64::INFINITY, in_net: f64::INFINITY, breaks: false, broken: false },
+        });
+    }
+    barrier.connect();
+    with_barrier(barrier, far_ball())
+}
+
+fn swinging_rings() -> Model {
+    let mut model = rings(0.99);
+    for (number, node) in model.barrier.iter_mut().flat_map(|barrier| &mut barrier.nodes).enumerate() {
+        node.velocity = if node.fixed { Vec3::zeros() } else { nudge(number) * 5e3 };
+    }
+    model
 }
 
 /// A grain far away, which every model has one of.

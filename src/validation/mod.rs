@@ -78,6 +78,8 @@ pub const CASES: &[&Case] = &[
     &barrier::dissipators::STOPPING,
     &barrier::dissipators::CURVED,
     &barrier::punching::CASE,
+    &barrier::ring_chains::CASE,
+    &barrier::ring_panel::CASE,
     &barrier::pieces::CASE,
     &barrier::full_scale::BRAKED,
     &barrier::full_scale::UNBRAKED,

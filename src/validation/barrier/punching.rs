@@ -71,7 +71,7 @@ impl Panel {
         (halves, HALF / f64::from(halves))
     }
 
-    fn build(&self) -> Barrier {
+    pub(super) fn build(&self) -> Barrier {
         let (halves, spacing) = self.spacing();
         let mut barrier = Barrier { friction: 0.3, contact_modulus: MODULUS, ..Barrier::default() };
         let mut numbers = std::collections::BTreeMap::new();
