@@ -1,7 +1,7 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
 use crate::design::{
-    Arrival, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, RunUp,
+    Arrival, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, Level, RunUp,
 };
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
@@ -67,12 +67,15 @@ pub struct RopeLoad {
     pub strip: [f64; 2],
     /// From bank to bank (m).
     pub span: f64,
-    /// Load across the span (N/m).
+    /// Ropes that run side by side and share the load.
+    pub ropes: u16,
+    /// Load across the span, of all of them (N/m).
     pub load: f64,
     /// The point load that enters it, as a force at one place, with the partial factor (N).
     pub point: f64,
     /// The case that governs; nothing for a rope that the bed holds.
     pub case: Option<LoadCase>,
+    /// Of one rope.
     pub state: RopeState,
     /// What each anchor takes along the rope's span and down the channel (N).
     pub anchor: [f64; 2],
@@ -468,11 +471,10 @@ fn lean(design: &Design) -> f64 {
 /// Each rope under the case that loads its tributary height most. The lowest rope also takes what an open gap below it
 /// would let through; the topmost carries the weight of the net.
 fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stages: &[LoadCase]) -> Vec<RopeLoad> {
-    let rope = net.main_ropes.rope;
     let section = design.channel.section();
     let top = height_over_bed(design);
     let above_bed = |along: f64| top - (net.height - along) * libm::cos(lean(design));
-    let heights: Vec<f64> = net.main_ropes.heights.iter().map(|along| above_bed(*along)).collect();
+    let heights: Vec<f64> = net.main_ropes.levels.iter().map(|level| above_bed(level.height)).collect();
     let last = heights.len() - 1;
     let weight = design.loads.self_weight.map_or(0.0, |weight| weight * net.height);
     (0..heights.len())
@@ -483,6 +485,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             // The bed holds the lowest rope from bank to bank, or it hangs over its opening.
             let held = index == 0 && net.bottom == Bottom::Fixed;
             let [from, to] = if held { section.bed_ends() } else { section.banks(heights[index]) };
+            let Level { ropes, rope, .. } = net.main_ropes.levels[index];
             let span =
                 RopeInput { span: to - from, axial_stiffness: rope.axial_stiffness(), dissipator: dissipator(design) };
             let spread_of = |case: &LoadCase| match &section {
@@ -517,12 +520,22 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             let point = 0.5 * design.factors.load * spread * span.span;
             if held {
                 // It neither sags nor pulls at anchors: the bed takes its load where it is.
-                return RopeLoad { strip, span: span.span, load, point, ..RopeLoad::default() };
+                return RopeLoad { strip, ropes, span: span.span, load, point, ..RopeLoad::default() };
             }
-            let state = span.under(load);
-            let across = 0.5 * load * span.span;
+            let of_one = load / f64::from(ropes);
+            let state = span.under(of_one);
+            let across = 0.5 * of_one * span.span;
             let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
-            RopeLoad { strip, span: span.span, load, point, case: governing.cloned(), state, anchor: [along, across] }
+            RopeLoad {
+                strip,
+                ropes,
+                span: span.span,
+                load,
+                point,
+                case: governing.cloned(),
+                state,
+                anchor: [along, across],
+            }
         })
         .collect()
 }
@@ -707,5 +720,30 @@ mod tests {
         let (depth, velocity) = incoming(&design);
         assert_relative_eq!(depth, 0.4 / 9.0, max_relative = 1e-12);
         assert_relative_eq!(velocity, 13.753_996, max_relative = 1e-4);
+    }
+
+    /// Two ropes at a level bear half of its load each, and are one rope under half of it; levels of single ropes are heights.
+    #[test]
+    fn ropes_side_by_side_share_their_load() {
+        let text = include_str!("../designs/small_net.yaml");
+        let with = |top: &str| {
+            let levels = format!("levels: [{{height: 0 m}}, {{height: 0.9 m}}, {{height: 1.8 m{top}}}]");
+            let text = text.replace("count: 3 ", &format!("{levels} "));
+            read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design
+        };
+        let [counted, single, double] =
+            [read_design("x", text.as_bytes()).unwrap().design, with(""), with(", ropes: 2")];
+        assert_eq!(counted.barrier, single.barrier);
+        let [one, two] = [guideline(&single), guideline(&double)].map(|guideline| guideline.ropes[2].clone());
+        assert_relative_eq!(one.load, two.load, max_relative = 1e-12);
+        let BarrierDesign::FlexibleNet(net) = &single.barrier else { panic!("a net") };
+        let rope = RopeInput {
+            span: two.span,
+            axial_stiffness: net.main_ropes.levels[2].rope.axial_stiffness(),
+            dissipator: dissipator(&single),
+        };
+        assert_eq!(two.state, rope.under(0.5 * two.load));
+        assert!(two.state.sag < one.state.sag && two.state.stroke < one.state.stroke);
+        assert_relative_eq!(two.anchor[1], 0.5 * one.anchor[1], max_relative = 1e-12);
     }
 }

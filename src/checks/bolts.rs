@@ -32,9 +32,13 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     };
     let width = design.channel.section().bed_length();
     let spacing = width / bolts.spaces(width) as f64;
-    let axial = net.main_ropes.rope.axial_stiffness() * concentration(spacing / net.main_ropes.ring_spacing);
+    let lowest = &net.main_ropes.levels[0];
+    // The bolts hold all ropes of the level; between them each bears its share.
+    let ropes = f64::from(lowest.ropes);
+    let more = concentration(spacing / net.main_ropes.ring_spacing);
+    let axial = lowest.rope.axial_stiffness() * more;
     let lateral = demands.one(&other_ropes::LATERAL).simulation.unwrap_or(0.0);
-    let at_an_end = each(demands.one(&bed::BOLT), |load| end_bolt(load, axial));
+    let at_an_end = each(demands.one(&bed::BOLT), |load| end_bolt(load, ropes * axial));
     // The lateral ropes end at the ends of the lowest rope: in the worst case their pull has its direction.
     let with_lateral = |load: Option<f64>| load.map(|load| load + lateral);
     let at_an_end = Demand {
@@ -42,9 +46,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         characteristic: with_lateral(at_an_end.characteristic),
         ..at_an_end
     };
-    let between = each(demands.one(&bed::BOLT), |load| tension_between(load, axial));
+    let between = each(demands.one(&bed::BOLT), |load| tension_between(load / ropes, axial));
     let bolt = Resistance { characteristic, factor: design.factors.anchor };
-    let rope = resistance(design, &net.main_ropes.rope);
+    let rope = resistance(design, &lowest.rope);
     let rope_name =
         CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", Unit::Newton, ROPE_FACTOR);
     let outcomes = [
@@ -57,9 +61,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let mut outcome =
                 outcome.only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
             outcome.kind = kind;
-            outcome.growth = Growth::EndBolt { axial, lateral };
+            outcome.growth = Growth::EndBolt { axial: ropes * axial, lateral };
             if kind == Kind::BetweenBolts {
-                leave_open_what_is_not_known(design, &net.main_ropes.rope, &mut outcome);
+                leave_open_what_is_not_known(design, &lowest.rope, &mut outcome);
                 outcome.growth = Growth::BetweenBolts { axial };
             }
             if outcome.holds() && spacing > MOST_RINGS * net.main_ropes.ring_spacing {

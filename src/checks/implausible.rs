@@ -91,8 +91,9 @@ fn of_wall(wall: &RigidWall, width: f64) -> Vec<Usual> {
 /// Of anchors, bolts and dissipators in use; the resistance of the ground is seldom more.
 fn of_net(net: &FlexibleNet) -> Vec<Usual> {
     let of_net = net.rings.is_none().then_some(("net_rope", &net.net_rope));
-    let ropes = [("main_ropes", &net.main_ropes.rope), ("lateral_ropes", &net.lateral_rope)];
-    let mut all: Vec<Usual> = of_net.into_iter().chain(ropes).flat_map(|(name, rope)| of_rope(name, rope)).collect();
+    let main = net.main_ropes.kinds().into_iter().map(|(_, rope)| ("main_ropes", rope));
+    let ropes = of_net.into_iter().chain(main).chain([("lateral_ropes", &net.lateral_rope)]);
+    let mut all: Vec<Usual> = ropes.flat_map(|(name, rope)| of_rope(name, rope)).collect();
     all.extend(net.rings.iter().flat_map(of_rings));
     all.push(usual("barrier.flexible_net.anchors.resistance", net.anchor_resistance, "N", [0.0, 3e6]));
     let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);

@@ -67,7 +67,8 @@ fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
         Kind::NetRopes if net.rings.is_some() => return None,
         Kind::NetRopes => &net.net_rope,
         Kind::LateralRopes => &net.lateral_rope,
-        Kind::MainRope | Kind::BetweenBolts => &net.main_ropes.rope,
+        Kind::MainRope => &net.main_ropes.levels.get(outcome.rope?)?.rope,
+        Kind::BetweenBolts => &net.main_ropes.levels[0].rope,
         _ => return None,
     };
     outcome.demand.simulation.map(|tension| tension / rope.axial_stiffness()).filter(|strain| *strain > LARGEST_STRAIN)
@@ -77,7 +78,7 @@ fn strain_beyond(design: &Design, outcome: &Outcome) -> Option<f64> {
 pub fn rope_outside(design: &Design, guideline: &Guideline, rope: usize) -> Option<String> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let (state, span) = guideline.ropes.get(rope).map(|rope| (&rope.state, rope.span))?;
-    let line = net.main_ropes.rope;
+    let line = net.main_ropes.levels.get(rope)?.rope;
     let (sag, strain) = (state.sag / span, state.tension / line.axial_stiffness());
     let within = sag <= LARGEST_SAG && strain <= LARGEST_STRAIN;
     (!within).then(|| {
@@ -185,10 +186,11 @@ mod tests {
         use crate::demand::Demand;
         let mut design = design();
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
-        for rope in [&mut net.lateral_rope, &mut net.main_ropes.rope] {
+        let main = net.main_ropes.levels.iter_mut().map(|level| &mut level.rope);
+        for rope in main.chain([&mut net.lateral_rope]) {
             rope.breaking_load = 1e12;
         }
-        let (lateral, main) = (net.lateral_rope.axial_stiffness(), net.main_ropes.rope.axial_stiffness());
+        let (lateral, main) = (net.lateral_rope.axial_stiffness(), net.main_ropes.levels[1].rope.axial_stiffness());
         let guideline = guideline(&design);
         for (id, axial) in [("lateral_tension", lateral), ("rope_1_tension", main), ("rope_2_tension", main)] {
             let verdict = |strain: f64| {

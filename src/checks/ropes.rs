@@ -12,10 +12,11 @@ pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
     let tensions = demands.each(&rope_tension::PEAK).iter().enumerate().skip(net.ropes_held_by_bed());
     tensions
-        .map(|(index, demand)| {
+        .filter_map(|(index, demand)| {
             let name = CheckName::of(&rope_tension::PEAK, index, format!("rope_{}_tension", index + 1), ROPE_FACTOR);
-            let outcome = check(design, &net.main_ropes.rope, name, *demand).of_rope(index);
-            Outcome { kind: Kind::MainRope, ..outcome }
+            let rope = &net.main_ropes.levels.get(index)?.rope;
+            let outcome = check(design, rope, name, *demand).of_rope(index);
+            Some(Outcome { kind: Kind::MainRope, ..outcome })
         })
         .collect()
 }
@@ -131,7 +132,14 @@ pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
         Unit::Newton,
         ROPE_FACTOR,
     );
-    vec![check(design, &net.main_ropes.rope, name, own).whatever_the_pressures()]
+    // Each rope has dissipators of its own: the weakest of those that have some.
+    let free = net.main_ropes.levels.iter().skip(net.ropes_held_by_bed());
+    let holds = |rope: &Rope| {
+        let Resistance { characteristic, factor } = resistance(design, rope);
+        characteristic / factor
+    };
+    let weakest = free.map(|level| &level.rope).min_by(|a, b| holds(a).total_cmp(&holds(b)));
+    weakest.map(|rope| check(design, rope, name, own).whatever_the_pressures()).into_iter().collect()
 }
 
 #[cfg(test)]
@@ -153,11 +161,11 @@ mod tests {
         let verdict = |limit: Option<f64>, given: bool, tension: f64| {
             let mut design = design.clone();
             design.factors.rope_end_given = given;
-            let rope = Rope { elastic_limit: limit, ..net.main_ropes.rope };
+            let rope = Rope { elastic_limit: limit, ..net.main_ropes.levels[1].rope };
             let demand = Demand { guideline: Some(tension), ..Demand::default() };
             check(&design, &rope, CheckName::new("x", "x", Unit::Newton, "x"), demand).verdict
         };
-        let holds = design_resistance(&design, &net.main_ropes.rope) * design.limits.rope_utilisation;
+        let holds = design_resistance(&design, &net.main_ropes.levels[1].rope) * design.limits.rope_utilisation;
         let limit = 0.36 * holds;
         assert_eq!(verdict(None, true, 0.85 * holds), CheckVerdict::Pass);
         assert_eq!(verdict(None, false, 0.85 * holds), CheckVerdict::Open);
@@ -199,7 +207,7 @@ mod tests {
         let verdict = |design: &Design| check_plateau(design, &Demands::default())[0].verdict;
         assert_eq!(verdict(&design), CheckVerdict::Pass);
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
-        let breaking_load = net.main_ropes.rope.breaking_load;
+        let breaking_load = net.main_ropes.levels[2].rope.breaking_load;
         net.dissipators.as_mut().expect("dissipators").plateau = 0.9 * breaking_load;
         assert_eq!(verdict(&design), CheckVerdict::Fail);
     }

@@ -2,13 +2,13 @@
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome};
 use crate::demand::Demands;
-use crate::design::{BarrierDesign, Design, FlexibleNet, Rope};
+use crate::design::{BarrierDesign, Design, Rope};
 use crate::quantities::wear;
 use crate::sources::{NO_LIMIT, NOTHING_BREAKS};
 
 fn any_rope(design: &Design, allows: impl Fn(&Rope) -> bool) -> bool {
-    let ropes = |net: &FlexibleNet| [net.net_rope, net.main_ropes.rope, net.lateral_rope];
-    matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if ropes(net).iter().any(allows))
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return false };
+    net.ropes().any(allows)
 }
 
 /// Nothing may break. There is no utilisation to tell: how far from breaking a rope is, its tension tells.
@@ -89,7 +89,7 @@ mod tests {
         for part in 0..3 {
             let mut design = design(false, None);
             let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
-            [&mut net.net_rope, &mut net.main_ropes.rope, &mut net.lateral_rope][part].breaks = true;
+            [&mut net.net_rope, &mut net.main_ropes.levels[1].rope, &mut net.lateral_rope][part].breaks = true;
             assert_eq!(check_broken(&design, &demands(Some(2.0), None))[0].verdict, CheckVerdict::Fail);
         }
     }

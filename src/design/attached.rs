@@ -1,4 +1,4 @@
-//! Files that a design names beside itself: a surveyed section, a terrain raster, a hydrograph, the curve of a dissipator.
+//! Files that a design names beside itself: a surveyed section, a terrain raster, a hydrograph, the curve of a dissipator, a table of ropes.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,10 @@ use crate::design::dissipator_entries::{CURVES, curve_key};
 use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::hydrograph_entries::{LISTS, key};
 use crate::design::hydrograph_file::{self, Column};
+use crate::design::rope_entries::put_named;
+use crate::design::rope_table::{self, Listed};
 use crate::design::section_file;
+use crate::design::show::at;
 use crate::design::terrain_file::{Asked, terrain};
 use crate::problem::Problem;
 
@@ -28,6 +31,8 @@ const SECTION: [&str; 2] = ["channel.section.file", "channel.section.points"];
 /// Reads the files that the entries name, and puts what they hold in their place.
 pub fn read_attached(entries: &mut Entries, open: Open, problems: &mut Vec<Problem>) -> Attached {
     let mut attached = Attached::new();
+    let ropes = read_ropes(entries, open, problems, &mut attached);
+    put_named(entries, &ropes, problems);
     for read in [read_section, read_terrain, read_hydrograph, read_curve] {
         if let Some(read) = read(entries, open) {
             match read {
@@ -141,6 +146,28 @@ fn read_curve(entries: &mut Entries, open: Open) -> Read {
         put(entries, &file, &curve_key(list), Value::Points(points), typed);
         Ok((name, bytes))
     }))
+}
+
+/// The ropes that may be named: those of the design's own table before those of the program.
+fn read_ropes(entries: &Entries, open: Open, problems: &mut Vec<Problem>, attached: &mut Attached) -> Vec<Listed> {
+    let key = at("rope_table");
+    let wanted = "a table of ropes beside the design file";
+    let mut ropes = Vec::new();
+    match opened(entries, &key, open, wanted) {
+        None => {}
+        Some(Err(problem)) => problems.push(problem),
+        Some(Ok((name, bytes))) => {
+            match rope_table::parse(&bytes) {
+                Ok(listed) => ropes = listed,
+                Err((found, hint)) => {
+                    problems.push(Problem::new(&key, format!("`{name}`, {found}"), wanted).hint(hint));
+                }
+            }
+            attached.insert(name, bytes);
+        }
+    }
+    ropes.extend(rope_table::built_in());
+    ropes
 }
 
 /// Puts a value in that comes from the file of a key.

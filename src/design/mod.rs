@@ -25,7 +25,9 @@ pub(crate) mod net_rules;
 pub mod read;
 pub(crate) mod resolve;
 pub(crate) mod rope;
+pub(crate) mod rope_entries;
 pub(crate) mod rope_rules;
+pub(crate) mod rope_table;
 pub(crate) mod rules;
 pub(crate) mod schema;
 pub(crate) mod section_file;
@@ -248,6 +250,11 @@ impl FlexibleNet {
         WIDEST_GAP.min(GAP_OF_MESH * self.mesh_opening)
     }
 
+    /// All kinds of rope of the net.
+    pub fn ropes(&self) -> impl Iterator<Item = &Rope> {
+        [&self.net_rope, &self.lateral_rope].into_iter().chain(self.main_ropes.levels.iter().map(|level| &level.rope))
+    }
+
     /// Diameter of the largest stone that passes the net by itself (m): the mesh, or a whole ring.
     pub fn opening(&self) -> f64 {
         self.rings.map_or(self.mesh_opening, |rings| rings.diameter)
@@ -262,9 +269,8 @@ impl FlexibleNet {
 /// The horizontal ropes that carry the net.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MainRopes {
-    /// Heights along the barrier, from the bottom (m).
-    pub heights: Vec<f64>,
-    pub rope: Rope,
+    /// From the bottom.
+    pub levels: Vec<Level>,
     /// Spacing of the rings along the rope (m).
     pub ring_spacing: f64,
     /// Friction between ring and rope.
@@ -276,6 +282,39 @@ pub struct MainRopes {
     pub element_length: f64,
 }
 
+/// Equal ropes that run side by side at one height, each with dissipators and anchors of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Along the barrier (m).
+    pub height: f64,
+    pub ropes: u16,
+    pub rope: Rope,
+}
+
+impl MainRopes {
+    /// Heights along the barrier, from the bottom (m).
+    pub fn heights(&self) -> Vec<f64> {
+        self.levels.iter().map(|level| level.height).collect()
+    }
+
+    /// The kinds of rope, each with the levels that it is of, from the bottom.
+    pub fn kinds(&self) -> Vec<(Vec<usize>, &Rope)> {
+        let mut kinds: Vec<(Vec<usize>, &Rope)> = Vec::new();
+        for (number, level) in self.levels.iter().enumerate() {
+            match kinds.iter_mut().find(|(_, rope)| **rope == level.rope) {
+                Some((levels, _)) => levels.push(number),
+                None => kinds.push((vec![number], &level.rope)),
+            }
+        }
+        kinds
+    }
+
+    /// Ropes of each level.
+    pub fn bundles(&self) -> Vec<u16> {
+        self.levels.iter().map(|level| level.ropes).collect()
+    }
+}
+
 /// Where the ropes along the sides of the net end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LateralTo {
@@ -285,7 +324,7 @@ pub enum LateralTo {
     Anchors,
 }
 
-/// Energy dissipators, one at each end of every main rope.
+/// Energy dissipators, one at each end of every main rope, also of those that run side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DissipatorDesign {
     /// Plateau force (N), or the largest of the curve.

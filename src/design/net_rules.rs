@@ -3,6 +3,7 @@
 use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
 use crate::design::net_rings::ring_key;
+use crate::design::rope_entries::{LEVELS, levels};
 use crate::design::show::{at, length};
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -73,34 +74,44 @@ pub fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
 
 pub fn main_ropes_counted_once(e: &Entries) -> Option<Problem> {
     let path = at("main_ropes");
-    let (count, heights) = (at("main_ropes.count"), at("main_ropes.heights"));
-    let found = match (e.mentions(&count), e.mentions(&heights)) {
-        (true, true) => "both count and heights",
-        (false, false) if e.has_section(&path) => "neither count nor heights",
-        _ => return None,
+    let ways = ["count", "heights", "levels"];
+    let given: Vec<&str> = ways.into_iter().filter(|key| e.mentions(&at(&format!("main_ropes.{key}")))).collect();
+    let found = match given[..] {
+        [] if e.has_section(&path) => "none of count, heights and levels".to_string(),
+        [] | [_] => return None,
+        _ => given.join(" and "),
     };
-    Some(Problem::new(path, found, "either count or heights"))
+    Some(Problem::new(path, found, "one of count, heights and levels"))
 }
 
 /// Heights of the main ropes along the barrier, whichever way they were given.
 pub fn rope_heights(e: &Entries) -> Option<Vec<f64>> {
-    if let Some(heights) = e.numbers(&at("main_ropes.heights")) {
-        return Some(heights.to_vec());
+    if let Some(heights) = listed_heights(e) {
+        return Some(heights.1);
     }
     let (count, height) = (e.number(&at("main_ropes.count"))? as usize, e.number(&at("height"))?);
     Some((0..count).map(|rope| height * rope as f64 / (count - 1) as f64).collect())
 }
 
-pub fn rope_heights_increase(e: &Entries) -> Option<Problem> {
+/// Heights that are typed, and where.
+fn listed_heights(e: &Entries) -> Option<(String, Vec<f64>)> {
     let path = at("main_ropes.heights");
-    let heights = e.numbers(&path)?;
+    if let Some(heights) = e.numbers(&path) {
+        return Some((path, heights.to_vec()));
+    }
+    let levels = levels(e);
+    let heights: Option<Vec<f64>> = levels.iter().map(|level| e.number(&at(&format!("{level}.height")))).collect();
+    heights.filter(|heights| !heights.is_empty()).map(|heights| (at(LEVELS), heights))
+}
+
+pub fn rope_heights_increase(e: &Entries) -> Option<Problem> {
+    let (path, heights) = listed_heights(e)?;
     let pair = heights.windows(2).find(|pair| pair[1] <= pair[0])?;
     Some(Problem::new(path, format!("{} after {}", length(pair[1]), length(pair[0])), "heights that increase"))
 }
 
 pub fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
-    let path = at("main_ropes.heights");
-    let (heights, height) = (e.numbers(&path)?, e.number(&at("height"))?);
+    let ((path, heights), height) = (listed_heights(e)?, e.number(&at("height"))?);
     let (first, last) = (heights[0], heights[heights.len() - 1]);
     (heights.len() < 2 || first != 0.0 || (last - height).abs() > 1e-6 * height).then(|| {
         let found = format!("{} rope(s) from {} to {}", heights.len(), length(first), length(last));
@@ -155,7 +166,7 @@ fn has_cylinders(e: &Entries) -> bool {
 
 pub fn cylinders_are_bearable(e: &Entries) -> Option<Problem> {
     let ropes =
-        e.numbers(&at("main_ropes.heights")).map_or(e.number(&at("main_ropes.count")), |h| Some(h.len() as f64))?;
+        listed_heights(e).map_or(e.number(&at("main_ropes.count")), |(_, heights)| Some(heights.len() as f64))?;
     let (piece, width) = (e.number(&at("main_ropes.element_length"))?, section(e)?.breadth());
     let count = ropes * width / piece;
     (has_cylinders(e) && count > MOST_CYLINDERS).then(|| {
@@ -193,7 +204,11 @@ pub fn lateral_rope_draws_out_or_breaks(e: &Entries) -> Option<Problem> {
 /// A rope that draws out at constant tension never reaches its breaking load.
 fn draws_out_or_breaks(e: &Entries, part: &str) -> Option<Problem> {
     let path = at(&format!("{part}.elastic_limit"));
-    let (elastic, breaking) = (e.number(&path)?, e.number(&at(&format!("{part}.breaking_load")))?);
+    let elastic = e.number(&path)?;
+    // Ropes of single levels draw out at the same limit.
+    let of = |part: &str| e.number(&at(&format!("{part}.breaking_load")));
+    let own = if part == "main_ropes" { levels(e) } else { Vec::new() };
+    let breaking = own.iter().map(String::as_str).chain([part]).filter_map(of).reduce(f64::min)?;
     if elastic >= breaking {
         let found =
             format!("{} with a breaking load of {}", Dimension::Force.show(elastic), Dimension::Force.show(breaking));

@@ -12,13 +12,14 @@ use crate::design::flow_entries::{
 use crate::design::hydrograph_entries::{HYDROGRAPH, as_of_a_surge, hydrograph};
 use crate::design::net_rings::net_rings;
 use crate::design::net_rules::rope_heights;
+use crate::design::rope_entries::{levels_at, rope};
 use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
 use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, Factors, FidelityWish,
     FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, OwnSizes, PoreFluid,
-    Project, RigidWall, Rope, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    Project, RigidWall, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -248,21 +249,20 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
         },
         net_rope: match &rings {
             Some(rings) => rings.as_rope(),
-            None => rope(e, "net_rope")?,
+            None => rope(e, &["net_rope"])?,
         },
         rings,
         net_slack: value("net_slack")?,
         net_pieces: value("net_pieces").map(|pieces| pieces as u32),
         main_ropes: MainRopes {
-            heights: rope_heights(e)?,
-            rope: rope(e, "main_ropes")?,
+            levels: levels_at(e, &rope_heights(e)?)?,
             ring_spacing: value("main_ropes.rings.spacing")?,
             ring_friction: libm::tan(value("main_ropes.rings.friction")?),
             ring_diameter: value("main_ropes.rings.diameter")?,
             ring_modulus: value("main_ropes.rings.modulus")?,
             element_length: value("main_ropes.element_length")?,
         },
-        lateral_rope: rope(e, "lateral_ropes")?,
+        lateral_rope: rope(e, &["lateral_ropes"])?,
         lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::RopeEnds },
         dissipators: match dissipators {
             Some(dissipators) => Some(dissipators?),
@@ -287,18 +287,6 @@ fn bed_bolts(e: &Entries) -> Option<BedBolts> {
     let number = bolts.spaces(section(e)?.bed_length()) + 1;
     let share = value("bed_resistance").map(|of_all| of_all / number as f64);
     Some(BedBolts { resistance: bolts.resistance.or(share), ..bolts })
-}
-
-fn rope(e: &Entries, part: &str) -> Option<Rope> {
-    let value = |key: &str| e.number(&format!("barrier.flexible_net.{part}.{key}"));
-    let beyond = e.text(&format!("barrier.flexible_net.{part}.at_breaking_load"))?;
-    Some(Rope {
-        diameter: value("diameter")?,
-        modulus: value("modulus")?,
-        breaking_load: value("breaking_load")?,
-        elastic_limit: value("elastic_limit"),
-        breaks: beyond == "breaks",
-    })
 }
 
 fn limits(e: &Entries) -> Option<Limits> {

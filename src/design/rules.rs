@@ -5,13 +5,12 @@ use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile
 use crate::design::entries::Entries;
 use crate::design::flow_entries::{MOST_CUT, coarsened, flow_volume, grain_count, size_curve, solid_share};
 use crate::design::hydrograph_entries::HYDROGRAPH;
-use crate::design::rope_rules::{lateral_rope_is_one, main_rope_is_one, net_rope_is_one};
 use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
 use crate::design::{
-    boulder_rules, channel_rules, dissipator_rules, hydrograph_rules, net_ring_rules, net_rules, size_rules,
-    surge_rules, wall_rules,
+    boulder_rules, channel_rules, dissipator_rules, hydrograph_rules, net_ring_rules, net_rules, rope_rules,
+    size_rules, surge_rules, wall_rules,
 };
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -107,9 +106,12 @@ pub const RULES: &[Rule] = &[
     net_rules::net_rope_draws_out_or_breaks,
     net_rules::main_rope_draws_out_or_breaks,
     net_rules::lateral_rope_draws_out_or_breaks,
-    net_rope_is_one,
-    main_rope_is_one,
-    lateral_rope_is_one,
+    rope_rules::net_rope_is_described,
+    rope_rules::main_ropes_are_described,
+    rope_rules::lateral_ropes_are_described,
+    rope_rules::a_level_tells_its_rope,
+    rope_rules::ropes_side_by_side_are_modelled,
+    rope_rules::every_rope_is_one,
 ];
 
 /// Rules that only a simulation needs.

@@ -497,6 +497,11 @@ const FLEXIBLE_NET: &[Key] = &[
         "how much longer the net's ropes are than the straight sides of the mesh; not for barrier_model cylinders",
     ),
     Key::optional(
+        "rope_table",
+        Kind::File,
+        "a table of ropes beside the design file: name, diameter, breaking_load and modulus, under a head that names their units",
+    ),
+    Key::optional(
         "net_pieces",
         Kind::Count { low: 1, high: 16 },
         "straight pieces of which the simulation makes each side of a mesh; by default 1, and with fidelity: fine as many as the grains need",
@@ -542,7 +547,18 @@ const SIDE_EXTENSION: &[Key] = &[
     ),
 ];
 
-const BREAKING_LOAD: Key = Key::required("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load");
+const NAMED: Key = Key::optional(
+    "rope",
+    Kind::Text,
+    "name of the rope in the table of the program or in rope_table, which gives its diameter, modulus and breaking load where they are not typed",
+);
+const DIAMETER: Key = Key::optional("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter");
+const MODULUS: Key = Key::optional(
+    "modulus",
+    quantity(D::Pressure, 1e7, 4e11),
+    "modulus with the full circle of the diameter: EA = E pi d2/4",
+);
+const BREAKING_LOAD: Key = Key::optional("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load");
 const ELASTIC_LIMIT: Key = Key::optional(
     "elastic_limit",
     quantity(D::Force, 1.0, 1e9),
@@ -555,27 +571,27 @@ const AT_BREAKING_LOAD: Key = Key::default(
     "what the simulated rope does beyond its breaking load: holds on, so that the load to be borne is seen, or breaks",
 );
 
-const ROPE: &[Key] = &[
-    Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
-    Key::required(
-        "modulus",
-        quantity(D::Pressure, 1e7, 4e11),
-        "modulus with the full circle of the diameter: EA = E pi d2/4",
-    ),
-    BREAKING_LOAD,
-    ELASTIC_LIMIT,
-    AT_BREAKING_LOAD,
-];
+const ROPE: &[Key] = &[NAMED, DIAMETER, MODULUS, BREAKING_LOAD, ELASTIC_LIMIT, AT_BREAKING_LOAD];
 
 const MAIN_ROPES: &[Key] = &[
-    Key::optional("count", Kind::Count { low: 2, high: 30 }, "number of ropes, evenly spaced; give this or heights"),
+    Key::optional(
+        "count",
+        Kind::Count { low: 2, high: 30 },
+        "number of ropes, evenly spaced; give this, heights or levels",
+    ),
     Key::optional(
         "heights",
         Kind::Quantities { dimension: D::Length, low: 0.0, high: 30.0 },
         "heights along the barrier from its foot; the first is 0 and the last its height",
     ),
-    Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
-    Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
+    Key::optional(
+        "levels",
+        Kind::Sections(LEVEL),
+        "the same with the ropes that run side by side at each height, and their own kind where it is another",
+    ),
+    NAMED,
+    DIAMETER,
+    MODULUS,
     BREAKING_LOAD,
     ELASTIC_LIMIT,
     AT_BREAKING_LOAD,
@@ -605,9 +621,24 @@ const RINGS: &[Key] = &[
     ),
 ];
 
+const LEVEL: &[Key] = &[
+    Key::required("height", quantity(D::Length, 0.0, 30.0), "height along the barrier from its foot"),
+    Key::default(
+        "ropes",
+        Kind::Count { low: 1, high: 6 },
+        "1",
+        "equal ropes that run side by side and share the load, each with dissipators and anchors of its own",
+    ),
+    NAMED,
+    DIAMETER,
+    MODULUS,
+    BREAKING_LOAD,
+];
+
 const LATERAL_ROPES: &[Key] = &[
-    Key::required("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter"),
-    Key::required("modulus", quantity(D::Pressure, 1e7, 4e11), "modulus with the full circle of the diameter"),
+    NAMED,
+    DIAMETER,
+    MODULUS,
     BREAKING_LOAD,
     ELASTIC_LIMIT,
     AT_BREAKING_LOAD,

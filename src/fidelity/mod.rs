@@ -2,7 +2,7 @@
 
 pub(crate) mod ladder;
 
-use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, NetRings, Rope};
+use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleNet, Level, NetRings, Rope};
 use crate::ring_law;
 use crate::scene::flow::release::bodies;
 use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
@@ -116,19 +116,24 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
         Some(rings) => contact_of_rings(rings),
         None => knot(&net.net_rope, net.mesh_opening / f64::from(pieces), meeting, 4.0),
     };
-    let (rope_mass, rope_stiffness) = knot(&net.main_ropes.rope, diagonal, 2.0, 4.0);
     let radius = 0.42 * design.flow.sizes.quantile(0.5);
     let grain = design.flow.modulus * radius;
     let rope = net.net_rope.modulus * 0.5 * net.net_rope.diameter;
     let contact = contact_stiffness(grain, rope);
     if design.simulation.barrier_model == BarrierModel::Cylinders {
         // What holds the barrier together has steps of its own; a grain presses on a piece of the rope.
-        let (piece, _) = knot(&net.main_ropes.rope, net.main_ropes.element_length, 2.0, 4.0);
-        return critical_step_of_pair(contact, net_mass.min(piece), ROPE_DAMPING_RATIO);
+        let piece = |level: &Level| knot(&level.rope, net.main_ropes.element_length, 2.0, 4.0).0;
+        let lightest = net.main_ropes.levels.iter().map(piece).fold(net_mass, f64::min);
+        return critical_step_of_pair(contact, lightest, ROPE_DAMPING_RATIO);
     }
     let on_net = net_mass / (net_stiffness + contact);
-    let on_rope = (rope_mass + net_mass) / (rope_stiffness + net_stiffness + contact);
-    critical_step_of_pair(1.0, on_net.min(on_rope), ROPE_DAMPING_RATIO)
+    let on_rope = |level: &Level| {
+        let (mass, stiffness) = knot(&level.rope, diagonal, 2.0, 4.0);
+        let ropes = f64::from(level.ropes);
+        (ropes * mass + net_mass) / (ropes * stiffness + net_stiffness + contact)
+    };
+    let least = net.main_ropes.levels.iter().map(on_rope).fold(on_net, f64::min);
+    critical_step_of_pair(1.0, least, ROPE_DAMPING_RATIO)
 }
 
 /// Mass of a contact of two rings (kg), and their stiffness there (N/m) when neighbours breathe against each other: with all contacts of a

@@ -90,7 +90,7 @@ impl Observed {
     /// been forged.
     pub fn fits(&self, design: &Design) -> bool {
         let (ropes, segments) = match &design.barrier {
-            BarrierDesign::FlexibleNet(net) => (net.main_ropes.heights.len(), 0),
+            BarrierDesign::FlexibleNet(net) => (net.main_ropes.levels.len(), 0),
             BarrierDesign::RigidWall(wall) => (0, wall.segment_tops.len()),
         };
         let whole = |quantity: &&Quantity| match (quantity.of, self.each(quantity).len()) {

@@ -202,16 +202,16 @@ pub fn ropes(run: &Run) -> Vec<RopeRow> {
                 with_unit(rope.anchor[0], "N"),
                 with_unit(rope.anchor[1], "N")
             ),
-            working: rope_working(run, rope, case),
+            working: rope_working(run, index, rope, case),
         })
     };
     run.guideline.ropes.iter().enumerate().filter_map(row).collect()
 }
 
-/// EA of the main ropes (N); 0 for a wall.
-fn axial_stiffness(run: &Run) -> f64 {
+/// EA of one of the ropes of a level (N); 0 for a wall.
+fn axial_stiffness(run: &Run, level: usize) -> f64 {
     match &run.file.design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.main_ropes.rope.axial_stiffness(),
+        BarrierDesign::FlexibleNet(net) => net.main_ropes.levels[level].rope.axial_stiffness(),
         BarrierDesign::RigidWall(_) => 0.0,
     }
 }
@@ -225,7 +225,9 @@ pub fn bolted_rope(run: &Run) -> String {
     let spaces = net.bed_bolts.map_or(1, |bolts| bolts.spaces(bed));
     let spacing = bed / spaces as f64;
     let more = concentration(spacing / net.main_ropes.ring_spacing);
-    let axial = net.main_ropes.rope.axial_stiffness() * more;
+    let lowest = &net.main_ropes.levels[0];
+    let ropes = f64::from(lowest.ropes);
+    let axial = ropes * lowest.rope.axial_stiffness() * more;
     let along = libm::cbrt(load * load * axial / 24.0);
     let simulated = run
         .simulated
@@ -246,7 +248,7 @@ pub fn bolted_rope(run: &Run) -> String {
 }
 
 /// Load and tension with their numbers, in kN and m.
-fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
+fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> String {
     let design = &run.file.design;
     let diagram = &case.diagram;
     let (low, high) = (rope.strip[0], rope.strip[1].min(diagram.top));
@@ -270,20 +272,25 @@ fn rope_working(run: &Run, rope: &RopeLoad, case: &LoadCase) -> String {
         ),
     };
     let span = rope.span;
-    let horizontal = rope.load * span * span / (8.0 * rope.state.sag) / 1e3;
-    let half = 0.5 * rope.load * span / 1e3;
+    let of_one = rope.load / f64::from(rope.ropes);
+    let horizontal = of_one * span * span / (8.0 * rope.state.sag) / 1e3;
+    let half = 0.5 * of_one * span / 1e3;
+    let shared = match rope.ropes {
+        1 => String::new(),
+        ropes => format!(", shared by {ropes} ropes: {:.2} kN/m on each", of_one / 1e3),
+    };
     let tension = libm::hypot(horizontal, half);
     let lean = run.guideline.lean.abs().to_degrees();
     let load = format!(
-        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3})/cos {lean:.1}°{more} = {:.2} kN/m",
+        "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3})/cos {lean:.1}°{more} = {:.2} kN/m{shared}",
         diagram.unit / 1e3,
         depth(low),
         depth(high),
         diagram.block / 1e3,
         rope.load / 1e3,
     );
-    let (q, sag) = (rope.load / 1e3, rope.state.sag);
-    let line = RopeInput { span, axial_stiffness: axial_stiffness(run), dissipator: None };
+    let (q, sag) = (of_one / 1e3, rope.state.sag);
+    let line = RopeInput { span, axial_stiffness: axial_stiffness(run, number), dissipator: None };
     let arc = line.arc(sag);
     let dissipator = run.guideline.dissipator.as_ref();
     let from = match dissipator.filter(|dissipator| !dissipator.curve.is_plateau()) {

@@ -76,6 +76,16 @@ pub fn figures(value: f64) -> String {
     }
 }
 
+/// Main ropes by their numbers from the bottom, given from 0: "main rope 2", "main ropes 1 and 3".
+pub fn rope_numbers(levels: &[usize]) -> String {
+    let numbers: Vec<String> = levels.iter().map(|level| (level + 1).to_string()).collect();
+    match numbers.split_last() {
+        Some((last, [])) => format!("main rope {last}"),
+        Some((last, others)) => format!("main ropes {} and {last}", others.join(", ")),
+        None => "no main rope".into(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

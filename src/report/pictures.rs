@@ -8,7 +8,7 @@ use crate::pipeline::Run;
 use crate::quantities::{mass, total_force, wall};
 use crate::report::chart::{Chart, file_name, labelled};
 use crate::report::dissipators;
-use crate::report::numbers::with_unit;
+use crate::report::numbers::{rope_numbers, with_unit};
 use crate::report::plots::elevation::elevation;
 use crate::report::plots::line_chart::{Level, LineChart, Series, TIME, resampled, rope_series};
 use crate::report::plots::profile::profile;
@@ -293,7 +293,7 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
     let snapshot = seen.histories.snapshots.iter().find(|snapshot| snapshot.moment == Moment::LargestForce)?;
     let resistance = |kind: SegmentKind| {
         let holds = match kind {
-            SegmentKind::Main(_) => ropes::resistance(design, &net.main_ropes.rope),
+            SegmentKind::Main(rope) => ropes::resistance(design, &net.main_ropes.levels[usize::from(rope)].rope),
             SegmentKind::Lateral => ropes::resistance(design, &net.lateral_rope),
             SegmentKind::Net | SegmentKind::Ring => ropes::resistance_of_net(design, net),
         };
@@ -438,12 +438,15 @@ fn mass_chart(run: &Run, seen: &Simulated) -> Chart {
 
 fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
     let design = &run.file.design;
-    let resistance = match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => {
-            Some(net.main_ropes.rope.breaking_load * design.factors.rope_end / design.factors.rope)
-        }
-        BarrierDesign::RigidWall(_) => None,
+    let kinds = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => net.main_ropes.kinds(),
+        BarrierDesign::RigidWall(_) => Vec::new(),
     };
+    let resistance = kinds.iter().map(|(levels, rope)| {
+        let of = if kinds.len() > 1 { format!(" of {}", rope_numbers(levels)) } else { String::new() };
+        let value = rope.breaking_load * design.factors.rope_end / design.factors.rope;
+        Level { label: format!("design resistance{of}"), value }
+    });
     let chart = LineChart {
         title: "largest tension",
         unit: "kN",
@@ -451,7 +454,7 @@ fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
         along: TIME,
         time: &seen.histories.time,
         series: rope_series(seen.histories.barrier.rows(&of_ropes::LARGEST)),
-        levels: resistance.map(|value| Level { label: "design resistance".into(), value }).into_iter().collect(),
+        levels: resistance.collect(),
         band: None,
     };
     let note = "Largest along each rope and its dissipators, without partial factors; ropes are numbered from the bottom. Their means are in histories.csv.";

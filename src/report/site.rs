@@ -129,8 +129,8 @@ impl Drawing<'_> {
 /// Heights of the main ropes over the bed, normal to it, from the bottom (m).
 fn rope_heights(design: &Design, guideline: &Guideline) -> Vec<f64> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
-    let above = |along: &f64| along * libm::cos(guideline.lean) + net.bottom.gap();
-    net.main_ropes.heights.iter().map(above).collect()
+    let above = |along: f64| along * libm::cos(guideline.lean) + net.bottom.gap();
+    net.main_ropes.heights().into_iter().map(above).collect()
 }
 
 fn across(run: &Run) -> Chart {

@@ -229,8 +229,7 @@ fn curved(design: &Design) -> bool {
 
 /// Whether any of the ropes breaks in the simulation.
 fn any_breaks(design: &Design) -> bool {
-    matches!(&design.barrier, BarrierDesign::FlexibleNet(net)
-        if [net.net_rope, net.main_ropes.rope, net.lateral_rope].iter().any(|rope| rope.breaks))
+    matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.ropes().any(|rope| rope.breaks))
 }
 
 /// What the model of the barrier assumes of its ropes.

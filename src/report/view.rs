@@ -16,7 +16,7 @@ use crate::program::PROGRAM;
 use crate::report::chart::{self, Chart};
 use crate::report::holding;
 use crate::report::loads::{self, CaseRow, ModelRow, RopeRow, RuleRow, SwingRow};
-use crate::report::numbers::{figures, with_scatter, with_unit};
+use crate::report::numbers::{figures, rope_numbers, with_scatter, with_unit};
 use crate::report::pictures::{self, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
 use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
@@ -528,10 +528,13 @@ fn derived_rows(run: &Run) -> Vec<Row> {
     if let BarrierDesign::FlexibleNet(net) = &design.barrier {
         let axial = Rope::axial_stiffness;
         let of_net = net.rings.is_none().then_some(("net", &net.net_rope));
-        let ropes = [("main", &net.main_ropes.rope)].into_iter().chain(of_net);
-        for (name, rope) in ropes.chain([("lateral", &net.lateral_rope)]) {
+        let kinds = net.main_ropes.kinds();
+        let name = |levels: &[usize]| if kinds.len() > 1 { rope_numbers(levels) } else { "the main ropes".into() };
+        let main = kinds.iter().map(|(levels, rope)| (name(levels), *rope));
+        let of_net = of_net.map(|(_, rope)| ("the net ropes".to_string(), rope));
+        for (name, rope) in main.chain(of_net).chain([("the lateral ropes".to_string(), &net.lateral_rope)]) {
             let how = "modulus times the full circle of the diameter".to_string();
-            rows.push(row(&format!("EA of the {name} ropes"), with_unit(axial(rope), "N"), how));
+            rows.push(row(&format!("EA of {name}"), with_unit(axial(rope), "N"), how));
         }
         rows.extend(net.rings.iter().flat_map(ring_rows));
     }

@@ -415,8 +415,8 @@ const SOFT: f64 = 20e9;
 fn soft_ropes(run: &Run) -> Option<String> {
     let net = net(run)?;
     let of_net = net.rings.is_none().then_some(("net", net.net_rope.modulus));
-    let ropes = [("main", net.main_ropes.rope.modulus), ("lateral", net.lateral_rope.modulus)];
-    let ropes = ropes.into_iter().chain(of_net);
+    let main = net.main_ropes.levels.iter().map(|level| level.rope.modulus).fold(f64::INFINITY, f64::min);
+    let ropes = [("main", main), ("lateral", net.lateral_rope.modulus)].into_iter().chain(of_net);
     let soft: Vec<&str> = ropes.filter(|(_, modulus)| *modulus < SOFT).map(|(name, _)| name).collect();
     (!soft.is_empty()).then(|| {
         format!(

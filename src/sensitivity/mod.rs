@@ -283,7 +283,7 @@ mod tests {
         assert!(least(&design).is_some_and(|point| point.utilisation.is_some()));
         let everything = |design: &mut Design, factor: f64| {
             let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
-            net.main_ropes.rope.breaking_load *= factor;
+            net.main_ropes.levels.iter_mut().for_each(|level| level.rope.breaking_load *= factor);
             net.anchor_resistance *= factor;
             let bolts = net.bed_bolts.as_mut().expect("bolts");
             bolts.resistance = bolts.resistance.map(|it| factor * it);

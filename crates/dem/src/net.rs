@@ -199,9 +199,10 @@ impl NetForces {
         }
     }
 
-    /// Tensions of all that pulls (N), in the order of [`Barrier::strands`].
-    pub fn strand_tensions(&self) -> impl Iterator<Item = f64> {
-        self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators).copied()
+    /// Tensions of all that pulls (N), in the order of [`Barrier::strands`]; of one rope where several share them.
+    pub fn strand_tensions<'a>(&'a self, barrier: &'a Barrier) -> impl Iterator<Item = f64> + 'a {
+        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators);
+        barrier.strands().zip(all).map(|(strand, tension)| tension / barrier.sharing(strand.kind))
     }
 
     /// Adds the force of a grain on a line, `times` over.
@@ -266,5 +267,45 @@ impl NetForces {
         for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial, &mut self.rings] {
             sums.iter_mut().for_each(|sum| *sum *= share);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elements::segment::{Segment, SegmentKind};
+    use crate::elements::strength::Strength;
+    use crate::tables::nodes::Node;
+
+    /// Two ropes side by side that are stretched by a millimetre with 1 MN/m each: 2 kN together, 1 kN of each; the lateral rope is one.
+    #[test]
+    fn of_ropes_side_by_side_the_tension_of_one_is_told() {
+        let node = |x: f64| Node {
+            position: Vec3::x() * x,
+            velocity: Vec3::zeros(),
+            pace: Vec3::zeros(),
+            mass: 1.0,
+            fixed: false,
+            radius: 0.01,
+            lines: Vec::new(),
+        };
+        let rope = |nodes: [u32; 2], kind: SegmentKind| Segment {
+            nodes,
+            kind,
+            rest_length: 1.0,
+            stiffness: 2e6,
+            damping: 0.0,
+            radius: 0.01,
+            strength: Strength::default(),
+        };
+        let barrier = Barrier {
+            nodes: vec![node(0.0), node(1.001), node(2.002)],
+            segments: vec![rope([0, 1], SegmentKind::Main(0)), rope([1, 2], SegmentKind::Lateral)],
+            bundles: vec![2],
+            ..Barrier::default()
+        };
+        let net = pull_all(&barrier, &LawConstants::new(1.0, 2.0 / 7.0, 1e-5));
+        let told: Vec<f64> = net.strand_tensions(&barrier).collect();
+        assert!((net.forces[0].x - 2e3).abs() < 1e-6 && (told[0] - 1e3).abs() < 1e-6 && (told[1] - 2e3).abs() < 1e-6);
     }
 }

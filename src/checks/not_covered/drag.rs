@@ -86,7 +86,7 @@ mod tests {
         let verdict_of = |holds: f64| {
             let mut design = design.clone();
             let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
-            net.main_ropes.rope.breaking_load = holds * design.factors.rope;
+            net.main_ropes.levels.iter_mut().for_each(|level| level.rope.breaking_load = holds * design.factors.rope);
             verdict_after(leave_open, &design, "rope_3_tension", pushing(0.0))
         };
         assert_eq!(verdict_of(1.2 * with), CheckVerdict::Pass);

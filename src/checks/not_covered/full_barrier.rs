@@ -153,7 +153,7 @@ mod tests {
     fn the_rope_between_bolts_grows_less_than_their_load() {
         let design = small_net();
         let crate::design::BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
-        let rope = net.main_ropes.rope;
+        let rope = net.main_ropes.levels[2].rope;
         let holds = rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |used: f64| {
@@ -189,7 +189,7 @@ mod tests {
         let design = small_net();
         let guideline = guideline(&design);
         let crate::design::BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
-        let holds = net.main_ropes.rope.breaking_load * design.factors.rope_end / design.factors.rope;
+        let holds = net.main_ropes.levels[2].rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let tension = 0.95 * holds;
         assert!(tension > guideline.ropes[2].state.tension);
         let observed = Observed::of_nothing(3, 0).with(&rope_tension::PEAK, &[0.0, 0.0, tension]);

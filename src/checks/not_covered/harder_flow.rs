@@ -261,7 +261,7 @@ mod tests {
         use crate::demand::Demand;
         let mut design = small_net();
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
-        net.main_ropes.rope.breaking_load *= 100.0;
+        net.main_ropes.levels.iter_mut().for_each(|level| level.rope.breaking_load *= 100.0);
         net.dissipators = None;
         let verdict = |design: &Design| {
             let guideline = guideline(design);

@@ -51,6 +51,7 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
     let top = design.height * libm::cos(channel.slope + design.tilt) + design.bottom.gap();
     let [starts, ends] = section.banks(top);
     let width = ends - starts;
+    let bundles = design.main_ropes.bundles();
     let mut builder = Builder {
         design,
         pieces,
@@ -62,7 +63,8 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
         barrier: Barrier {
             friction: channel.barrier_friction,
             contact_modulus: design.net_rope.modulus,
-            ring_moduli: [design.main_ropes.ring_modulus, design.main_ropes.rope.modulus],
+            ring_moduli: [design.main_ropes.ring_modulus, design.main_ropes.levels[0].rope.modulus],
+            bundles: if bundles.iter().any(|ropes| *ropes > 1) { bundles } else { Vec::new() },
             ..Barrier::default()
         },
         knots: BTreeMap::new(),
@@ -115,6 +117,17 @@ impl Builder<'_> {
         self.grid.rope_rows.contains(&row) && (row > 0 || self.design.bottom != Bottom::Fixed)
     }
 
+    /// The ropes of a level, one of them.
+    pub(super) fn main_rope(&self, level: u16) -> &Rope {
+        &self.design.main_ropes.levels[usize::from(level)].rope
+    }
+
+    /// The rope that runs along a row.
+    fn rope_of_row(&self, row: usize) -> &Rope {
+        let level = self.grid.rope_rows.iter().position(|&of| of == row).unwrap_or(0);
+        &self.design.main_ropes.levels[level].rope
+    }
+
     /// Place of a column across the channel (m).
     pub(super) fn across(&self, column: usize) -> f64 {
         let gap = self.design.side_gap();
@@ -163,7 +176,7 @@ impl Builder<'_> {
             for column in self.grid.knot_columns(row) {
                 let mut position = self.place(self.across(column), self.grid.row_heights[row]);
                 if self.model == BarrierModel::Cylinders && self.has_free_rope(row) {
-                    position += upstream * ring_stand_off(&self.design.main_ropes);
+                    position += upstream * ring_stand_off(&self.design.main_ropes, self.rope_of_row(row));
                 }
                 let node = self.add_node(position, bottom_fixed && row == 0);
                 self.knots.insert((column, row), node);
@@ -219,7 +232,7 @@ impl Builder<'_> {
             } else {
                 let nodes: Vec<u32> = [&ends[..1], &self.knots_of_row(row), &ends[1..]].concat();
                 for pair in nodes.windows(2) {
-                    self.add_line([pair[0], pair[1]], SegmentKind::Main(rope), &self.design.main_ropes.rope);
+                    self.add_line([pair[0], pair[1]], SegmentKind::Main(rope), &self.main_rope(rope).clone());
                 }
                 nodes
             };
@@ -247,19 +260,20 @@ impl Builder<'_> {
     pub(super) fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
         let anchor = self.add_node(place, true);
         self.barrier.anchors.push(Anchor { node: anchor, rope });
+        let sharing = self.barrier.sharing(SegmentKind::Main(rope));
         match &self.design.dissipators {
             Some(dissipator) => self.barrier.dissipators.push(Dissipator {
                 nodes: [anchor, end],
                 rope,
                 rest_length: self.design.side_gap(),
-                radius: 0.5 * self.design.main_ropes.rope.diameter,
-                stiffness: dissipator.stiffness,
-                plateau: dissipator.plateau,
+                radius: 0.5 * self.main_rope(rope).diameter,
+                stiffness: sharing * dissipator.stiffness,
+                plateau: sharing * dissipator.plateau,
                 curve: YieldCurve::new(dissipator.curve.points()),
                 stroke: dissipator.stroke,
                 used: 0.0,
             }),
-            None => self.add_line([anchor, end], SegmentKind::Main(rope), &self.design.main_ropes.rope),
+            None => self.add_line([anchor, end], SegmentKind::Main(rope), &self.main_rope(rope).clone()),
         }
     }
 
@@ -310,14 +324,21 @@ impl Builder<'_> {
         let [a, b] = nodes.map(|node| self.barrier.nodes[node as usize].position);
         let slack = if kind == SegmentKind::Net { self.design.net_slack } else { 0.0 };
         let rest_length = (b - a).norm() * (1.0 + slack);
-        let stiffness = rope.modulus * area / rest_length;
-        let half_mass = 0.5 * ROPE_DENSITY * area * rest_length;
+        let sharing = self.barrier.sharing(kind);
+        let stiffness = sharing * rope.modulus * area / rest_length;
+        let half_mass = 0.5 * sharing * ROPE_DENSITY * area * rest_length;
         for node in nodes {
             let node = &mut self.barrier.nodes[node as usize];
             node.mass += half_mass;
         }
         let damping = 2.0 * ROPE_DAMPING_RATIO * (stiffness * half_mass).sqrt();
-        let strength = Strength { first_length: rest_length, ..strength_of(rope) };
+        let Strength { elastic, breaking, .. } = strength_of(rope);
+        let strength = Strength {
+            elastic: sharing * elastic,
+            breaking: sharing * breaking,
+            first_length: rest_length,
+            ..Strength::default()
+        };
         self.barrier.segments.push(Segment { nodes, kind, rest_length, stiffness, damping, radius, strength });
     }
 

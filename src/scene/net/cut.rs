@@ -155,7 +155,7 @@ impl Builder<'_> {
 
     fn add_lowest_rope(&mut self, outline: &Outline, ends: &Ends) {
         let fixed = self.design.bottom == Bottom::Fixed;
-        let rope = self.design.main_ropes.rope;
+        let rope = *self.main_rope(0);
         let length = outline.length(Edge::Bottom);
         let start = outline.bottom[0][0];
         // Where its bed is level its knots are nodes of the mesh; where a side was cut there are nodes of its own.
@@ -187,7 +187,7 @@ impl Builder<'_> {
     }
 
     fn add_hanging_rope(&mut self, number: usize, outline: &Outline) {
-        let rope = self.design.main_ropes.rope;
+        let rope = *self.main_rope(number as u16);
         let row = self.grid.rope_rows[number];
         let up = self.grid.row_heights[row];
         let [right, left] = [0, 1].map(|side| {

@@ -21,7 +21,7 @@ impl Grid {
     pub fn fit(net: &FlexibleNet, width: f64) -> Self {
         let half_diagonal = net.mesh_opening * std::f64::consts::FRAC_1_SQRT_2;
         let whole = |length: f64| 2 * ((length / (2.0 * half_diagonal)).round() as usize).max(1);
-        let heights = &net.main_ropes.heights;
+        let heights = net.main_ropes.heights();
         let mut row_heights = vec![heights[0]];
         let mut rope_rows = vec![0];
         for bay in heights.windows(2) {

@@ -38,10 +38,11 @@ impl Builder<'_> {
             ring_places.push(nodes.len() as u32 - 1);
         }
         nodes.push(ends[1]);
-        let section = Section::round(0.5 * ropes.rope.diameter, ropes.rope.modulus, POISSON);
+        let line = *self.main_rope(rope);
+        let section = Section::round(0.5 * line.diameter, line.modulus, POISSON);
         let first = self.barrier.cylinders.len() as u32;
         for pair in nodes.windows(2) {
-            self.add_cylinder([pair[0], pair[1]], SegmentKind::Main(rope), section, strength_of(&ropes.rope));
+            self.add_cylinder([pair[0], pair[1]], SegmentKind::Main(rope), section, strength_of(&line));
         }
         let cylinders = first..self.barrier.cylinders.len() as u32;
         for (column, place) in columns.into_iter().zip(ring_places) {
@@ -52,15 +53,15 @@ impl Builder<'_> {
                 memory: Memory::default(),
                 friction: ropes.ring_friction,
             };
-            self.add_ring(self.knots[&(column, row)], self.place(self.across(column), up), &ring);
+            self.add_ring(self.knots[&(column, row)], self.place(self.across(column), up), &line, &ring);
         }
         nodes
     }
 
-    /// Adds a ring round `centre`, tied to `knot`; `ring` tells of the rope.
-    fn add_ring(&mut self, knot: u32, centre: Vec3, ring: &RingSide) {
+    /// Adds a ring round `centre` and its `line`, tied to `knot`; `ring` tells of the rope.
+    fn add_ring(&mut self, knot: u32, centre: Vec3, line: &Rope, ring: &RingSide) {
         let ropes = &self.design.main_ropes;
-        let half_diagonal = ring_side(ropes) * FRAC_1_SQRT_2;
+        let half_diagonal = ring_side(ropes, line) * FRAC_1_SQRT_2;
         let section = Section::round(0.5 * ropes.ring_diameter, ropes.ring_modulus, POISSON);
         let rod = Rope {
             diameter: ropes.ring_diameter,

@@ -167,7 +167,7 @@ fn openings() -> Result<Vec<Finding>, Broken> {
                 net.mesh_opening = opening;
                 net.main_ropes.ring_spacing *= wider;
                 net.height *= 2.0;
-                net.main_ropes.heights.iter_mut().for_each(|height| *height *= 2.0);
+                net.main_ropes.levels.iter_mut().for_each(|level| level.height *= 2.0);
             });
         })?;
         lost.push(mean(&mesh, |seen| 1.0 - seen.one(&mass::RETAINED)));

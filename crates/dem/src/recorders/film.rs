@@ -154,12 +154,14 @@ impl Film {
             }
         }
         let net = &simulation.sums.net;
-        let nodes = simulation.model.barrier.iter().flat_map(|barrier| &barrier.nodes);
+        let barrier = simulation.model.barrier.as_ref();
+        let nodes = barrier.into_iter().flat_map(|barrier| &barrier.nodes);
+        let tensions = barrier.into_iter().flat_map(|barrier| net.strand_tensions(barrier));
         Frame {
             time: simulation.time,
             grains: poses,
             nodes: nodes.map(|node| single(&node.position)).collect(),
-            tensions: net.strand_tensions().map(|tension| tension as f32).collect(),
+            tensions: tensions.map(|tension| tension as f32).collect(),
         }
     }
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_rows, means};
 use crate::recorders::bolts::share_between_bolts;
@@ -11,7 +12,7 @@ use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
 use crate::tables::barrier::Barrier;
 
-/// Load of the higher loaded anchor of each main rope.
+/// Load of the higher loaded anchor of each main rope; where several ropes run side by side each has its own, and takes its share.
 pub const LOAD: Channel = Channel { name: "anchor", unit: "n", rows: Rows::EachRope };
 /// Force on what holds the lowest main rope to the bed.
 pub const BED: Channel = Channel { name: "bed_force", unit: "n", rows: Rows::One };
@@ -65,7 +66,8 @@ fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
     let mut loads = vec![0.0_f64; ropes];
     for anchor in &barrier.anchors {
         let load = &mut loads[anchor.rope as usize];
-        *load = larger_or_nan(*load, forces[anchor.node as usize].norm());
+        let sharing = barrier.sharing(SegmentKind::Main(anchor.rope));
+        *load = larger_or_nan(*load, forces[anchor.node as usize].norm() / sharing);
     }
     loads
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_rows, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
@@ -12,7 +13,7 @@ use crate::simulation::Simulation;
 pub const STROKE: Channel = Channel { name: "brake_stroke", unit: "m", rows: Rows::EachRope };
 /// Stroke used by each rope's dissipators, the mean of the two.
 pub const MEAN_STROKE: Channel = Channel { name: "brake_stroke_mean", unit: "m", rows: Rows::EachRope };
-/// Larger tension of each rope's two dissipators; zeros where there are none.
+/// Larger tension of each rope's two dissipators, of one rope where several run side by side; zeros where there are none.
 pub const TENSION: Channel = Channel { name: "brake", unit: "n", rows: Rows::EachRope };
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -26,7 +27,8 @@ impl BodyRecorder for OfDissipators {
         let mut tensions = vec![0.0_f64; setup.ropes];
         for (dissipator, &tension) in barrier.dissipators.iter().zip(&simulation.sums.net.dissipators) {
             let rope = dissipator.rope as usize;
-            tensions[rope] = larger_or_nan(tensions[rope], tension);
+            let sharing = barrier.sharing(SegmentKind::Main(dissipator.rope));
+            tensions[rope] = larger_or_nan(tensions[rope], tension / sharing);
         }
         add_rows(&mut self.tension, &tensions);
     }

@@ -10,7 +10,7 @@ use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
 use crate::tables::barrier::Barrier;
 
-/// Mean tension along each main rope.
+/// Mean tension along each main rope; of one where several run side by side, here and below.
 pub const MEAN: Channel = Channel { name: "rope_mean", unit: "n", rows: Rows::EachRope };
 /// Largest tension along each main rope, its dissipators included.
 pub const LARGEST: Channel = Channel { name: "rope_largest", unit: "n", rows: Rows::EachRope };
@@ -40,7 +40,7 @@ impl BodyRecorder for OfRopes {
         let (Some(barrier), net) = (&simulation.model.barrier, &simulation.sums.net) else { return };
         let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
         let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
-        for (strand, tension) in barrier.strands().zip(net.strand_tensions()) {
+        for (strand, tension) in barrier.strands().zip(net.strand_tensions(barrier)) {
             match strand.kind {
                 SegmentKind::Main(rope) => {
                     if let Some(rest_length) = strand.rest_length {

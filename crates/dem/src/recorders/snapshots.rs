@@ -91,5 +91,5 @@ fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {
         kind: strand.kind,
         tension,
     };
-    barrier.strands().zip(net.strand_tensions()).map(strand).collect()
+    barrier.strands().zip(net.strand_tensions(barrier)).map(strand).collect()
 }

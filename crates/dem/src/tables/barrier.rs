@@ -42,6 +42,9 @@ pub struct Barrier {
     pub cylinders: Vec<Cylinder>,
     pub frames: Vec<Frame>,
     pub anchors: Vec<Anchor>,
+    /// Equal ropes that run side by side at each level of main ropes: its segments, cylinders and dissipators stand for all of them. What is
+    /// not listed is one rope.
+    pub bundles: Vec<u16>,
     /// What grains can touch; made by [`Self::connect`].
     pub lines: Vec<Line>,
     /// Ropes that slide through their rings; empty where rings are pinned.
@@ -68,6 +71,14 @@ impl Barrier {
             .chain(self.cylinders.iter().map(Cylinder::strand))
             .chain(self.net_rings.iter().flat_map(NetRing::strands))
             .chain(self.dissipators.iter().map(Dissipator::strand))
+    }
+
+    /// Ropes that share what an element of this kind bears.
+    pub fn sharing(&self, kind: SegmentKind) -> f64 {
+        match kind {
+            SegmentKind::Main(rope) => f64::from(self.bundles.get(usize::from(rope)).copied().unwrap_or(1)),
+            SegmentKind::Net | SegmentKind::Lateral | SegmentKind::Ring => 1.0,
+        }
     }
 
     /// All springs between two nodes that go slack, in a fixed order.

@@ -1,0 +1,110 @@
+//! What the entries of a design say of its ropes, and where.
+
+use crate::design::Level;
+use crate::design::entries::{Entries, Entry, Origin, Value};
+use crate::design::rope::Rope;
+use crate::design::rope_table::{Listed, plain};
+use crate::design::show::at;
+use crate::problem::{Problem, nearest};
+
+/// Levels of main ropes, from the bottom.
+pub const LEVELS: &str = "main_ropes.levels";
+
+/// Where a level stands within the net.
+pub fn level(number: usize) -> String {
+    format!("{LEVELS}.{number}")
+}
+
+/// Where the levels stand that the design lists.
+pub fn levels(e: &Entries) -> Vec<String> {
+    (0..).map(level).take_while(|part| e.has_section(&at(part))).collect()
+}
+
+/// What every rope must be told to have.
+pub const OF_A_ROPE: [&str; 3] = ["diameter", "modulus", "breaking_load"];
+
+/// Parts of a net that describe a rope, as far as the design has them.
+pub fn parts(e: &Entries) -> Vec<String> {
+    let all = ["net_rope", "main_ropes", "lateral_ropes"].map(String::from);
+    all.into_iter().chain(levels(e)).filter(|part| e.has_section(&at(part))).collect()
+}
+
+/// Where a key of a rope is told: in the first of the parts that tells it.
+pub fn told_in<'a>(e: &Entries, parts: &[&'a str], key: &str) -> Option<&'a str> {
+    parts.iter().copied().find(|part| e.number(&at(&format!("{part}.{key}"))).is_some())
+}
+
+/// The rope that is told by the first of these parts, and as far as it is silent by the next.
+pub fn rope(e: &Entries, parts: &[&str]) -> Option<Rope> {
+    let value = |key: &str| e.number(&at(&format!("{}.{key}", told_in(e, parts, key)?)));
+    let beyond = parts.iter().find_map(|part| e.text(&at(&format!("{part}.at_breaking_load"))))?;
+    Some(Rope {
+        diameter: value("diameter")?,
+        modulus: value("modulus")?,
+        breaking_load: value("breaking_load")?,
+        elastic_limit: value("elastic_limit"),
+        breaks: beyond == "breaks",
+    })
+}
+
+/// Levels of main ropes at these heights; nothing where a rope of one is not told.
+pub fn levels_at(e: &Entries, heights: &[f64]) -> Option<Vec<Level>> {
+    let listed = levels(e);
+    let one = |(number, height): (usize, &f64)| {
+        let own = listed.get(number).map(String::as_str);
+        let parts: Vec<&str> = own.into_iter().chain(["main_ropes"]).collect();
+        let ropes = own.and_then(|part| e.number(&at(&format!("{part}.ropes"))));
+        Some(Level { height: *height, ropes: ropes.unwrap_or(1.0) as u16, rope: rope(e, &parts)? })
+    };
+    heights.iter().enumerate().map(one).collect()
+}
+
+/// Puts the numbers of ropes that are named where they are not typed.
+pub fn put_named(e: &mut Entries, table: &[Listed], problems: &mut Vec<Problem>) {
+    for part in parts(e) {
+        let key = at(&format!("{part}.rope"));
+        let Some(name) = e.text(&key).map(String::from) else { continue };
+        let Some(rope) = table.iter().find(|rope| plain(&rope.name) == plain(&name)) else {
+            problems.push(unknown(key, &name, table));
+            continue;
+        };
+        let values = [
+            ("diameter", rope.diameter, format!("{} mm", shown(rope.diameter * 1e3))),
+            ("modulus", rope.modulus, format!("{} GPa", shown(rope.modulus * 1e-9))),
+            ("breaking_load", rope.breaking_load, format!("{} kN", shown(rope.breaking_load * 1e-3))),
+        ];
+        for (quantity, number, typed) in values {
+            let path = at(&format!("{part}.{quantity}"));
+            if !e.mentions(&path) {
+                let remark = format!("{}: {}", rope.name, rope.remark);
+                let entry = Entry {
+                    value: Value::Number(number),
+                    typed,
+                    origin: Origin::File,
+                    remark,
+                    ..e.values[&key].clone()
+                };
+                e.put(&path, entry);
+            }
+        }
+    }
+}
+
+/// A number of a table as it is read there.
+fn shown(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}
+
+fn unknown(key: String, name: &str, table: &[Listed]) -> Problem {
+    let names: Vec<String> = table.iter().map(|rope| plain(&rope.name)).collect();
+    let near = nearest(&plain(name), names.iter().map(String::as_str));
+    let hint = match near.and_then(|near| table.iter().find(|rope| plain(&rope.name) == near)) {
+        Some(near) => format!("did you mean `{}`?", near.name),
+        None => {
+            "the tables are listed in the user guide; a table of your own is named by barrier.flexible_net.rope_table"
+                .into()
+        }
+    };
+    Problem::new(key, format!("`{name}`, which no table has"), "the name of a rope, as `6x36-IWRC 22 mm 1770`")
+        .hint(hint)
+}

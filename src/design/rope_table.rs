@@ -1,0 +1,179 @@
+//! Wire ropes by name: a table that comes with the program, and one that a design may name.
+
+use crate::design::table_file::{Wrong, factor, name_and_unit, without_unit};
+use crate::units::Dimension;
+
+/// A rope of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Listed {
+    pub name: String,
+    /// m
+    pub diameter: f64,
+    /// N
+    pub breaking_load: f64,
+    /// On the full circle of the diameter (Pa).
+    pub modulus: f64,
+    /// What else the table says: mass and source.
+    pub remark: String,
+}
+
+/// Ropes at the most.
+const MOST_ROPES: usize = 2000;
+/// What a good table looks like.
+const EXAMPLE: &str = "the file is a table like `name,diameter (mm),breaking_load (kN),modulus (GPa),source` / `top rope,22,305,60,certificate 17`, with the modulus on the full circle";
+
+/// The table that comes with the program.
+pub fn built_in() -> Vec<Listed> {
+    parse(include_bytes!("ropes.csv")).unwrap_or_default()
+}
+
+/// A name as it is compared: small letters and single spaces.
+pub fn plain(name: &str) -> String {
+    name.to_lowercase().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Column {
+    Name,
+    Diameter(f64),
+    BreakingLoad(f64),
+    Modulus(f64),
+    /// Told with its own head.
+    Other,
+}
+
+fn column(head: &str) -> Result<Column, Wrong> {
+    let (name, unit) = name_and_unit(head);
+    let quantity = |dimension: Dimension, example: &str| {
+        unit.and_then(|unit| factor(unit, dimension)).ok_or_else(|| without_unit(head, example, dimension))
+    };
+    Ok(match name.to_lowercase().replace(' ', "_").as_str() {
+        "name" | "rope" => Column::Name,
+        "diameter" => Column::Diameter(quantity(Dimension::Length, "mm")?),
+        "breaking_load" => Column::BreakingLoad(quantity(Dimension::Force, "kN")?),
+        "modulus" => Column::Modulus(quantity(Dimension::Pressure, "GPa")?),
+        // A unit may have been taken for the end of a name.
+        _ if head.to_lowercase().replace(' ', "_") == "breaking_load" => {
+            return Err(without_unit(head, "kN", Dimension::Force));
+        }
+        _ => Column::Other,
+    })
+}
+
+/// The ropes of a table.
+///
+/// # Errors
+/// What is wrong, with its line, and what would be right.
+pub fn parse(bytes: &[u8]) -> Result<Vec<Listed>, Wrong> {
+    let wrong = |found: String| (found, EXAMPLE.to_string());
+    let text = std::str::from_utf8(bytes).map_err(|_| wrong("which is not text in UTF-8".into()))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let delimiter = [b';', b'\t'].into_iter().find(|mark| first.as_bytes().contains(mark)).unwrap_or(b',');
+    let mut table = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let heads: Vec<String> = match table.headers() {
+        Ok(heads) => heads.iter().map(String::from).collect(),
+        Err(error) => return Err(wrong(format!("whose head cannot be read: {error}"))),
+    };
+    let columns = heads.iter().map(|head| column(head)).collect::<Result<Vec<_>, _>>()?;
+    for (wanted, there) in [
+        ("name", columns.contains(&Column::Name)),
+        ("diameter", columns.iter().any(|column| matches!(column, Column::Diameter(_)))),
+        ("breaking_load", columns.iter().any(|column| matches!(column, Column::BreakingLoad(_)))),
+        ("modulus", columns.iter().any(|column| matches!(column, Column::Modulus(_)))),
+    ] {
+        if !there {
+            return Err(wrong(format!("which has no column `{wanted}`")));
+        }
+    }
+    let mut ropes: Vec<Listed> = Vec::new();
+    for row in table.records() {
+        let row = row.map_err(|error| wrong(format!("which cannot be read: {error}")))?;
+        let line = row.position().map_or(0, csv::Position::line);
+        let rope = listed(&row, &columns, &heads)
+            .map_err(|text| wrong(format!("whose line {line} holds `{text}`, which is no number above zero")))?;
+        if ropes.iter().any(|other| plain(&other.name) == plain(&rope.name)) {
+            return Err(wrong(format!("whose line {line} has the name `{}` again", rope.name)));
+        }
+        ropes.push(rope);
+        if ropes.len() > MOST_ROPES {
+            return Err(wrong(format!("of more than {MOST_ROPES} ropes")));
+        }
+    }
+    Ok(ropes)
+}
+
+/// A row as a rope, or the text of it that is no number.
+fn listed(row: &csv::StringRecord, columns: &[Column], heads: &[String]) -> Result<Listed, String> {
+    let mut rope =
+        Listed { name: String::new(), diameter: 0.0, breaking_load: 0.0, modulus: 0.0, remark: String::new() };
+    let mut remarks = Vec::new();
+    for ((text, column), head) in row.iter().zip(columns).zip(heads) {
+        let number = |factor: f64| match text.parse::<f64>() {
+            Ok(number) if number.is_finite() && number > 0.0 => Ok(number * factor),
+            _ => Err(text.to_string()),
+        };
+        match column {
+            Column::Name => rope.name = text.to_string(),
+            Column::Diameter(factor) => rope.diameter = number(*factor)?,
+            Column::BreakingLoad(factor) => rope.breaking_load = number(*factor)?,
+            Column::Modulus(factor) => rope.modulus = number(*factor)?,
+            Column::Other if text.is_empty() => {}
+            Column::Other if head == "source" => remarks.push(text.to_string()),
+            Column::Other => remarks.push(format!("{head} {text}")),
+        }
+    }
+    rope.remark = remarks.join("; ");
+    Ok(rope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// 0.356 × 22² × 1770 N/mm² = 305.0 kN; every rope of the table is one that the rules of ropes let pass.
+    #[test]
+    fn the_table_of_the_program_is_sound() {
+        let ropes = built_in();
+        assert!(ropes.len() > 50);
+        let rope = ropes.iter().find(|rope| plain(&rope.name) == "6x36-iwrc 22 mm 1770").expect("a rope");
+        assert_relative_eq!(rope.breaking_load, 305.0e3, max_relative = 1e-3);
+        assert_relative_eq!(rope.diameter, 0.022, max_relative = 1e-12);
+        assert!(rope.remark.contains("kg/m") && rope.remark.contains("EN 12385-4"));
+        for rope in ropes {
+            let stress = rope.breaking_load / (std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2));
+            assert!((0.5e9..1.3e9).contains(&stress), "{}", rope.name);
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_table_is_told() {
+        for (text, found) in [
+            ("name,diameter (mm),breaking_load (kN)\na,22,305\n", "which has no column `modulus`"),
+            (
+                "name,diameter,breaking_load (kN),modulus (GPa)\na,22,305,60\n",
+                "whose column `diameter` names no unit of length",
+            ),
+            (
+                "name,diameter (mm),breaking_load,modulus (GPa)\na,22,305,60\n",
+                "whose column `breaking_load` names no unit of force",
+            ),
+            (
+                "name,diameter (mm),breaking_load (kN),modulus (GPa)\na,22,x,60\n",
+                "whose line 2 holds `x`, which is no number above zero",
+            ),
+            (
+                "name,diameter (mm),breaking_load (kN),modulus (GPa)\na,22,1,60\nA,22,1,60\n",
+                "whose line 3 has the name `A` again",
+            ),
+        ] {
+            assert_eq!(parse(text.as_bytes()).unwrap_err().0, found, "{text}");
+        }
+    }
+}
