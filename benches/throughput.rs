@@ -19,6 +19,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use barrier_check::validation::barrier::ring_panel::ring_panel;
 use barrier_check::validation::barrier::stand::{cantilever, line, rope};
 use criterion::{Criterion, Throughput, criterion_group};
 use dem::Vec3;
@@ -123,7 +124,9 @@ fn main() {
         "state", "threads", "z", "ns/sph-st", "M sph-st/s", "ns/contact", "ms/step", "bytes/sph", "of two"
     );
     STATES.iter().for_each(tell);
-    println!("\nbarrier, one thread: ns per element and step, of tension-only segments and of cylinders that bend");
+    println!(
+        "\nbarrier, one thread: ns per element and step, of tension-only segments, of cylinders that bend and of rings with four contacts"
+    );
     [100, 1000, 10_000].into_iter().for_each(tell_elements);
     println!(
         "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
@@ -138,9 +141,14 @@ fn main() {
 fn tell_elements(count: usize) {
     const ELEMENT_STEPS: usize = 4_000_000;
     let end = Vec3::new(0.07 * count as f64, 0.0, 0.0);
-    let barriers = [rope(&line(Vec3::zeros(), end, count), [true, true], 0.99), cantilever(end.x, count)];
+    let across = (count as f64).sqrt() as i32;
+    let mut taut = ring_panel(across);
+    // Drawn apart, so that every ring pulls.
+    taut.nodes.iter_mut().for_each(|node| node.position *= 1.06);
+    let barriers = [rope(&line(Vec3::zeros(), end, count), [true, true], 0.99), cantilever(end.x, count), taut];
     let law = LawConstants::new(0.3, 2.0 / 7.0, 1e-5);
-    let [segment, cylinder] = barriers.map(|barrier| {
+    let [segment, cylinder, ring] = barriers.map(|barrier| {
+        let count = barrier.segments.len() + barrier.cylinders.len() + barrier.net_rings.len();
         let rounds = ELEMENT_STEPS / count;
         let start = Instant::now();
         for _ in 0..rounds {
@@ -148,7 +156,7 @@ fn tell_elements(count: usize) {
         }
         start.elapsed().as_nanos() as f64 / (rounds * count) as f64
     });
-    println!("{count:>6} elements {segment:>8.1} {cylinder:>8.1}");
+    println!("{count:>6} elements {segment:>8.1} {cylinder:>8.1} {ring:>8.1}");
 }
 
 /// What the search for neighbours costs, by rapier's tree and by a cell list, and its share of a run.

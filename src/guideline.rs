@@ -10,6 +10,7 @@ pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::impact::hertz;
 use crate::loads::input::GuidelineInput;
+use crate::loads::ring_net::{RingLoad, RingNet};
 use crate::loads::rope::{RopeInput, RopeState, Yielding};
 use crate::loads::run_up;
 use crate::loads::wall::WallInput;
@@ -40,6 +41,8 @@ pub struct Guideline {
     pub bed_force: Option<f64>,
     /// Of it on one bolt, spread evenly, where the distance of the bolts is known (N).
     pub bolt_force: Option<f64>,
+    /// The bay of a ring net whose rings bear most, with the partial factor.
+    pub rings: Option<RingLoad>,
     /// The dissipators, if there are any.
     pub dissipator: Option<Yielding>,
     /// Whether a dissipator caps the load of its anchor: not where lateral ropes are tied to the anchors, past it.
@@ -136,6 +139,7 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
             let point = ropes.first().map_or(0.0, |rope| rope.point);
             (force - 2.0 * point) / spaces + point
         }),
+        rings: ring_load(design, &stages),
         cases: all(&input, &extras),
         largest_force: stages.iter().map(|case| case.total_force(&section)).fold(0.0, larger_or_nan),
         lean: lean(design),
@@ -538,6 +542,21 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             }
         })
         .collect()
+}
+
+/// The bay between two main ropes in which the rings of a ring net bear most; nothing for other barriers.
+fn ring_load(design: &Design, stages: &[LoadCase]) -> Option<RingLoad> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    let rings = net.rings.as_ref()?;
+    let of = RingNet { diameter: rings.diameter, taut_from: rings.law().taut_from };
+    let (top, leans) = (height_over_bed(design), libm::cos(lean(design)));
+    let bays = net.main_ropes.levels.windows(2).map(|pair| [pair[0].height, pair[1].height]);
+    let load = |[low, high]: [f64; 2]| {
+        let [from, to] = [low, high].map(|along| top - (net.height - along) * leans);
+        let most = stages.iter().map(|case| case.diagram.force(from, to) / leans).fold(0.0, larger_or_nan);
+        of.under(high - low, design.factors.load * most)
+    };
+    bays.map(load).max_by(|a, b| a.leg.total_cmp(&b.leg))
 }
 
 /// Slices of a span over which the load of a rope is summed.

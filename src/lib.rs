@@ -18,6 +18,8 @@
 //! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes, and its springs by `law::Spring`, from which the stable step and what is shown go as well; its damping in [`dem::contact::restitution`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
+//! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`] |
+//! | a rope that can be named | a line in `design/ropes.csv` |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands` and `Barrier::springs` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |

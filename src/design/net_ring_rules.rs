@@ -37,6 +37,13 @@ pub fn chain_test_has_its_two_points(e: &Entries) -> Option<Problem> {
     if broken <= bent {
         return problem(format!("a break at {:.1} % after {:.1} %", 100.0 * broken, 100.0 * bent));
     }
+    // A way round four contacts on a circle is 2 √2 D, and one round two that are taut 2 D (1 + e).
+    if 1.0 + bent < std::f64::consts::SQRT_2 {
+        return Some(
+            Problem::new(path, format!("the end of bending at {:.1} %", 100.0 * bent), "41.5 % or more")
+                .hint("earlier the rings of the net would be taut as they hang; the elongation is that of the whole chain over its length"),
+        );
+    }
     // Else it would be no stiffer when it is taut.
     (force / broken <= knee / bent)
         .then(|| problem(format!("{} at the break after {}, no steeper than it bends", show(force), show(knee))))

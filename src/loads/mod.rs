@@ -7,6 +7,7 @@ pub(crate) mod impact;
 pub(crate) mod input;
 pub(crate) mod other_models;
 pub(crate) mod pressure;
+pub(crate) mod ring_net;
 pub(crate) mod rope;
 pub(crate) mod run_up;
 pub(crate) mod wall;

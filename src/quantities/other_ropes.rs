@@ -18,7 +18,7 @@ pub const NET: Quantity =
     Quantity::new("net_tension", "Tension of the net's ropes", Newton, Of::Run, |run| run.peak(&of_ropes::NET))
         .json("net_tension_peak_n")
         .told(Told::WhereLoaded)
-        .demanded(Demanded::Load(|_, _| None));
+        .demanded(Demanded::Load(|guideline, _| guideline.rings.map(|rings| rings.leg)));
 
 /// Largest tension of the net at the end.
 pub const NET_RESIDUAL: Quantity =

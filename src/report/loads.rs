@@ -9,6 +9,7 @@ use crate::guideline::{RopeLoad, wall_of};
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
 use crate::loads::other_models::MODELS;
+use crate::loads::ring_net::RingNet;
 use crate::loads::rope::RopeInput;
 use crate::pipeline::Run;
 use crate::quantities::bed;
@@ -244,6 +245,25 @@ pub fn bolted_rope(run: &Run) -> String {
         axial / more / 1e3,
         along / 1e3,
         tension_between(load, axial) / 1e3
+    )
+}
+
+/// How the demand of the rings of a ring net follows from the guideline; empty where it has none.
+pub fn ring_net(run: &Run) -> String {
+    let (BarrierDesign::FlexibleNet(net), Some(found)) = (&run.file.design.barrier, run.guideline.rings) else {
+        return String::new();
+    };
+    let Some(rings) = &net.rings else { return String::new() };
+    let of = RingNet { diameter: rings.diameter, taut_from: rings.law().taut_from };
+    format!(
+        "Rings of the net: the bay of b = {:.2} m whose pressure is largest bears q = {:.1} kN on a metre of width. Rings of D = {:.3} m that stay side by side are taut when they are d = {:.3} m high, with a way P₁ = {:.3} m round their contacts, and the net bulges by f = b √(⅜ (d/D − 1)) = {:.3} m; a width of one ring pulls with V = D q √((b/8f)² + ¼), and a leg with T = V P₁/(4 d) = {:.1} kN. Single grains load rings more than that: the simulation tells, and the equations alone never let the rings pass.",
+        found.bay,
+        found.load / 1e3,
+        rings.diameter,
+        of.height(),
+        of.taut_from,
+        found.bulge,
+        found.leg / 1e3
     )
 }
 

@@ -1,19 +1,21 @@
 //! The site: the barrier in its section, what lies behind it along the channel, and how much that is.
 
-use crate::design::{BarrierDesign, Bottom, Design};
+use crate::design::{BarrierDesign, BarrierModel, Bottom, Design};
 use crate::guideline::{Guideline, event_fill, reservoir};
 use crate::loads::fill::Surface as Slope;
 use crate::pipeline::Run;
 use crate::profile::Profile;
 use crate::report::chart::Chart;
 use crate::report::numbers::with_unit;
-use crate::report::plots::cross_section::{CrossSection, Member, cross_section};
+use crate::report::plots::cross_section::{CrossSection, Member, Ring, cross_section};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::plots::long_profile::{LongProfile, Surface, long_profile};
 use crate::report::plots::plan::{Plan, plan};
 use crate::report::row::{Row, row};
 use crate::scene::flow::release::Block;
+use crate::scene::net::build::build as build_net;
 use crate::section::Section;
+use dem::elements::net_ring::NetRing;
 
 /// Points of the storage curve.
 const HEIGHTS: usize = 60;
@@ -133,6 +135,28 @@ fn rope_heights(design: &Design, guideline: &Guideline) -> Vec<f64> {
     net.main_ropes.heights().into_iter().map(above).collect()
 }
 
+/// The rings of a ring net as they are modelled, whole ones as circles.
+fn rings(drawing: &Drawing) -> Vec<Ring> {
+    let BarrierDesign::FlexibleNet(net) = &drawing.design.barrier else { return Vec::new() };
+    let Some(rings) = &net.rings else { return Vec::new() };
+    let barrier = build_net(net, &drawing.design.channel, BarrierModel::PinnedRopes, 1).barrier;
+    let place = |node: &u32| {
+        let place = barrier.nodes[*node as usize].position;
+        [drawing.right(place.y), place.z / drawing.plumb]
+    };
+    let ring = |ring: &NetRing| {
+        let contacts: Vec<[f64; 2]> = ring.nodes.iter().map(place).collect();
+        if ring.bending > 0.0 {
+            let middle =
+                [0, 1].map(|axis| contacts.iter().map(|contact| contact[axis]).sum::<f64>() / contacts.len() as f64);
+            Ring::Whole { middle, diameter: rings.diameter }
+        } else {
+            Ring::Cut { contacts }
+        }
+    };
+    barrier.net_rings.iter().map(ring).collect()
+}
+
 fn across(run: &Run) -> Chart {
     let (design, guideline) = (&run.file.design, &run.guideline);
     let plumb = libm::cos(design.channel.slope);
@@ -145,8 +169,14 @@ fn across(run: &Run) -> Chart {
     let member = |(index, z): (usize, &f64)| {
         let [from, to] = ends(index, *z);
         let length = if bolted(index) { section.bed_length() } else { to - from };
+        let ropes = match &design.barrier {
+            BarrierDesign::FlexibleNet(net) => net.main_ropes.levels[index].ropes,
+            BarrierDesign::RigidWall(_) => 1,
+        };
+        let times = if ropes > 1 { format!("{ropes} ×, ") } else { String::new() };
+        let what = if bolted(index) { "bolted," } else { "span" };
         Member {
-            label: format!("rope {}, {} {length:.2} m", index + 1, if bolted(index) { "bolted," } else { "span" }),
+            label: format!("rope {}, {times}{what} {length:.2} m", index + 1),
             height: z / plumb,
             ends: drawing.ends([from, to]),
             is_anchored: !bolted(index),
@@ -171,6 +201,7 @@ fn across(run: &Run) -> Chart {
         ground: drawing.ground(),
         members,
         outline: outline(&drawing, low, top),
+        rings: rings(&drawing),
         bed: drawing.ends(section.bed_ends()),
         surfaces: vec![(format!("flow, {:.2} m", guideline.input.depth / plumb), guideline.input.depth / plumb)],
     };

@@ -76,6 +76,9 @@ fn of_the_channel(design: &Design) -> Vec<Statement> {
 fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
+    let ringed = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.rings.is_some());
+    let bundled = matches!(&design.barrier, BarrierDesign::FlexibleNet(net)
+        if net.main_ropes.levels.iter().any(|level| level.ropes > 1));
     vec![
         (
             net && !curved(design),
@@ -103,7 +106,22 @@ fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
             EITHER,
         ),
         (
-            net && simulated,
+            ringed && simulated,
+            "Each ring of the net slides without friction through its contacts with four others and runs straight between them: it resists bending elastically while its opposite contacts are further apart than its diameter, then one tension acts all round. The wires break earlier the more sharply a ring is turned; what is told is the force of a leg as that of a chain of rings that is as near to breaking. What rings take away by bending for good is left out.",
+            SAFE,
+        ),
+        (
+            ringed && simulated,
+            "Rings that meet a bank or a bed that is not level are cut to it: as if smaller rings were shackled to the rope there.",
+            EITHER,
+        ),
+        (
+            bundled,
+            "Ropes that run side by side at one level share its load evenly, each with dissipators and anchors of its own; tensions, strokes and anchor loads are those of one of them.",
+            UNSAFE,
+        ),
+        (
+            net && simulated && !ringed,
             "The mesh is stretched a little so that whole diagonals fit the width and each bay between main ropes.",
             EITHER,
         ),
@@ -236,6 +254,9 @@ fn any_breaks(design: &Design) -> bool {
 fn of_ropes(design: &Design) -> Option<&'static str> {
     match (&design.barrier, design.simulation.barrier_model) {
         (BarrierDesign::RigidWall(_), _) => None,
+        (BarrierDesign::FlexibleNet(net), BarrierModel::SlidingRopes) if net.rings.is_some() => Some(
+            "Ropes pull and never push and do not bend; main ropes run through the rings of the net with friction; half the mass of each rope segment sits at each of its ends, and the mass of each ring at its contacts; axial damping of 5 % of critical is added.",
+        ),
         (_, BarrierModel::PinnedRopes) => Some(
             "Ropes pull and never push and do not bend; the connecting rings between net and main ropes are fixed to them; half the mass of each rope segment sits at each of its ends; axial damping of 5 % of critical is added.",
         ),
@@ -257,12 +278,14 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
         BarrierDesign::RigidWall(wall) => (false, false, wall.stability.is_none()),
     };
     let loads = &design.loads;
+    let ringed = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.rings.is_some());
     let list = [
         (true, "scour, abutments and foundations"),
         (wall, "sliding, overturning and bearing of the wall (rigid_wall.stability would have them checked)"),
         (!net, "bending and shear of the wall itself; the segments' pressures are told for that"),
         (true, "corrosion, abrasion and maintenance"),
-        (net, "the rings that join the net to its main ropes; punching of the mesh by a single stone"),
+        (net && !ringed, "the rings that join the net to its main ropes; punching of the mesh by a single stone"),
+        (ringed, "shackles and clamps of the net; punching of the net by a single stone"),
         (
             bolts,
             "the bolts or anchors that hold the lowest rope to the bed (anchors.bed_bolt_spacing and anchors.bed_bolt_resistance would have them checked)",

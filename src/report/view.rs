@@ -52,6 +52,7 @@ pub struct View {
     pub face_remark: String,
     /// How the demand of a lowest rope between its bolts follows; empty where there is none.
     pub bolted_rope: String,
+    pub ring_net: String,
     pub ropes: Vec<RopeRow>,
     pub other_models: Vec<ModelRow>,
     pub wall: Vec<Row>,
@@ -159,6 +160,7 @@ impl View {
             cases: loads::cases(run),
             face_remark: loads::face_remark(run),
             bolted_rope: loads::bolted_rope(run),
+            ring_net: loads::ring_net(run),
             ropes: loads::ropes(run),
             other_models: loads::other_models(run),
             wall: loads::wall(run),

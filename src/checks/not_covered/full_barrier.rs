@@ -90,9 +90,9 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         | Kind::Stroke
         | Kind::OnTheBase => {}
     }
-    // The equations spread the load evenly over the bolts, so theirs is no measure of the worst one.
-    let of_bolts = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts);
-    let known = outcome.governed_by_equations() && !of_bolts;
+    // The equations spread the load evenly over bolts and rings, so theirs is no measure of the worst one.
+    let spread = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts | Kind::NetRopes);
+    let known = outcome.governed_by_equations() && !spread;
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
         let full = outcome.demand_under(Route::Simulation, more * (1.0 + band)).unwrap_or(f64::NAN);

@@ -6,6 +6,9 @@ const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 12.0;
 /// Room at the right for the labels of the ropes.
 const LABELS: f64 = 152.0;
+/// Width of a letter, about, and of what leads to a label.
+const LETTER: f64 = 6.3;
+const LEADER: f64 = 17.0;
 /// Room above for the width at the top, and below for the width of the bed and the scale.
 const ABOVE: f64 = 30.0;
 const BELOW: f64 = 54.0;
@@ -27,12 +30,20 @@ pub struct Member {
     pub line: Vec<[f64; 2]>,
 }
 
+/// A ring of a net.
+pub enum Ring {
+    Whole { middle: [f64; 2], diameter: f64 },
+    Cut { contacts: Vec<[f64; 2]> },
+}
+
 /// What is drawn; distances to the right and plumb heights (m).
 pub struct CrossSection {
     pub ground: Vec<[f64; 2]>,
     pub members: Vec<Member>,
     /// Outline of what closes the section: net or wall.
     pub outline: Vec<[f64; 2]>,
+    /// Its rings, if it is a ring net.
+    pub rings: Vec<Ring>,
     /// Where the bed begins and ends.
     pub bed: [f64; 2],
     /// Level surfaces with their names.
@@ -44,7 +55,9 @@ pub fn cross_section(drawn: &CrossSection) -> String {
     let highest_ground = drawn.ground.iter().map(|point| point[1]).fold(top, f64::max).min(1.4 * top);
     let visible: Vec<[f64; 2]> = cut(&drawn.ground, highest_ground);
     let (left, right) = (visible[0][0], visible[visible.len() - 1][0]);
-    let scale = (WIDTH - 2.0 * MARGIN - LABELS) / (right - left);
+    let longest = drawn.members.iter().map(|member| member.label.chars().count()).max().unwrap_or(0);
+    let labels_take = LABELS.max(LEADER + LETTER * longest as f64);
+    let scale = (WIDTH - 2.0 * MARGIN - labels_take) / (right - left);
     let height = highest_ground * scale;
     let foot = ABOVE + height;
     let x = |across: f64| MARGIN + (across - left) * scale;
@@ -65,6 +78,18 @@ pub fn cross_section(drawn: &CrossSection) -> String {
         x(left),
         points(&drawn.outline)
     );
+    for ring in &drawn.rings {
+        let _ = match ring {
+            Ring::Whole { middle, diameter } => write!(
+                svg,
+                "<circle class=\"net-ring\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{:.1}\"/>",
+                x(middle[0]),
+                y(middle[1]),
+                0.5 * diameter * scale
+            ),
+            Ring::Cut { contacts } => write!(svg, "<polygon class=\"net-ring\" points=\"{}\"/>", points(contacts)),
+        };
+    }
     // A name stands over its line unless a member runs through it there.
     let hidden =
         |surface: f64| drawn.members.iter().any(|member| (-4.0..18.0).contains(&((member.height - surface) * scale)));
@@ -203,11 +228,16 @@ mod tests {
                 },
             ],
             outline: vec![[-2.0, 0.0], [2.0, 0.0], [4.0, 2.0], [-4.0, 2.0]],
+            rings: vec![
+                Ring::Whole { middle: [0.0, 1.0], diameter: 0.3 },
+                Ring::Cut { contacts: vec![[2.0, 1.0], [2.2, 1.2], [2.1, 0.8]] },
+            ],
             bed: [-2.0, 2.0],
             surfaces: vec![("flow".into(), 1.0)],
         };
         let svg = cross_section(&drawn);
         assert_eq!(svg.matches("class=\"anchor\"").count(), 2);
+        assert_eq!(svg.matches("class=\"net-ring\"").count(), 2);
         for text in ["rope 2, 8.00 m", ">8.00 m<", "bed 4.00 m", ">flow<"] {
             assert!(svg.contains(text), "{text}");
         }

@@ -9,6 +9,9 @@ use crate::ring_law::{IN_CHAIN, IN_NET, mass};
 use crate::scene::net::build::{Builder, ROPE_DAMPING_RATIO, ROPE_DENSITY};
 use dem::elements::net_ring::{NetRing, RingStrength};
 
+/// Least part of a ring that a cut one is as large and as heavy as: a smaller one would swing faster than all others.
+const LEAST_SHARE: f64 = 0.5;
+
 /// A contact of a ring: its node, and whether it lies on the edge to which the ring was cut.
 type Contact = (u32, bool);
 
@@ -60,7 +63,7 @@ impl Builder<'_> {
         let diameter = rings.diameter.max(across).max(up);
         let fitted = 2.0 * libm::hypot(across, up);
         let stretched = (fitted / (4.0 * rings.mesh())).max(1.0);
-        let share = if whole { 1.0 } else { way / fitted };
+        let share = if whole { 1.0 } else { (way / fitted).clamp(LEAST_SHARE, 1.0) };
         let (taut_from, stiffness) = (law.taut_from * stretched * share, law.stiffness / (stretched * share));
         let mass = mass(&rings.wires, rings.diameter, ROPE_DENSITY) * stretched * share;
         for &node in &nodes {

@@ -7,7 +7,7 @@ pub(crate) mod full_scale;
 pub(crate) mod pieces;
 pub(crate) mod punching;
 pub(crate) mod ring_chains;
-pub(crate) mod ring_panel;
+pub mod ring_panel;
 pub(crate) mod ropes;
 pub(crate) mod section;
 pub mod stand;
