@@ -2,6 +2,7 @@
 //!
 //!     cargo bench                      timings by criterion, then the table
 //!     cargo bench -- --table           the table alone
+//!     cargo bench -- --elements        what the elements of a barrier cost
 //!     benches/peers/compare.sh         beside LAMMPS, LIGGGHTS and Yade, on the same states
 //!
 //! The table tells contacts per sphere z, ns per sphere-step, sphere-steps per second, ns per contact and bytes per sphere;
@@ -116,6 +117,9 @@ fn main() {
     if let Some(name) = arguments.next() {
         return tell_one(&name);
     }
+    if std::env::args().any(|argument| argument == "--elements") {
+        return tell_all_elements();
+    }
     if !std::env::args().any(|argument| argument == "--table") {
         benches();
     }
@@ -124,10 +128,8 @@ fn main() {
         "state", "threads", "z", "ns/sph-st", "M sph-st/s", "ns/contact", "ms/step", "bytes/sph", "of two"
     );
     STATES.iter().for_each(tell);
-    println!(
-        "\nbarrier, one thread: ns per element and step, of tension-only segments, of cylinders that bend and of rings with four contacts"
-    );
-    [100, 1000, 10_000].into_iter().for_each(tell_elements);
+    println!();
+    tell_all_elements();
     println!(
         "\nbroad phase, one thread: tree made anew, tree refitted, cell list (ms); refitting over all work of a run"
     );
@@ -135,6 +137,13 @@ fn main() {
         .iter()
         .filter(|state| state.shape == GrainShape::Sphere && !state.field && !state.boulders)
         .for_each(tell_broad_phase);
+}
+
+fn tell_all_elements() {
+    println!(
+        "barrier, one thread: ns per element and step: tension-only segments, cylinders that bend, rings with four contacts"
+    );
+    [100, 1000, 10_000].into_iter().for_each(tell_elements);
 }
 
 /// What the elements of a barrier cost, and how that grows with their number.

@@ -119,29 +119,40 @@ impl NetRing {
 
     /// Puts its forces on the contacts, after a step of length `step` (s).
     pub fn pull(&self, nodes: &[Node], forces: &mut [Vec3], step: f64) -> RingPull {
-        if self.strength.broken {
-            return RingPull::default();
+        match self.nodes.len() {
+            _ if self.strength.broken => RingPull::default(),
+            4 => self.pull_on::<4>(nodes, forces, step),
+            _ => self.pull_on::<MOST_CONTACTS>(nodes, forces, step),
         }
+    }
+
+    /// The same for no more than `N` contacts.
+    fn pull_on<const N: usize>(&self, nodes: &[Node], forces: &mut [Vec3], step: f64) -> RingPull {
         let count = self.nodes.len();
-        let mut directions = [Vec3::zeros(); MOST_CONTACTS];
+        let mut directions = [Vec3::zeros(); N];
         let (mut way, mut rate) = (0.0, 0.0);
-        for (side, [from, to]) in self.sides().enumerate() {
-            let [a, b] = [from, to].map(|node| &nodes[node as usize]);
-            let line = b.position - a.position;
+        let mut from = &nodes[self.nodes[0] as usize];
+        for side in 0..count {
+            let next = if side + 1 == count { 0 } else { side + 1 };
+            let to = &nodes[self.nodes[next] as usize];
+            let line = to.position - from.position;
             let length = line.norm();
             // Two contacts at one place pull each other nowhere.
             let direction = if length > 0.0 { line / length } else { Vec3::zeros() };
             way += length;
-            rate += (b.velocity - a.velocity).dot(&direction);
+            rate += (to.velocity - from.velocity).dot(&direction);
             directions[side] = direction;
+            from = to;
         }
-        let bent = self.bend(nodes);
+        let mut bending = [Vec3::zeros(); N];
+        let bent = self.bend(nodes, &mut bending);
         let over = (way - self.taut_from).max(0.0);
         let spring = self.stiffness * over;
         let stored = 0.5 * spring * over + bent.stored;
-        let cosine = |contact: usize| directions[(contact + count - 1) % count].dot(&directions[contact]);
+        let before = |contact: usize| if contact == 0 { count - 1 } else { contact - 1 };
         let force = spring + 0.5 * bent.largest;
         let as_in_chain = if force > 0.0 {
+            let cosine = |contact: usize| directions[before(contact)].dot(&directions[contact]);
             self.strength.as_in_chain(force, (0..count).map(cosine).fold(1.0, f64::min))
         } else {
             force
@@ -153,42 +164,35 @@ impl NetRing {
         }
         let tension = if over > 0.0 { (spring + self.damping * rate).max(0.0) } else { spring };
         for (contact, &node) in self.nodes.iter().enumerate() {
-            forces[node as usize] += (directions[contact] - directions[(contact + count - 1) % count]) * tension;
+            forces[node as usize] += (directions[contact] - directions[before(contact)]) * tension + bending[contact];
         }
-        self.put_bending(nodes, forces);
         RingPull { tension, as_in_chain, stored, lost: (tension - spring) * rate * step, breaks: false }
     }
 
-    fn bend(&self, nodes: &[Node]) -> Bending {
+    /// Forces of bending on the contacts.
+    fn bend(&self, nodes: &[Node], forces: &mut [Vec3]) -> Bending {
         let mut sums = Bending::default();
-        for (direction, force, [a, b]) in self.bent_diagonals(nodes) {
-            sums.largest = sums.largest.max(force);
-            sums.stored += 0.5 * force * force / self.bending;
-            sums.power += force * (nodes[b].velocity - nodes[a].velocity).dot(&direction);
+        if self.bending <= 0.0 {
+            return sums;
         }
-        sums
-    }
-
-    fn put_bending(&self, nodes: &[Node], forces: &mut [Vec3]) {
-        for (direction, force, [a, b]) in self.bent_diagonals(nodes) {
-            forces[a] += direction * force;
-            forces[b] -= direction * force;
-        }
-    }
-
-    /// Direction, force and contacts of each diagonal that is longer than the diameter.
-    fn bent_diagonals<'a>(&'a self, nodes: &'a [Node]) -> impl Iterator<Item = (Vec3, f64, [usize; 2])> + 'a {
-        self.diagonals().filter_map(|ends| {
-            let [a, b] = ends.map(|node| node as usize);
-            let line = nodes[b].position - nodes[a].position;
+        let half = self.nodes.len() / 2;
+        for contact in 0..half {
+            let [a, b] = [contact, contact + half].map(|contact| &nodes[self.nodes[contact] as usize]);
+            let line = b.position - a.position;
             let square = line.norm_squared();
-            // Asked so that a NaN is seen.
             if square <= self.diameter * self.diameter {
-                return None;
+                continue;
             }
             let length = square.sqrt();
-            Some((line / length, self.bending * (length - self.diameter), [a, b]))
-        })
+            let force = self.bending * (length - self.diameter);
+            let pull = line * (force / length);
+            forces[contact] += pull;
+            forces[contact + half] -= pull;
+            sums.largest = sums.largest.max(force);
+            sums.stored += 0.5 * force * (length - self.diameter);
+            sums.power += (b.velocity - a.velocity).dot(&pull);
+        }
+        sums
     }
 }
 
