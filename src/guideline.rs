@@ -72,8 +72,9 @@ pub struct RopeLoad {
     pub span: f64,
     /// Ropes that run side by side and share the load.
     pub ropes: u16,
-    /// Load across the span, of all of them (N/m).
+    /// Load across the span, of all of them and of one (N/m): a point load is that of one.
     pub load: f64,
+    pub of_one: f64,
     /// The point load that enters it, as a force at one place, with the partial factor (N).
     pub point: f64,
     /// The case that governs; nothing for a rope that the bed holds.
@@ -524,9 +525,11 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             let point = 0.5 * design.factors.load * spread * span.span;
             if held {
                 // It neither sags nor pulls at anchors: the bed takes its load where it is.
-                return RopeLoad { strip, ropes, span: span.span, load, point, ..RopeLoad::default() };
+                return RopeLoad { strip, ropes, span: span.span, load, of_one: load, point, ..RopeLoad::default() };
             }
-            let of_one = load / f64::from(ropes);
+            // A boulder hits one of them.
+            let shared = 1.0 / f64::from(ropes);
+            let of_one = load * shared + design.factors.load * spread * (1.0 - shared);
             let state = span.under(of_one);
             let across = 0.5 * of_one * span.span;
             let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
@@ -535,6 +538,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
                 ropes,
                 span: span.span,
                 load,
+                of_one,
                 point,
                 case: governing.cloned(),
                 state,

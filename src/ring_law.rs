@@ -32,8 +32,8 @@ const BENDING_ENDS: [f64; 2] = [0.15, 0.85];
 /// Lowest single test over what the law predicts: 71.7 kN of 86.3 kN, with 9 windings.
 pub const LOWEST_OF_TESTS: f64 = 0.83;
 
-/// Windings, diameters of wires (m) and of rings (m) for which the law from the wires is known.
-const KNOWN: [[f64; 2]; 3] = [[5.0, 19.0], [2.9e-3, 3.1e-3], [0.29, 0.31]];
+/// Windings, diameters of wires (m), their strength (Pa) and diameters of rings (m) for which the law from the wires is known.
+const KNOWN: [[f64; 2]; 4] = [[5.0, 19.0], [2.9e-3, 3.1e-3], [1.7e9, 1.85e9], [0.29, 0.31]];
 
 /// Wires of a ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ pub fn chain_of(wires: &Wires) -> Chain {
 
 /// Whether the law from the wires is known for such rings.
 pub fn is_known(wires: &Wires, diameter: f64) -> bool {
-    let of = [f64::from(wires.windings), wires.diameter, diameter];
+    let of = [f64::from(wires.windings), wires.diameter, wires.strength, diameter];
     of.iter().zip(KNOWN).all(|(value, [low, high])| (low..=high).contains(value))
 }
 
@@ -153,5 +153,6 @@ mod tests {
         assert!(!is_known(&Wires { windings: 4, ..TWELVE }, 0.3));
         assert!(!is_known(&Wires { diameter: 4e-3, ..TWELVE }, 0.3));
         assert!(!is_known(&TWELVE, 0.42));
+        assert!(!is_known(&Wires { strength: 2.16e9, ..TWELVE }, 0.3));
     }
 }

@@ -13,6 +13,8 @@ pub const FRIEDL_2025: &str = "Friedl et al. 2025, Engineering Geology 357:10831
 pub const NO_LIMIT: &str = "no limit set; for information";
 pub const NOTHING_BREAKS: &str = "no rope may break";
 pub const DESIGN_LIMIT: &str = "limit of the design file, or its default (see the inputs)";
+/// Of the rings of a ring net.
+pub const RING_FACTOR: &str = "half the break of a chain of such rings, of one that follows from the wires 0.83 (the lowest of the tests, Guo 2022) / partial factor of the rope (after EN 1993-1-11, not checked against the original)";
 pub const ROPE_FACTOR: &str = "breaking load × termination efficiency / partial factor of the rope (after EN 1993-1-11, not checked against the original; all are in the design file)";
 pub const ANCHOR_FACTOR: &str = "anchor resistance / partial factor (after EN 1997-1; set it in the design file)";
 pub const STROKE_DATA: &str = "stroke of the dissipator, data of the design file";

@@ -60,7 +60,7 @@ fn main_ropes() {
         "heights: [0 m, 1.2 m, 1.64 m, 1.8 m] ",
         "heights: [0 m, 1.2 m, 1.62 m, 1.8 m] ",
     );
-    let spans = "rope(s) from";
+    let spans = "height(s) from";
     at(NET, spans, count, "heights: [0.1 m, 1.8 m] ", "heights: [0 m, 1.8 m] ");
     at(NET, spans, count, "heights: [0 m, 1.7 m] ", "heights: [0 m, 1.800001 m] ");
     at(NET, spans, count, "heights: [0 m, 1.80001 m] ", "heights: [0 m, 0.9 m, 1.8 m] ");

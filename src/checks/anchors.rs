@@ -14,7 +14,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let capacity = Resistance { characteristic: net.anchor_resistance, factor: design.factors.anchor };
     let loads = demands.each(&anchor_load::PEAK).iter().enumerate().skip(net.ropes_held_by_bed());
     let by_load = loads.map(|(index, demand)| {
+        let ropes = net.main_ropes.levels.get(index).map_or(1, |level| level.ropes);
         let name = CheckName::of(&anchor_load::PEAK, index, format!("anchor_{}_load", index + 1), ANCHOR_FACTOR);
+        let name = name.each_of(ropes);
         let (demand, beside) = match net.dissipators {
             Some(_) => (*demand, 0.0),
             None => with_lateral(*demand, demands),

@@ -50,7 +50,8 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let bolt = Resistance { characteristic, factor: design.factors.anchor };
     let rope = resistance(design, &lowest.rope);
     let rope_name =
-        CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", Unit::Newton, ROPE_FACTOR);
+        CheckName::new("rope_1_tension", "Tension of main rope 1 between its bolts", Unit::Newton, ROPE_FACTOR)
+            .each_of(lowest.ropes);
     let outcomes = [
         (Kind::Bolts, Outcome::at_most(name, at_an_end, bolt, design.limits.anchor_utilisation)),
         (Kind::BetweenBolts, Outcome::at_most(rope_name, between, rope, design.limits.rope_utilisation)),

@@ -312,7 +312,7 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
     let lean = (design.channel.slope + net.tilt).to_degrees();
     let mut rules = vec![
         most(
-            "Mesh opening against D90",
+            if net.rings.is_some() { "Diameter of the rings against D90" } else { "Mesh opening against D90" },
             net.opening(),
             coarse,
             "m",

@@ -20,7 +20,8 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
     strokes
         .map(|(index, demand)| {
             let id = format!("brake_{}_stroke", index + 1);
-            let name = CheckName::of(&dissipator::STROKE, index, id, STROKE_DATA);
+            let ropes = net.main_ropes.levels.get(index).map_or(1, |level| level.ropes);
+            let name = CheckName::of(&dissipator::STROKE, index, id, STROKE_DATA).each_of(ropes);
             let stroke = Resistance { characteristic: given.stroke, factor: 1.0 };
             let outcome = Outcome::at_most(name, *demand, stroke, design.limits.dissipator_utilisation);
             Outcome { kind: Kind::Stroke, ..outcome.of_rope(index) }

@@ -195,6 +195,14 @@ impl CheckName {
     pub fn new(id: impl Into<String>, title: impl Into<String>, unit: Unit, source: &'static str) -> Self {
         Self { id: id.into(), title: title.into(), unit, source }
     }
+
+    /// The same, of each of so many ropes that run side by side.
+    pub fn each_of(mut self, ropes: u16) -> Self {
+        if ropes > 1 {
+            self.title += &format!(", each of {ropes}");
+        }
+        self
+    }
 }
 
 impl Outcome {

@@ -8,7 +8,7 @@ use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::hydrograph_entries::{LISTS, key};
 use crate::design::hydrograph_file::{self, Column};
 use crate::design::rope_entries::put_named;
-use crate::design::rope_table::{self, Listed};
+use crate::design::rope_table::{self, Listed, plain};
 use crate::design::section_file;
 use crate::design::show::at;
 use crate::design::terrain_file::{Asked, terrain};
@@ -31,8 +31,10 @@ const SECTION: [&str; 2] = ["channel.section.file", "channel.section.points"];
 /// Reads the files that the entries name, and puts what they hold in their place.
 pub fn read_attached(entries: &mut Entries, open: Open, problems: &mut Vec<Problem>) -> Attached {
     let mut attached = Attached::new();
-    let ropes = read_ropes(entries, open, problems, &mut attached);
-    put_named(entries, &ropes, problems);
+    // Where the design's own table cannot be read, what it names is not known.
+    if let Some(ropes) = read_ropes(entries, open, problems, &mut attached) {
+        put_named(entries, &ropes, problems);
+    }
     for read in [read_section, read_terrain, read_hydrograph, read_curve] {
         if let Some(read) = read(entries, open) {
             match read {
@@ -149,25 +151,43 @@ fn read_curve(entries: &mut Entries, open: Open) -> Read {
 }
 
 /// The ropes that may be named: those of the design's own table before those of the program.
-fn read_ropes(entries: &Entries, open: Open, problems: &mut Vec<Problem>, attached: &mut Attached) -> Vec<Listed> {
+fn read_ropes(
+    entries: &Entries,
+    open: Open,
+    problems: &mut Vec<Problem>,
+    attached: &mut Attached,
+) -> Option<Vec<Listed>> {
     let key = at("rope_table");
     let wanted = "a table of ropes beside the design file";
     let mut ropes = Vec::new();
     match opened(entries, &key, open, wanted) {
         None => {}
-        Some(Err(problem)) => problems.push(problem),
+        Some(Err(problem)) => {
+            problems.push(problem);
+            return None;
+        }
         Some(Ok((name, bytes))) => {
             match rope_table::parse(&bytes) {
-                Ok(listed) => ropes = listed,
+                Ok(listed) => {
+                    let known = rope_table::built_in();
+                    let shared = |rope: &&Listed| known.iter().any(|other| plain(&other.name) == plain(&rope.name));
+                    if let Some(rope) = listed.iter().find(shared) {
+                        let found = format!("`{name}`, which has the name `{}` of the program's table", rope.name);
+                        problems.push(Problem::new(&key, found, wanted).hint("give your rope a name of its own"));
+                        return None;
+                    }
+                    ropes = listed.into_iter().map(|rope| Listed { table: Some(name.clone()), ..rope }).collect();
+                }
                 Err((found, hint)) => {
                     problems.push(Problem::new(&key, format!("`{name}`, {found}"), wanted).hint(hint));
+                    return None;
                 }
             }
             attached.insert(name, bytes);
         }
     }
     ropes.extend(rope_table::built_in());
-    ropes
+    Some(ropes)
 }
 
 /// Puts a value in that comes from the file of a key.

@@ -29,6 +29,11 @@ impl NetRings {
         0.5 * self.chain[1][1]
     }
 
+    /// Share of its wires' strength that the chain uses at its break.
+    pub fn used(&self) -> f64 {
+        self.leg() / self.wires.breaking_load()
+    }
+
     /// What a leg is held against (N): that of the test given, or the lowest that the tests behind the law allow for.
     pub fn characteristic_leg(&self) -> f64 {
         if self.tested { self.leg() } else { LOWEST_OF_TESTS * self.leg() }

@@ -114,8 +114,9 @@ pub fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
     let ((path, heights), height) = (listed_heights(e)?, e.number(&at("height"))?);
     let (first, last) = (heights[0], heights[heights.len() - 1]);
     (heights.len() < 2 || first != 0.0 || (last - height).abs() > 1e-6 * height).then(|| {
-        let found = format!("{} rope(s) from {} to {}", heights.len(), length(first), length(last));
-        Problem::new(path, found, format!("two ropes or more, from 0 m to the barrier's height {}", length(height)))
+        let found = format!("{} height(s) from {} to {}", heights.len(), length(first), length(last));
+        let allowed = format!("two heights or more, from 0 m to the barrier's height {}", length(height));
+        Problem::new(path, found, allowed).hint("the lowest rope is at 0 m, the uppermost at the height of the barrier")
     })
 }
 

@@ -5,7 +5,8 @@ use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::rope::Rope;
 use crate::design::rope_table::{Listed, plain};
 use crate::design::show::at;
-use crate::problem::{Problem, nearest};
+use crate::problem::Problem;
+use crate::units::Dimension;
 
 /// Levels of main ropes, from the bottom.
 pub const LEVELS: &str = "main_ropes.levels";
@@ -68,16 +69,51 @@ pub fn put_named(e: &mut Entries, table: &[Listed], problems: &mut Vec<Problem>)
             problems.push(unknown(key, &name, table));
             continue;
         };
+        let diameter = at(&format!("{part}.diameter"));
+        if e.mentions(&diameter) {
+            problems.push(
+                Problem::new(diameter, format!("a diameter beside the rope `{name}`"), "the name or the diameter").hint(
+                    "breaking_load and modulus may be typed beside a name, as a certificate has them; another diameter is another rope",
+                ),
+            );
+            continue;
+        }
+        let load = at(&format!("{part}.breaking_load"));
+        if let Some(typed) = e.number(&load).filter(|typed| *typed > MOST_OF_A_TABLE * rope.breaking_load) {
+            let [typed, listed] = [typed, rope.breaking_load].map(|force| Dimension::Force.show(force));
+            problems.push(
+                Problem::new(
+                    load,
+                    format!("{typed} beside the rope `{name}`, which has {listed}"),
+                    "at most a tenth more than the table",
+                )
+                .hint("a stronger rope is another one: leave out its name, or give another"),
+            );
+            continue;
+        }
         let values = [
-            ("diameter", rope.diameter, format!("{} mm", shown(rope.diameter * 1e3))),
-            ("modulus", rope.modulus, format!("{} GPa", shown(rope.modulus * 1e-9))),
-            ("breaking_load", rope.breaking_load, format!("{} kN", shown(rope.breaking_load * 1e-3))),
+            ("diameter", "nominal diameter", rope.diameter, format!("{} mm", shown(rope.diameter * 1e3))),
+            (
+                "modulus",
+                "modulus with the full circle of the diameter",
+                rope.modulus,
+                format!("{} GPa", shown(rope.modulus * 1e-9)),
+            ),
+            (
+                "breaking_load",
+                "minimum breaking load",
+                rope.breaking_load,
+                format!("{} kN", shown(rope.breaking_load * 1e-3)),
+            ),
         ];
-        for (quantity, number, typed) in values {
+        for (quantity, meaning, number, typed) in values {
             let path = at(&format!("{part}.{quantity}"));
             if !e.mentions(&path) {
-                let remark = format!("{}: {}", rope.name, rope.remark);
+                let table = rope.table.as_deref().unwrap_or("the program's table of ropes");
+                let source = if rope.remark.is_empty() { String::new() } else { format!("; {}", rope.remark) };
+                let remark = format!("{} of {table}{source}", rope.name);
                 let entry = Entry {
+                    meaning,
                     value: Value::Number(number),
                     typed,
                     origin: Origin::File,
@@ -90,21 +126,36 @@ pub fn put_named(e: &mut Entries, table: &[Listed], problems: &mut Vec<Problem>)
     }
 }
 
+/// Breaking load that a certificate may have, over that of the table.
+const MOST_OF_A_TABLE: f64 = 1.1;
+
 /// A number of a table as it is read there.
 fn shown(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
 fn unknown(key: String, name: &str, table: &[Listed]) -> Problem {
-    let names: Vec<String> = table.iter().map(|rope| plain(&rope.name)).collect();
-    let near = nearest(&plain(name), names.iter().map(String::as_str));
-    let hint = match near.and_then(|near| table.iter().find(|rope| plain(&rope.name) == near)) {
-        Some(near) => format!("did you mean `{}`?", near.name),
-        None => {
-            "the tables are listed in the user guide; a table of your own is named by barrier.flexible_net.rope_table"
-                .into()
-        }
+    let wanted = plain(name);
+    // Of ropes that are written much like it, those of the nearest diameters.
+    let number = |text: &str| text.split(' ').find_map(|word| word.trim_end_matches("mm").parse::<f64>().ok());
+    let apart = |rope: &Listed| {
+        number(&wanted).zip(number(&plain(&rope.name))).map_or(f64::INFINITY, |(one, other)| (one - other).abs())
+    };
+    let mut near: Vec<(usize, &Listed)> = table
+        .iter()
+        .map(|rope| (strsim::damerau_levenshtein(&wanted, &plain(&rope.name)), rope))
+        .filter(|(distance, _)| *distance <= MUCH_ALIKE)
+        .collect();
+    near.sort_by(|a, b| apart(a.1).total_cmp(&apart(b.1)).then(a.0.cmp(&b.0)));
+    let names: Vec<String> = near.iter().take(2).map(|(_, rope)| format!("`{}`", rope.name)).collect();
+    let hint = match names[..] {
+        [] => "the user guide says what the program's table has; a table of your own is named by barrier.flexible_net.rope_table"
+            .to_string(),
+        _ => format!("the nearest are {}", names.join(" and ")),
     };
     Problem::new(key, format!("`{name}`, which no table has"), "the name of a rope, as `6x36-IWRC 22 mm 1770`")
         .hint(hint)
 }
+
+/// Slips up to which two names are much alike.
+const MUCH_ALIKE: usize = 4;

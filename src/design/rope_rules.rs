@@ -70,6 +70,11 @@ pub fn ropes_side_by_side_are_modelled(e: &Entries) -> Option<Problem> {
                 .hint("sliding_ropes and pinned_ropes know bundles of ropes"),
         );
     }
+    if !e.has_section(&at("dissipators")) {
+        return Some(Problem::new(path, "ropes side by side without dissipators", "dissipators at their ends").hint(
+            "without them the lateral ropes pull at the anchors, and which of a bundle bears that is not known",
+        ));
+    }
     (e.text(&at("lateral_ropes.tied_to")) == Some("anchors")).then(|| {
         Problem::new(
             path,

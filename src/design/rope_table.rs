@@ -15,7 +15,14 @@ pub struct Listed {
     pub modulus: f64,
     /// What else the table says: mass and source.
     pub remark: String,
+    /// The file of the table; nothing for that of the program.
+    pub table: Option<String>,
 }
+
+/// What a rope may be: diameter (m), breaking load (N) and modulus (Pa), as where they are typed.
+pub const DIAMETERS: [f64; 2] = [1e-4, 0.3];
+pub const BREAKING_LOADS: [f64; 2] = [1.0, 1e9];
+pub const MODULI: [f64; 2] = [1e7, 4e11];
 
 /// Ropes at the most.
 const MOST_ROPES: usize = 2000;
@@ -45,8 +52,10 @@ enum Column {
 
 fn column(head: &str) -> Result<Column, Wrong> {
     let (name, unit) = name_and_unit(head);
+    // The hint names the column without the unit that is none.
+    let bare = if head.contains(['(', '[']) { name } else { head };
     let quantity = |dimension: Dimension, example: &str| {
-        unit.and_then(|unit| factor(unit, dimension)).ok_or_else(|| without_unit(head, example, dimension))
+        unit.and_then(|unit| factor(unit, dimension)).ok_or_else(|| without_unit(bare, example, dimension))
     };
     Ok(match name.to_lowercase().replace(' ', "_").as_str() {
         "name" | "rope" => Column::Name,
@@ -81,6 +90,12 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Listed>, Wrong> {
         Err(error) => return Err(wrong(format!("whose head cannot be read: {error}"))),
     };
     let columns = heads.iter().map(|head| column(head)).collect::<Result<Vec<_>, _>>()?;
+    let same = |a: &Column, b: &Column| *a != Column::Other && std::mem::discriminant(a) == std::mem::discriminant(b);
+    for (number, column) in columns.iter().enumerate() {
+        if let Some(twice) = columns[..number].iter().position(|other| same(other, column)) {
+            return Err(wrong(format!("whose columns `{}` and `{}` tell the same", heads[twice], heads[number])));
+        }
+    }
     for (wanted, there) in [
         ("name", columns.contains(&Column::Name)),
         ("diameter", columns.iter().any(|column| matches!(column, Column::Diameter(_)))),
@@ -95,8 +110,13 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Listed>, Wrong> {
     for row in table.records() {
         let row = row.map_err(|error| wrong(format!("which cannot be read: {error}")))?;
         let line = row.position().map_or(0, csv::Position::line);
-        let rope = listed(&row, &columns, &heads)
-            .map_err(|text| wrong(format!("whose line {line} holds `{text}`, which is no number above zero")))?;
+        let rope = listed(&row, &columns, &heads).map_err(|(head, why)| {
+            let hint = match why.contains(',') {
+                true => "numbers have a decimal point",
+                false => EXAMPLE,
+            };
+            (format!("whose line {line} holds {why} in the column `{head}`"), hint.to_string())
+        })?;
         if ropes.iter().any(|other| plain(&other.name) == plain(&rope.name)) {
             return Err(wrong(format!("whose line {line} has the name `{}` again", rope.name)));
         }
@@ -108,21 +128,29 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Listed>, Wrong> {
     Ok(ropes)
 }
 
-/// A row as a rope, or the text of it that is no number.
-fn listed(row: &csv::StringRecord, columns: &[Column], heads: &[String]) -> Result<Listed, String> {
-    let mut rope =
-        Listed { name: String::new(), diameter: 0.0, breaking_load: 0.0, modulus: 0.0, remark: String::new() };
+/// A row as a rope, or the head of a column and what is wrong with its value.
+fn listed(row: &csv::StringRecord, columns: &[Column], heads: &[String]) -> Result<Listed, (String, String)> {
+    let mut rope = Listed {
+        name: String::new(),
+        diameter: 0.0,
+        breaking_load: 0.0,
+        modulus: 0.0,
+        remark: String::new(),
+        table: None,
+    };
     let mut remarks = Vec::new();
     for ((text, column), head) in row.iter().zip(columns).zip(heads) {
-        let number = |factor: f64| match text.parse::<f64>() {
-            Ok(number) if number.is_finite() && number > 0.0 => Ok(number * factor),
-            _ => Err(text.to_string()),
+        let number = |factor: f64, [low, high]: [f64; 2]| match text.parse::<f64>() {
+            Ok(number) if (low..=high).contains(&(number * factor)) => Ok(number * factor),
+            Ok(_) => Err((head.clone(), format!("`{text}`, which no rope has"))),
+            Err(_) => Err((head.clone(), format!("`{text}`, which is no number"))),
         };
         match column {
+            Column::Name if text.is_empty() => return Err((head.clone(), "no name".into())),
             Column::Name => rope.name = text.to_string(),
-            Column::Diameter(factor) => rope.diameter = number(*factor)?,
-            Column::BreakingLoad(factor) => rope.breaking_load = number(*factor)?,
-            Column::Modulus(factor) => rope.modulus = number(*factor)?,
+            Column::Diameter(factor) => rope.diameter = number(*factor, DIAMETERS)?,
+            Column::BreakingLoad(factor) => rope.breaking_load = number(*factor, BREAKING_LOADS)?,
+            Column::Modulus(factor) => rope.modulus = number(*factor, MODULI)?,
             Column::Other if text.is_empty() => {}
             Column::Other if head == "source" => remarks.push(text.to_string()),
             Column::Other => remarks.push(format!("{head} {text}")),
@@ -157,6 +185,14 @@ mod tests {
         for (text, found) in [
             ("name,diameter (mm),breaking_load (kN)\na,22,305\n", "which has no column `modulus`"),
             (
+                "name,diameter (mm),breaking_load (kN),Breaking load (N),modulus (GPa)\na,22,305,9,60\n",
+                "whose columns `breaking_load (kN)` and `Breaking load (N)` tell the same",
+            ),
+            (
+                "name,diameter (mm),breaking_load (kN),modulus (GPa)\n,22,305,60\n",
+                "whose line 2 holds no name in the column `name`",
+            ),
+            (
                 "name,diameter,breaking_load (kN),modulus (GPa)\na,22,305,60\n",
                 "whose column `diameter` names no unit of length",
             ),
@@ -166,7 +202,15 @@ mod tests {
             ),
             (
                 "name,diameter (mm),breaking_load (kN),modulus (GPa)\na,22,x,60\n",
-                "whose line 2 holds `x`, which is no number above zero",
+                "whose line 2 holds `x`, which is no number in the column `breaking_load (kN)`",
+            ),
+            (
+                "name,diameter (mm),breaking_load (kN),modulus (GPa)\na,22,305,55000\n",
+                "whose line 2 holds `55000`, which no rope has in the column `modulus (GPa)`",
+            ),
+            (
+                "name,diameter (mm),breaking_load (t),modulus (GPa)\na,22,31,60\n",
+                "whose column `breaking_load` names no unit of force",
             ),
             (
                 "name,diameter (mm),breaking_load (kN),modulus (GPa)\na,22,1,60\nA,22,1,60\n",

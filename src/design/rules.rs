@@ -81,6 +81,7 @@ pub const RULES: &[Rule] = &[
     net_ring_rules::chain_is_no_stronger_than_its_wires,
     net_ring_rules::rings_are_thinner_than_they_are_wide,
     net_ring_rules::ring_nets_have_no_sides,
+    net_ring_rules::rings_fit_between_ropes,
     net_rules::mesh_within_the_barrier,
     net_rules::main_ropes_counted_once,
     net_rules::rope_heights_increase,

@@ -2,6 +2,7 @@
 
 use crate::design::factor_sets;
 use crate::design::key::{Bounded, Key, Kind, quantity};
+use crate::design::rope_table::{BREAKING_LOADS, DIAMETERS, MODULI};
 use crate::units::Dimension as D;
 
 /// Version of the table below; raised when a file that was good is read differently, or no more.
@@ -524,17 +525,22 @@ const NET_RINGS: &[Key] = &[
     Key::required("diameter", quantity(D::Length, 0.02, 3.0), "diameter of a ring"),
     Key::required("windings", Kind::Count { low: 1, high: 100 }, "windings of wire in a ring"),
     Key::required("wire_diameter", quantity(D::Length, 2e-4, 0.02), "diameter of the wire"),
-    Key::required("wire_strength", quantity(D::Pressure, 1e8, 4e9), "tensile strength of the wire"),
+    Key::required("wire_strength", quantity(D::Pressure, 4e8, 2.4e9), "tensile strength of the wire"),
     Key::optional(
         "chain_test",
         Kind::Pairs {
-            first: Bounded { dimension: D::Share, low: 0.01, high: 2.0 },
+            first: Bounded { dimension: D::Share, low: 0.01, high: 0.68 },
             second: Bounded { dimension: D::Force, low: 1.0, high: 1e7 },
             example: "[[48 %, 16 kN], [57 %, 108 kN]]",
         },
         "a chain of the very rings pulled to break: elongation over its length and force, where bending ends and at the break, as characteristic values; by default they follow from the wires, as tests of rings of 300 mm with 5 to 19 windings of 3 mm have them",
     ),
-    AT_BREAKING_LOAD,
+    Key::default(
+        "at_breaking_load",
+        Kind::Choice(&["holds", "breaks"]),
+        "holds",
+        "what a simulated ring does where a chain of such rings breaks: holds on, so that the load to be borne is seen, or breaks",
+    ),
 ];
 
 const SIDE_EXTENSION: &[Key] = &[
@@ -552,13 +558,14 @@ const NAMED: Key = Key::optional(
     Kind::Text,
     "name of the rope in the table of the program or in rope_table, which gives its diameter, modulus and breaking load where they are not typed",
 );
-const DIAMETER: Key = Key::optional("diameter", quantity(D::Length, 1e-4, 0.3), "nominal diameter");
+const DIAMETER: Key = Key::optional("diameter", quantity(D::Length, DIAMETERS[0], DIAMETERS[1]), "nominal diameter");
 const MODULUS: Key = Key::optional(
     "modulus",
-    quantity(D::Pressure, 1e7, 4e11),
+    quantity(D::Pressure, MODULI[0], MODULI[1]),
     "modulus with the full circle of the diameter: EA = E pi d2/4",
 );
-const BREAKING_LOAD: Key = Key::optional("breaking_load", quantity(D::Force, 1.0, 1e9), "minimum breaking load");
+const BREAKING_LOAD: Key =
+    Key::optional("breaking_load", quantity(D::Force, BREAKING_LOADS[0], BREAKING_LOADS[1]), "minimum breaking load");
 const ELASTIC_LIMIT: Key = Key::optional(
     "elastic_limit",
     quantity(D::Force, 1.0, 1e9),

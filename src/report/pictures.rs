@@ -304,8 +304,13 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         file: file_name("Barrier from upstream"),
         svg: elevation(snapshot, run.guideline.section.banks(run.guideline.input.barrier_height), resistance),
         note: format!(
-            "At {:.2} s, as deformed then, seen normal to the bed; colour by tension over design resistance at that instant, the partial factor on loads included. Main ropes are numbered from the bottom.{}",
+            "At {:.2} s, as deformed then, seen normal to the bed; colour by tension over design resistance at that instant, the partial factor on loads included. Main ropes are numbered from the bottom{}.{}",
             snapshot.time,
+            if net.rings.is_some() {
+                "; rings are drawn as they are modelled, straight from contact to contact"
+            } else {
+                ""
+            },
             if net.bottom == Bottom::Fixed {
                 " The lowest one is held at every knot here; the check of it between its bolts follows from the load of the worst bolt and is not in the picture."
             } else {
@@ -443,9 +448,9 @@ fn rope_chart(run: &Run, seen: &Simulated) -> Chart {
         BarrierDesign::RigidWall(_) => Vec::new(),
     };
     let resistance = kinds.iter().map(|(levels, rope)| {
-        let of = if kinds.len() > 1 { format!(" of {}", rope_numbers(levels)) } else { String::new() };
-        let value = rope.breaking_load * design.factors.rope_end / design.factors.rope;
-        Level { label: format!("design resistance{of}"), value }
+        let label =
+            if kinds.len() > 1 { format!("holds: {}", rope_numbers(levels)) } else { "design resistance".into() };
+        Level { label, value: rope.breaking_load * design.factors.rope_end / design.factors.rope }
     });
     let chart = LineChart {
         title: "largest tension",

@@ -52,13 +52,27 @@ fn rope_rows(run: &Run) -> Vec<Row> {
             format!("Main rope {}, {what}", index + 1),
             with_unit(value, "m"),
             format!(
-                "{:.2} m above the lowest point, plumb; from {left:.2} m to {right:.2} m across, as surveyed, to the right looking downstream; area below it {:.2} m², normal to the bed",
+                "{}{:.2} m above the lowest point, plumb; from {left:.2} m to {right:.2} m across, as surveyed, to the right looking downstream; area below it {:.2} m², normal to the bed",
+                of_level(design, index),
                 z / drawing.plumb,
                 guideline.section.area(*z)
             ),
         )
     });
     ropes.collect()
+}
+
+/// The ropes of a level, by number and kind.
+fn of_level(design: &Design, index: usize) -> String {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return String::new() };
+    let level = &net.main_ropes.levels[index];
+    format!(
+        "{} of {}, breaking load {}, EA {} (each); ",
+        if level.ropes > 1 { format!("{} ropes side by side", level.ropes) } else { "one rope".to_string() },
+        with_unit(level.rope.diameter, "m"),
+        with_unit(level.rope.breaking_load, "N"),
+        with_unit(level.rope.axial_stiffness(), "N")
+    )
 }
 
 fn release_row(run: &Run) -> Option<Row> {

@@ -63,7 +63,7 @@ impl Builder<'_> {
         let diameter = rings.diameter.max(across).max(up);
         let fitted = 2.0 * libm::hypot(across, up);
         let stretched = (fitted / (4.0 * rings.mesh())).max(1.0);
-        let share = if whole { 1.0 } else { (way / fitted).clamp(LEAST_SHARE, 1.0) };
+        let share = if whole { 1.0 } else { (way / fitted).max(LEAST_SHARE) };
         let (taut_from, stiffness) = (law.taut_from * stretched * share, law.stiffness / (stretched * share));
         let mass = mass(&rings.wires, rings.diameter, ROPE_DENSITY) * stretched * share;
         for &node in &nodes {
@@ -146,6 +146,25 @@ mod tests {
             .map(|segment| PI * segment.radius.powi(2) * segment.rest_length * 7850.0)
             .sum::<f64>();
         assert_relative_eq!(mass - of_ropes, 60.0 * of_one, max_relative = 1e-3);
+    }
+
+    /// Whatever the banks, no ring pulls while the net hangs as it is built: it would fly apart before anything comes.
+    #[test]
+    fn no_ring_pulls_at_rest_between_banks_of_any_slope() {
+        for (bed, left, right) in
+            [(2, 35, 35), (2, 40, 60), (3, 55, 55), (3, 55, 39), (2, 70, 35), (3, 60, 45), (2, 50, 65)]
+        {
+            let net = built(Some(&format!(
+                "{{trapezoid: {{bed_width: {bed} m, left_bank: {left} deg, right_bank: {right} deg, depth: 3 m}}}}"
+            )));
+            let mut forces = vec![dem::Vec3::zeros(); net.barrier.nodes.len()];
+            for ring in &net.barrier.net_rings {
+                let stored = ring.pull(&net.barrier.nodes, &mut forces, 1e-4).stored;
+                assert!(stored < 1e-20, "bed {bed} m, banks {left} and {right}: {stored} J in {ring:?}");
+            }
+            let lightest = net.barrier.nodes.iter().filter(|node| !node.fixed).map(|node| node.mass);
+            assert!(lightest.fold(f64::INFINITY, f64::min) > 0.05, "bed {bed} m, banks {left} and {right}");
+        }
     }
 
     #[test]
