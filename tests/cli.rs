@@ -260,7 +260,7 @@ fn one_two_and_seven_threads_give_the_same_numbers() {
             csv,
         )
     };
-    for design in ["tiny", "tiny_surges", "tiny_wet", "tiny_inlet", "tiny_boulders"] {
+    for design in ["tiny", "tiny_surges", "tiny_wet", "tiny_inlet", "tiny_boulders", "tiny_rings"] {
         let one = numbers(design, "1");
         assert!(
             one == numbers(design, "2") && one == numbers(design, "7"),

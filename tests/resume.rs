@@ -10,6 +10,7 @@ const DESIGN: &str = "tests/fixtures/tiny.yaml";
 const SURGES: &str = "tests/fixtures/tiny_surges.yaml";
 const WET: &str = "tests/fixtures/tiny_wet.yaml";
 const BOULDERS: &str = "tests/fixtures/tiny_boulders.yaml";
+const RINGS: &str = "tests/fixtures/tiny_rings.yaml";
 const INLET: &str = "tests/fixtures/tiny_inlet.yaml";
 
 fn program() -> Command {
@@ -159,6 +160,14 @@ fn boulders_that_are_killed_and_resumed_end_with_the_same_bits() {
     let whole = undisturbed(BOULDERS, "whole_boulders", &[]);
     kill_and_resume(BOULDERS, "boulders_killed", 4, &[], 6);
     assert_eq!(whole, numbers(&folder_of("boulders_killed")));
+}
+
+/// A ring net that is cut to its banks, ropes side by side and by name.
+#[test]
+fn a_ring_net_that_is_killed_and_resumed_ends_with_the_same_bits() {
+    let whole = undisturbed(RINGS, "whole_rings", &[]);
+    kill_and_resume(RINGS, "rings_killed", 4, &[], 6);
+    assert_eq!(whole, numbers(&folder_of("rings_killed")));
 }
 
 /// Several starts side by side, and a barrier of cylinders.

@@ -112,14 +112,7 @@ pub fn put_named(e: &mut Entries, table: &[Listed], problems: &mut Vec<Problem>)
                 let table = rope.table.as_deref().unwrap_or("the program's table of ropes");
                 let source = if rope.remark.is_empty() { String::new() } else { format!("; {}", rope.remark) };
                 let remark = format!("{} of {table}{source}", rope.name);
-                let entry = Entry {
-                    meaning,
-                    value: Value::Number(number),
-                    typed,
-                    origin: Origin::File,
-                    remark,
-                    ..e.values[&key].clone()
-                };
+                let entry = Entry { meaning, value: Value::Number(number), typed, origin: Origin::File, remark };
                 e.put(&path, entry);
             }
         }

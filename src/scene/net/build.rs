@@ -91,6 +91,9 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
     builder.finish()
 }
 
+/// A place of the lattice, by column and row.
+pub(super) type Place = (usize, usize);
+
 pub(super) struct Builder<'a> {
     pub(super) design: &'a FlexibleNet,
     pub(super) channel: &'a Channel,
@@ -102,13 +105,13 @@ pub(super) struct Builder<'a> {
     starts: f64,
     pub(super) width: f64,
     pub(super) barrier: Barrier,
-    pub(super) knots: BTreeMap<(usize, usize), u32>,
+    pub(super) knots: BTreeMap<Place, u32>,
     /// Nodes of main ropes from end to end, by row.
     pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
     /// Knots of the side extensions by row, on either side, from the net outwards.
     pub(super) wings: Vec<[Vec<u32>; 2]>,
     /// In a ring net, the node on the edge at which a side between two places of the lattice was cut, by the place that is left.
-    pub(super) cut_sides: BTreeMap<((usize, usize), (usize, usize)), u32>,
+    pub(super) cut_sides: BTreeMap<[Place; 2], u32>,
 }
 
 impl Builder<'_> {

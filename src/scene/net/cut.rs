@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::design::{Bottom, LateralTo};
-use crate::scene::net::build::Builder;
+use crate::scene::net::build::{Builder, Place};
 use crate::scene::net::outline::{Edge, Outline, Point};
 use crate::section::Survey;
 use dem::elements::segment::SegmentKind;
@@ -17,9 +17,6 @@ const CLEAR: f64 = 0.5;
 const APART: f64 = 0.4;
 /// Rounding, over half a diagonal, within which a knot lies on the lowest rope.
 const ON_THE_ROPE: f64 = 1e-6;
-
-/// A place of the lattice, by column and row.
-type Place = (usize, usize);
 
 /// A side of the mesh that ends on an edge.
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +143,7 @@ impl Builder<'_> {
                 }
             };
             match &self.design.rings {
-                Some(_) => _ = self.cut_sides.insert((places[0], places[1]), node),
+                Some(_) => _ = self.cut_sides.insert(places, node),
                 None => self.add_side_of_mesh([knot, node]),
             }
         }

@@ -37,8 +37,8 @@ impl Builder<'_> {
             let knots = [here, next].map(|place| self.knots.get(&place).copied());
             contacts.extend(knots[0].map(|node| (node, false)));
             let side = match knots {
-                [Some(_), None] => (here, next),
-                [None, Some(_)] => (next, here),
+                [Some(_), None] => [here, next],
+                [None, Some(_)] => [next, here],
                 _ => continue,
             };
             contacts.extend(self.cut_sides.get(&side).map(|&node| (node, true)));

@@ -79,8 +79,9 @@ pub struct RingPull {
 }
 
 impl NetRing {
+    /// Neighbouring contacts, the last with the first at the end.
     pub fn sides(&self) -> impl Iterator<Item = [u32; 2]> {
-        let next = self.nodes.iter().cycle().skip(1);
+        let next = self.nodes[1..].iter().chain(&self.nodes[..1]);
         self.nodes.iter().zip(next).map(|(&from, &to)| [from, to])
     }
 
@@ -131,18 +132,15 @@ impl NetRing {
         let count = self.nodes.len();
         let mut directions = [Vec3::zeros(); N];
         let (mut way, mut rate) = (0.0, 0.0);
-        let mut from = &nodes[self.nodes[0] as usize];
-        for side in 0..count {
-            let next = if side + 1 == count { 0 } else { side + 1 };
-            let to = &nodes[self.nodes[next] as usize];
+        for ([from, to], kept) in self.sides().zip(&mut directions) {
+            let [from, to] = [from, to].map(|node| &nodes[node as usize]);
             let line = to.position - from.position;
             let length = line.norm();
             // Two contacts at one place pull each other nowhere.
             let direction = if length > 0.0 { line / length } else { Vec3::zeros() };
             way += length;
             rate += (to.velocity - from.velocity).dot(&direction);
-            directions[side] = direction;
-            from = to;
+            *kept = direction;
         }
         let mut bending = [Vec3::zeros(); N];
         let bent = self.bend(nodes, &mut bending);
@@ -269,8 +267,8 @@ mod tests {
         let ring = ring(4);
         let mut forces = [Vec3::zeros(); 4];
         ring.pull(&nodes, &mut forces, 1e-3);
-        for contact in 0..4 {
-            for axis in 0..3 {
+        for (contact, force) in forces.iter().enumerate() {
+            for (axis, force) in force.iter().enumerate() {
                 let mut energy = |by: f64| {
                     nodes[contact].position[axis] += by;
                     let stored = ring.pull(&nodes, &mut [Vec3::zeros(); 4], 1e-3).stored;
@@ -278,7 +276,7 @@ mod tests {
                     stored
                 };
                 let slope = (energy(1e-6) - energy(-1e-6)) / 2e-6;
-                assert_relative_eq!(forces[contact][axis], -slope, epsilon = 1e-5);
+                assert_relative_eq!(*force, -slope, epsilon = 1e-5);
             }
         }
     }
