@@ -18,7 +18,7 @@
 //! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes, and its springs by `law::Spring`, from which the stable step and what is shown go as well; its damping in [`dem::contact::restitution`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
-//! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`] |
+//! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`]; the lattice of the contacts is in `scene::net::grid` and `scene::net::cut`, and what asks of `net.rings` elsewhere (`guideline`, [`fidelity`], [`report::site`], [`report::statements`]) asks of the new kind too |
 //! | a rope that can be named | a line in `design/ropes.csv` |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands` and `Barrier::springs` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
@@ -52,7 +52,7 @@
 //! | something a run depends on | a field that is kept with [`dem::simulation::Simulation`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | something recorded | a field of what [`report::recording`] writes; raise its `FORMAT` and make `tests/fixtures/recorded.bin` anew |
 //! | what the replay shows | [`dem::recorders::film`], its packing in [`report::replay`], its drawing in `templates/replay.js` |
-//! | a picture of the report | [`report::pictures`], its drawing in [`report::plots`], its style in `templates/pictures.css` |
+//! | a picture of the report | [`report::pictures`] of a simulation, [`report::site`] of the design alone, its drawing in [`report::plots`], its style in `templates/pictures.css` |
 //!
 //! # Invariants
 //! * The engine is a crate of its own, `crates/dem`, so that the compiler keeps it from the rest. `design` knows no later link of the chain;

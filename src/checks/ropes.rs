@@ -202,8 +202,7 @@ mod tests {
         let verdict = |windings: &str, tension: f64| {
             let text = text.replace("windings: 12", &format!("windings: {windings}"));
             let design = read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
-            let load = tension / design.factors.load;
-            let demand = Demand { simulation: Some(load * design.factors.load), ..Demand::default() };
+            let demand = Demand { simulation: Some(tension), ..Demand::default() };
             let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
             let rings = net.rings.expect("rings");
             let outcome = check_rings(&design, &rings, CheckName::new("x", "x", Unit::Newton, "x"), demand);

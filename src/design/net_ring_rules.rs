@@ -1,5 +1,6 @@
 //! Contradictions between values of a ring net; listed in [`super::rules`].
 
+use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
 use crate::design::net_rings::{ring_key, tested_chain, wires};
 use crate::design::net_rules::rope_heights;
@@ -85,6 +86,19 @@ pub fn rings_fit_between_ropes(e: &Entries) -> Option<Problem> {
     let stretched = |length: f64| length / (diameter * (length / diameter).round().max(1.0));
     let bays = heights.windows(2).map(|pair| pair[1] - pair[0]);
     let worst = bays.filter(|bay| *bay > 0.0).max_by(|a, b| stretched(*a).total_cmp(&stretched(*b)))?;
+    // Between the banks, at the height of the barrier.
+    let across = section(e).zip(height_of_barrier(e)).map(|(section, height)| section.width(height));
+    if let Some(width) = across.filter(|width| stretched(*width) > MOST_STRETCHED) {
+        let [width, ring] = [width, diameter].map(|length| Dimension::Length.show(length));
+        return Some(
+            Problem::new(
+                ring_key("diameter"),
+                format!("rings of {ring} across {width}"),
+                "rings that fit the width, stretched by 10 % at most",
+            )
+            .hint("choose rings of which a whole number is about as wide as the barrier"),
+        );
+    }
     (stretched(worst) > MOST_STRETCHED).then(|| {
         let [bay, ring] = [worst, diameter].map(|length| Dimension::Length.show(length));
         let (more, count) = (100.0 * (stretched(worst) - 1.0), (worst / diameter).round().max(1.0));

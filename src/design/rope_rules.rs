@@ -1,4 +1,4 @@
-//! Rules of single ropes.
+//! Rules of ropes, one by one and side by side.
 
 use crate::design::entries::Entries;
 use crate::design::rope_entries::{OF_A_ROPE, levels, parts};

@@ -910,7 +910,8 @@ pub const EITHER: &[Either] = &[
     Either { keys: &["width", "section", "terrain"], needed: true, instead: &[] },
     Either { keys: &["mass", "volume"], needed: true, instead: &[["arrival", "surges"], ["arrival", "hydrograph"]] },
     Either { keys: &["volume", "length"], needed: true, instead: &[] },
-    Either { keys: &["count", "heights"], needed: true, instead: &[] },
+    Either { keys: &["count", "heights", "levels"], needed: true, instead: &[] },
+    Either { keys: &["mesh_opening", "net"], needed: true, instead: &[] },
     Either { keys: &["plateau_force", "curve"], needed: true, instead: &[] },
     Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: &[] },
 ];

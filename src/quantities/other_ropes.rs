@@ -13,7 +13,7 @@ pub const LATERAL: Quantity =
     .json("lateral_tension_peak_n")
     .demanded(Demanded::Load(|_, _| None));
 
-/// Largest tension of the net.
+/// Largest tension of the net's ropes; of a ring net, the force of a leg as that of a chain that is as near to breaking.
 pub const NET: Quantity =
     Quantity::new("net_tension", "Tension of the net's ropes", Newton, Of::Run, |run| run.peak(&of_ropes::NET))
         .json("net_tension_peak_n")

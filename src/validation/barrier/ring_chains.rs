@@ -34,7 +34,7 @@ const TESTS: [(u32, f64, f64); 6] = [
 ];
 /// Windings, and share of the wires' strength that the middle one of five rings used.
 const FIVE: [(u32, f64); 3] = [(5, 0.551), (7, 0.554), (9, 0.559)];
-/// How fast a grip is drawn (m/s); the first steps are shorter than a thousandth of the ring's slowest swing.
+/// How fast a grip is drawn (m/s), and the step (s).
 const SPEED: f64 = 0.2;
 const STEP: f64 = 2e-5;
 /// Viscous slowing of the contacts (1/s).
@@ -75,7 +75,7 @@ pub(super) fn add_ring(barrier: &mut Barrier, nodes: &[u32], wires: &Wires, diam
 struct Pulled {
     /// Elongation of the whole (m) and force on the first grip (N), step by step, up to the break.
     curve: Vec<[f64; 2]>,
-    /// Force of a leg of the last ring at the break (N).
+    /// Tension of the last ring at the break, without what bends it (N).
     leg: f64,
 }
 

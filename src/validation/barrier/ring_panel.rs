@@ -14,7 +14,7 @@ use dem::tables::grains::GrainShape;
 pub const CASE: Case = Case {
     id: "D29",
     suite: Suite::Net,
-    title: "A panel of 3 m × 3 m of rings of 300 mm, and one of ropes in squares of 300 mm, pushed through slowly and hit by a ball at 8 m/s",
+    title: "A panel of 3 m × 3 m of rings of 300 mm, and one of ropes in squares of 300 mm, pushed in by 0.5 m slowly and hit by a ball at 8 m/s",
     source: "Energy: what the ball loses is stored, moves, or is lost in dashpots; pushed slowly, the work of the body is the energy stored",
     tier: Tier::ClosedForm,
     weakness: "elastic rings; no panel test is compared",

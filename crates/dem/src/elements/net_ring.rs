@@ -9,7 +9,7 @@
 //! Both come from a potential, ½ b Σ (d − D)₊² + ½ k (P − P₁)₊², so that a ring gives back what was put in, but for the dashpot c. Real rings
 //! bend for good: what they take away by that is left out.
 //!
-//! The wires of one leg carry N = T + ½ max f. They break earlier the more sharply the ring is turned round a contact: N is told as that of
+//! The wires of one leg carry N = T + ½ max f, without what the dashpot adds. They break earlier the more sharply the ring is turned round a contact: N is told as that of
 //! a chain of rings that breaks as soon, N' = N R₁₈₀ / R(θ), with R between R₉₀ at a turn of 90° or less and R₁₈₀ at 180°, in proportion
 //! to −cos θ of the sharpest turn.
 
@@ -25,7 +25,7 @@ pub const MOST_CONTACTS: usize = 12;
 /// A ring and its contacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NetRing {
-    /// Contacts in their order round the ring: two or more.
+    /// Contacts in their order round the ring: two or more, and an even number where it bends.
     pub nodes: Vec<u32>,
     /// Way round all contacts from which the ring is taut, P₁ (m).
     pub taut_from: f64,

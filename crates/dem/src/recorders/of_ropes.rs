@@ -18,7 +18,7 @@ pub const LARGEST: Channel = Channel { name: "rope_largest", unit: "n", rows: Ro
 pub const EXTENSION: Channel = Channel { name: "rope_extension", unit: "m", rows: Rows::EachRope };
 /// Largest tension in the lateral ropes.
 pub const LATERAL: Channel = Channel { name: "lateral_largest", unit: "n", rows: Rows::One };
-/// Largest tension in the net.
+/// Largest tension in the net's ropes; of a ring net, the force of a leg as that of a chain that is as near to breaking.
 pub const NET: Channel = Channel { name: "net_largest", unit: "n", rows: Rows::One };
 /// Pieces of rope, and rings of the net, that have broken so far.
 pub const BROKEN: Channel = Channel { name: "broken_pieces", unit: "", rows: Rows::One };
