@@ -1,6 +1,6 @@
 //! Wire ropes by name: a table that comes with the program, and one that a design may name.
 
-use crate::design::table_file::{Wrong, factor, name_and_unit, without_unit};
+use crate::design::table_file::{Wrong, factor, name_and_unit, reader, without_unit};
 use crate::units::Dimension;
 
 /// A rope of the table.
@@ -76,15 +76,7 @@ fn column(head: &str) -> Result<Column, Wrong> {
 /// What is wrong, with its line, and what would be right.
 pub fn parse(bytes: &[u8]) -> Result<Vec<Listed>, Wrong> {
     let wrong = |found: String| (found, EXAMPLE.to_string());
-    let text = std::str::from_utf8(bytes).map_err(|_| wrong("which is not text in UTF-8".into()))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
-    let delimiter = [b';', b'\t'].into_iter().find(|mark| first.as_bytes().contains(mark)).unwrap_or(b',');
-    let mut table = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+    let (mut table, _) = reader(bytes, false).map_err(wrong)?;
     let heads: Vec<String> = match table.headers() {
         Ok(heads) => heads.iter().map(String::from).collect(),
         Err(error) => return Err(wrong(format!("whose head cannot be read: {error}"))),

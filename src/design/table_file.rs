@@ -28,16 +28,7 @@ impl Asked<'_> {
         head: impl FnOnce(&[&str]) -> Result<Vec<f64>, Wrong>,
     ) -> Result<Vec<Vec<f64>>, Wrong> {
         let wrong = |found: String| (found, self.example.to_string());
-        let text = std::str::from_utf8(bytes).map_err(|_| wrong("which is not text in UTF-8".into()))?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
-        let delimiter = [b';', b'\t'].into_iter().find(|mark| first.as_bytes().contains(mark)).unwrap_or(b',');
-        let mut table = csv::ReaderBuilder::new()
-            .delimiter(delimiter)
-            .comment(Some(b'#'))
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
+        let (mut table, delimiter) = reader(bytes, true).map_err(wrong)?;
         let factors = {
             let names = table.headers().map_err(|error| wrong(format!("whose head cannot be read: {error}")))?;
             head(&names.iter().collect::<Vec<_>>())?
@@ -77,6 +68,21 @@ impl Asked<'_> {
         }
         Ok(rows)
     }
+}
+
+/// Reads a table whose columns are parted by a semicolon, a tab or a comma, and which of them it is; `flexible` takes rows of any length.
+pub fn reader(bytes: &[u8], flexible: bool) -> Result<(csv::Reader<&[u8]>, u8), String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "which is not text in UTF-8".to_string())?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let delimiter = [b';', b'\t'].into_iter().find(|mark| first.as_bytes().contains(mark)).unwrap_or(b',');
+    let table = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .comment(Some(b'#'))
+        .flexible(flexible)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    Ok((table, delimiter))
 }
 
 /// The name of a column without its unit, and the unit if it names one: `height (m)`, `height [m]`, `height_m`.
