@@ -299,9 +299,18 @@ fn spoilt(name: &str, spoil: impl Fn(&Path)) -> (PathBuf, Output) {
     assert!(wait_until_kept(&mut child, &out));
     let _ = child.kill();
     let _ = child.wait();
+    end_the_exchange(&out.join("checkpoint"));
     spoil(&out.join("checkpoint"));
     let output = run(&["resume", &out.display().to_string()]);
     (out, output)
+}
+
+/// A program that is killed between the two renames of a file leaves the new one under its temporary name; here it takes its place.
+fn end_the_exchange(kept: &Path) {
+    let (bin, new) = (simulation_in(kept, "bin"), simulation_in(kept, "tmp"));
+    if !bin.exists() && new.exists() {
+        std::fs::rename(&new, new.with_extension("bin")).expect("renamed");
+    }
 }
 
 fn simulation_in(kept: &Path, end: &str) -> PathBuf {
