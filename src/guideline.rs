@@ -1,11 +1,14 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
+pub(crate) mod posts;
+
 use crate::design::{
     Arrival, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, Level, RunUp,
 };
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
+pub use self::posts::PostLoad;
 pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::impact::hertz;
@@ -43,8 +46,11 @@ pub struct Guideline {
     pub bolt_force: Option<f64>,
     /// The bay of a ring net whose rings bear most, with the partial factor.
     pub rings: Option<RingLoad>,
-    /// The dissipators, if there are any.
+    /// Each post of a net, from the left to the right looking downstream.
+    pub posts: Vec<PostLoad>,
+    /// The dissipators of the main ropes, and of the ropes that retain posts, if there are any.
     pub dissipator: Option<Yielding>,
+    pub retaining: Option<Yielding>,
     /// Whether a dissipator caps the load of its anchor: not where lateral ropes are tied to the anchors, past it.
     pub anchors_capped: bool,
     /// Level that the event reaches in front of the barrier, run-up and deposit, normal to the bed (m), and whether it is known; where it is
@@ -68,8 +74,9 @@ impl Guideline {
 pub struct RopeLoad {
     /// Heights above the bed of the strip that the rope carries (m); the topmost has no upper end.
     pub strip: [f64; 2],
-    /// From bank to bank (m).
+    /// From bank to bank, or the longest between banks and posts (m), and the other spans.
     pub span: f64,
+    pub others: Vec<f64>,
     /// Ropes that run side by side and share the load.
     pub ropes: u16,
     /// Load across the span, of all of them and of one (N/m): a point load is that of one.
@@ -148,8 +155,10 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         face_moment: stages.iter().map(|case| case.face_moment(hit, lean(design))).fold(0.0, larger_or_nan),
         metre_force: stages.iter().map(|case| case.metre_force(hit, input.barrier_height)).fold(0.0, larger_or_nan),
         foot_moment: stages.iter().map(|case| case.foot_moment(hit, lean(design))).fold(0.0, larger_or_nan),
+        posts: posts::loads(design, ropes.last(), &stages, height_over_bed(design)),
         ropes,
         dissipator: dissipator(design),
+        retaining: posts::retaining(design),
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
         level: level.unwrap_or_else(|least| least),
         level_is_known: level.is_ok(),
@@ -466,7 +475,7 @@ fn dissipator(design: &Design) -> Option<Yielding> {
 }
 
 /// Angle by which the barrier leans upstream from the bed's normal (rad).
-fn lean(design: &Design) -> f64 {
+pub fn lean(design: &Design) -> f64 {
     match &design.barrier {
         BarrierDesign::RigidWall(wall) => wall.lean,
         BarrierDesign::FlexibleNet(net) => design.channel.slope + net.tilt,
@@ -489,15 +498,21 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             let strip = [low, high];
             // The bed holds the lowest rope from bank to bank, or it hangs over its opening.
             let held = index == 0 && net.bottom == Bottom::Fixed;
-            let [from, to] = if held { section.bed_ends() } else { section.banks(heights[index]) };
+            let ends = if held { section.bed_ends() } else { section.banks(heights[index]) };
+            let stops = if index == last { posts::stops(design, ends) } else { ends.to_vec() };
             let Level { ropes, rope, .. } = net.main_ropes.levels[index];
+            let mut others: Vec<f64> = stops.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            let longest = (0..others.len()).max_by(|a, b| others[*a].total_cmp(&others[*b])).unwrap_or(0);
+            let span = others.remove(longest);
             let span =
-                RopeInput { span: to - from, axial_stiffness: rope.axial_stiffness(), dissipator: dissipator(design) };
+                RopeInput { span, others, axial_stiffness: rope.axial_stiffness(), dissipator: dissipator(design) };
             let spread_of = |case: &LoadCase| match &section {
                 Section::Rectangle { .. } => case.strip_force(low, high),
                 Section::Surveyed(survey) => {
                     let loaded = high.min(case.diagram.top);
-                    even_load(survey, [from, to], loaded, |ground| case.strip_force(low.max(ground), high))
+                    let per_width = |ground: f64| case.strip_force(low.max(ground), high);
+                    let bay = |bay: usize| even_load(survey, &stops, bay, loaded, per_width);
+                    (0..stops.len() - 1).map(bay).fold(0.0, larger_or_nan)
                 }
             };
             let on_rope = |case: &LoadCase| {
@@ -525,7 +540,8 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             let point = 0.5 * design.factors.load * spread * span.span;
             if held {
                 // It neither sags nor pulls at anchors: the bed takes its load where it is.
-                return RopeLoad { strip, ropes, span: span.span, load, of_one: load, point, ..RopeLoad::default() };
+                let (span, of_one) = (span.span, load);
+                return RopeLoad { strip, ropes, span, load, of_one, point, ..RopeLoad::default() };
             }
             // A boulder hits one of them.
             let shared = 1.0 / f64::from(ropes);
@@ -537,6 +553,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
                 strip,
                 ropes,
                 span: span.span,
+                others: span.others,
                 load,
                 of_one,
                 point,
@@ -566,12 +583,33 @@ fn ring_load(design: &Design, stages: &[LoadCase]) -> Option<RingLoad> {
 /// Slices of a span over which the load of a rope is summed.
 const SLICES: f64 = 100.0;
 
+/// The ground between two places across the channel, from point to point.
+fn pieces(survey: &Survey, [from, to]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
+    let cut = |pair: &[[f64; 2]]| {
+        let [start, end] = [pair[0][0].max(from), pair[1][0].min(to)];
+        let at = |y: f64| {
+            let run = pair[1][0] - pair[0][0];
+            let share = if run > 0.0 { (y - pair[0][0]) / run } else { 0.0 };
+            [y, pair[0][1] + share * (pair[1][1] - pair[0][1])]
+        };
+        let whole = start == pair[0][0] && end == pair[1][0];
+        match whole {
+            true => Some([pair[0], pair[1]]),
+            false => (start < end).then(|| [at(start), at(end)]),
+        }
+    };
+    survey.points().windows(2).filter_map(cut).collect()
+}
+
 /// The even load over a span that bends a beam and pushes on its supports no less than what a section hands to it (N/m): `per_width` gives the
-/// force on a metre of width whose ground is at a height, up to `top`, above which there is none. What presses beside the span goes to its ends.
-fn even_load(survey: &Survey, [from, to]: [f64; 2], top: f64, per_width: impl Fn(f64) -> f64) -> f64 {
+/// force on a metre of width whose ground is at a height, up to `top`, above which there is none. What presses beside the first and the last
+/// span, between banks and posts, goes to their ends.
+fn even_load(survey: &Survey, stops: &[f64], bay: usize, top: f64, per_width: impl Fn(f64) -> f64) -> f64 {
+    let [from, to] = [stops[bay], stops[bay + 1]];
+    let within = [if bay == 0 { f64::NEG_INFINITY } else { from }, if bay + 2 == stops.len() { f64::INFINITY } else { to }];
     let span = to - from;
     let mut loads: Vec<[f64; 2]> = Vec::new();
-    for pair in survey.points().windows(2) {
+    for pair in pieces(survey, within) {
         // As far as it is lower than the load.
         let below = |height: f64| ((top - pair[0][1]) / (height - pair[0][1])).clamp(0.0, 1.0);
         let shares = match (pair[0][1] < top, pair[1][1] < top) {
@@ -762,6 +800,7 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &single.barrier else { panic!("a net") };
         let rope = RopeInput {
             span: two.span,
+            others: Vec::new(),
             axial_stiffness: net.main_ropes.levels[2].rope.axial_stiffness(),
             dissipator: dissipator(&single),
         };

@@ -17,6 +17,7 @@ pub const DESIGN_LIMIT: &str = "limit of the design file, or its default (see th
 pub const RING_FACTOR: &str = "half the break of a chain of such rings, of one that follows from the wires 0.83 (the lowest of the tests, Guo 2022) / partial factor of the rope (after EN 1993-1-11, not checked against the original)";
 pub const ROPE_FACTOR: &str = "breaking load × termination efficiency / partial factor of the rope (after EN 1993-1-11, not checked against the original; all are in the design file)";
 pub const ANCHOR_FACTOR: &str = "anchor resistance / partial factor (after EN 1997-1; set it in the design file)";
+pub const POST_STRENGTH: &str = "what buckling (EN 1993-1-1, 6.3.1) and the moment of what presses on the post leave of its section, or the resistances given / partial factor of posts";
 pub const STROKE_DATA: &str = "stroke of the dissipator, data of the design file";
 pub const PLATEAU_DATA: &str = "plateau of the dissipator or largest force of its curve, data of the design file; yielding passes, more than that means that the stroke is used up and fails";
 pub const WALL_BALANCE: &str = "balance of forces and moments on the wall, with the factors of the design file";

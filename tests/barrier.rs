@@ -50,7 +50,7 @@ fn a_dissipator_stops_a_mass_over_its_plateau() {
     barrier.nodes[1].velocity.x = 10.0;
     barrier.dissipators = vec![Dissipator {
         nodes: [0, 1],
-        rope: 0,
+        kind: SegmentKind::Main(0),
         rest_length: 1.0,
         radius: 0.016,
         stiffness: 45.957e6,
@@ -83,7 +83,7 @@ fn a_rope_slides_through_its_ring_up_to_the_capstan_limit() {
             node(Vec3::new(0.0, 1.0, 0.0), 1.0, true),
         ];
         barrier.segments = vec![segment([0, 1], 0.95, 0.0), segment([1, 2], 0.999, 0.0)];
-        barrier.chains = vec![Chain { segments: vec![0, 1], friction, shortest: 0.1 }];
+        barrier.chains = vec![Chain { segments: vec![0, 1], frictions: vec![friction], shortest: 0.1 }];
         let total = 0.95 + 0.999;
         let mut simulation = simulate(barrier, Vec3::zeros(), 1e-4);
         for _ in 0..20 {
@@ -349,7 +349,7 @@ fn grains_meet_what_a_dissipator_has_paid_out() {
     barrier.nodes = vec![node(Vec3::zeros(), 1.0, true), node(Vec3::y() * 2.0, 1.0, true)];
     barrier.dissipators = vec![Dissipator {
         nodes: [0, 1],
-        rope: 0,
+        kind: SegmentKind::Main(0),
         rest_length: 0.07,
         radius: 0.016,
         stiffness: 46e6,
@@ -383,7 +383,7 @@ fn the_account_of_a_sliding_rope_closes_in_any_number_of_steps() {
             node(Vec3::new(4.0, 0.0, 0.0), 1.0, true),
         ];
         barrier.segments = vec![segment([0, 1], 1.0, 0.0), segment([1, 2], 1.5, 0.0), segment([2, 3], 1.5, 0.0)];
-        barrier.chains = vec![Chain { segments: vec![0, 1, 2], friction: 0.1, shortest: 0.2 }];
+        barrier.chains = vec![Chain { segments: vec![0, 1, 2], frictions: vec![0.1; 2], shortest: 0.2 }];
         let mut simulation = simulate(barrier, Vec3::new(0.0, 0.0, -9.81), 2e-4 * f64::from(parts));
         simulation.barrier_parts = parts;
         simulation.step_and_account().expect("stable");

@@ -72,7 +72,7 @@ fn a_broken_rope_runs_out_through_its_rings() {
         [[-1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| node(Vec3::new(x, y, 0.0), 1.0, true)).to_vec();
     barrier.segments = vec![segment([0, 1], 0.98, 0.0), segment([1, 2], 0.98, 0.0), segment([2, 3], 0.98, 0.0)];
     barrier.segments[2].strength.breaking = 60e3;
-    barrier.chains = vec![Chain { segments: vec![0, 1, 2], friction: 0.4, shortest: 0.1 }];
+    barrier.chains = vec![Chain { segments: vec![0, 1, 2], frictions: vec![0.4; 2], shortest: 0.1 }];
     let mut simulation = simulate(barrier, Vec3::zeros(), 1e-4);
     for _ in 0..20 {
         simulation.step().expect("stable");

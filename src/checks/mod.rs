@@ -11,6 +11,7 @@ pub(crate) mod height;
 pub(crate) mod implausible;
 pub(crate) mod not_covered;
 pub mod outcome;
+pub(crate) mod posts;
 pub(crate) mod range;
 pub(crate) mod retained;
 pub(crate) mod ropes;
@@ -42,6 +43,7 @@ const CHECKS: &[Check] = &[
     ropes::check_plateau,
     anchors::check,
     bolts::check,
+    posts::check,
     retained::check,
     height::check,
     freeboard::check,

@@ -44,7 +44,7 @@ pub fn check_lateral(design: &Design, demands: &Demands) -> Vec<Outcome> {
     vec![Outcome { kind: Kind::LateralRopes, ..outcome }]
 }
 
-fn check(design: &Design, rope: &Rope, name: CheckName, demand: Demand) -> Outcome {
+pub(super) fn check(design: &Design, rope: &Rope, name: CheckName, demand: Demand) -> Outcome {
     let mut outcome = Outcome::at_most(name, demand, resistance(design, rope), design.limits.rope_utilisation);
     leave_open_what_is_not_known(design, rope, &mut outcome);
     outcome

@@ -2,11 +2,11 @@
 
 use crate::demand::value::{Demand, Seen};
 use crate::design::Factors;
-use crate::guideline::{Guideline, RopeLoad};
+use crate::guideline::{Guideline, PostLoad, RopeLoad};
 use crate::larger::larger_or_nan;
-use crate::quantities::dissipator;
+use crate::quantities::{dissipator, posts};
 use crate::quantities::observed::Observed;
-use crate::quantities::quantity::{Demanded, Quantity};
+use crate::quantities::quantity::{Demanded, OverPlateau, Quantity};
 use crate::starts::Spread;
 
 /// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
@@ -53,6 +53,8 @@ impl Meeting<'_> {
             }
             Some(Demanded::RopeLoad { capped }) => self.by_rope(quantity, capped),
             Some(Demanded::Stroke) => self.strokes(quantity),
+            Some(Demanded::LoadOfPost(by_equations, over)) => self.loads_of_posts(quantity, by_equations, over),
+            Some(Demanded::StrokeOfPost) => self.strokes_of_posts(quantity),
             Some(Demanded::Plateau) => vec![Demand {
                 guideline: self.guideline.ropes.iter().map(|rope| rope.state.tension).reduce(larger_or_nan),
                 // Capped at the plateau, and so judged by the largest of the packings.
@@ -178,6 +180,50 @@ impl Meeting<'_> {
         let tension = self.loaded(rope)?.state.tension;
         let excess = if self.yields(tension) { self.excess() } else { 0.0 };
         Some(tension + excess)
+    }
+
+    /// Loads of posts, with what their dissipators may pull beyond their plateau.
+    fn loads_of_posts(&self, quantity: &Quantity, by_equations: fn(&PostLoad) -> f64, over: OverPlateau) -> Vec<Demand> {
+        let retaining = self.guideline.retaining.as_ref();
+        let least = retaining.map_or(f64::INFINITY, |given| given.least());
+        // Asked so that a tension that is not known may yield.
+        let with_more = |load: f64, tension: f64| {
+            let stays = tension < least / CAP_TOLERANCE;
+            match (over, retaining) {
+                (_, None) => load,
+                _ if stays => load,
+                (OverPlateau::Adds, Some(given)) => load + (self.factors.overstrength - 1.0) * given.largest,
+                (OverPlateau::Grows, Some(_)) => load * self.factors.overstrength,
+            }
+        };
+        let of = |(number, post): (usize, &PostLoad)| {
+            let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
+            let tension = |seen: &Observed| seen.each(&posts::RETAINING).get(number).copied().unwrap_or(f64::NAN);
+            let pulled = largest(self.governing, &tension);
+            let simulated = spread(self.governing, &value).map(|spread| with_more(self.factor * spread.upper(), pulled));
+            Demand {
+                guideline: Some(with_more(by_equations(post), post.head.tension)),
+                simulation: simulated,
+                characteristic: self.characteristic(&value),
+                cap: None,
+            }
+        };
+        self.guideline.posts.iter().enumerate().map(of).collect()
+    }
+
+    fn strokes_of_posts(&self, quantity: &Quantity) -> Vec<Demand> {
+        let stop = self.guideline.retaining.as_ref().map_or(f64::INFINITY, |given| given.stroke);
+        let of = |(number, post): (usize, &PostLoad)| {
+            let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
+            let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
+            Demand {
+                guideline: Some(post.stroke),
+                simulation: spread(self.governing, &value).map(|spread| stopped(spread.upper())),
+                characteristic: self.characteristic(&value).map(stopped),
+                cap: None,
+            }
+        };
+        self.guideline.posts.iter().enumerate().map(of).collect()
     }
 
     /// Strokes end at their stop, whatever the scatter says.

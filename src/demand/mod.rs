@@ -66,6 +66,7 @@ mod tests {
     use crate::design::Design;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
+    use crate::quantities::counts::Counts;
     use crate::quantities::observed::Observed;
     use crate::quantities::{
         anchor_load, bed, dissipator, height, mass, other_ropes, rope_tension, total_force, wall, wear,
@@ -87,7 +88,7 @@ mod tests {
         let observed: Vec<Observed> = starts
             .iter()
             .map(|&[net, anchor, retained]| {
-                Observed::of_nothing(0, 0)
+                Observed::of_nothing(Counts::default())
                     .with(&other_ropes::NET, &[net])
                     .with(&anchor_load::PEAK, &[0.0, anchor, 0.0])
                     .with(&rope_tension::PEAK, &[0.0; 3])
@@ -147,7 +148,7 @@ mod tests {
         let mut design = small_net();
         (design.factors.load, design.factors.overstrength) = (1.5, 1.25);
         let seen = |net: f64, anchor: f64, stroke: f64, retained: f64| {
-            Observed::of_nothing(0, 0)
+            Observed::of_nothing(Counts::default())
                 .with(&other_ropes::NET, &[net])
                 .with(&anchor_load::PEAK, &[0.0, anchor, 30e3])
                 .with(&rope_tension::PEAK, &[0.0, 70e3, 40e3])
@@ -201,7 +202,7 @@ mod tests {
             (None, None)
         );
         assert_eq!(alone.one(&mass::RETAINED).characteristic, None);
-        let seen = |net: f64| Observed::of_nothing(3, 0).with(&other_ropes::NET, &[net]);
+        let seen = |net: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[net]);
         let [one, two] = [seen(1e3), seen(2e3)];
         let both = Seen { characteristic: vec![&one], factored: vec![&two] };
         let design = small_net();
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn a_share_that_is_not_a_number_in_either_case_is_none() {
         let design = small_net();
-        let seen = |retained: f64| Observed::of_nothing(3, 0).with(&mass::RETAINED, &[retained]);
+        let seen = |retained: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&mass::RETAINED, &[retained]);
         for (one, other) in [(0.9, f64::NAN), (f64::NAN, 0.9)] {
             let [one, other] = [seen(one), seen(other)];
             let both = Seen { characteristic: vec![&one], factored: vec![&other] };
@@ -243,7 +244,7 @@ mod tests {
         // With a factor of 1.5 and an overstrength of 1.25: 1.5 · 100 + 0.25 · 100.
         let mut design = small_net();
         (design.factors.load, design.factors.overstrength) = (1.5, 1.25);
-        let seen = Observed::of_nothing(3, 0)
+        let seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
             .with(&anchor_load::PEAK, &[0.0, 100e3, 0.0])
             .with(&dissipator::TENSION, &[0.0, 100e3, 0.0]);
         let alone = Seen { characteristic: vec![&seen], factored: Vec::new() };
@@ -267,7 +268,7 @@ mod tests {
         let (curve, [plateau, stroke]) = crate::yield_curve::YieldCurve::of(&[[0.0, 100e3], [1.0, 40e3]]);
         (given.curve, given.plateau, given.stroke) = (curve, plateau, stroke);
         let met = |tension: f64, stroke: f64| {
-            let seen = Observed::of_nothing(3, 0)
+            let seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
                 .with(&anchor_load::PEAK, &[0.0, tension, 0.0])
                 .with(&dissipator::TENSION, &[0.0, tension, 0.0])
                 .with(&dissipator::STROKE, &[0.0, stroke, 0.0]);
@@ -289,7 +290,7 @@ mod tests {
         let stroke = |values: &[f64]| {
             let seen: Vec<Observed> = values
                 .iter()
-                .map(|stroke| Observed::of_nothing(3, 0).with(&dissipator::STROKE, &[0.0, *stroke, 0.0]))
+                .map(|stroke| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&dissipator::STROKE, &[0.0, *stroke, 0.0]))
                 .collect();
             let seen = Seen { characteristic: seen.iter().collect(), factored: Vec::new() };
             let met = Demands::meet(&guideline(&design), &seen, &design.factors);
@@ -317,7 +318,7 @@ mod tests {
     fn what_broke_or_drew_out_is_that_of_the_worst_packing() {
         let design = small_net();
         let seen = |broken_pieces: f64, drawn_out: f64| {
-            Observed::of_nothing(3, 0).with(&wear::BROKEN, &[broken_pieces]).with(&wear::DRAWN_OUT, &[drawn_out])
+            Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&wear::BROKEN, &[broken_pieces]).with(&wear::DRAWN_OUT, &[drawn_out])
         };
         let [one, other] = [seen(2.0, 0.1), seen(0.0, 0.3)];
         let both = Seen { characteristic: vec![&one, &other], factored: Vec::new() };
@@ -330,7 +331,7 @@ mod tests {
     fn a_metre_of_a_wall_takes_its_share_of_what_is_simulated() {
         let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
         (design.factors.load, design.channel.width) = (1.35, 15.2);
-        let observed = Observed::of_nothing(0, 0).with(&total_force::ON_A_METRE, &[600e3 / 15.2]);
+        let observed = Observed::of_nothing(Counts::default()).with(&total_force::ON_A_METRE, &[600e3 / 15.2]);
         let seen = Seen { characteristic: vec![&observed], factored: Vec::new() };
         let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
         assert_relative_eq!(

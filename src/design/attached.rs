@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::design::curve_file::{self, Way};
-use crate::design::dissipator_entries::{CURVES, curve_key};
+use crate::design::dissipator_entries::{CURVES, OF_MAIN_ROPES, OF_RETAINING_ROPES, curve_key};
 use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::hydrograph_entries::{LISTS, key};
 use crate::design::hydrograph_file::{self, Column};
@@ -35,7 +35,7 @@ pub fn read_attached(entries: &mut Entries, open: Open, problems: &mut Vec<Probl
     if let Some(ropes) = read_ropes(entries, open, problems, &mut attached) {
         put_named(entries, &ropes, problems);
     }
-    for read in [read_section, read_terrain, read_hydrograph, read_curve] {
+    for read in [read_section, read_terrain, read_hydrograph, read_curve, read_curve_of_retaining_ropes] {
         if let Some(read) = read(entries, open) {
             match read {
                 Ok((name, bytes)) => drop(attached.insert(name, bytes)),
@@ -134,7 +134,15 @@ fn read_hydrograph(entries: &mut Entries, open: Open) -> Read {
 }
 
 fn read_curve(entries: &mut Entries, open: Open) -> Read {
-    let file = curve_key("file");
+    read_curve_at(entries, open, OF_MAIN_ROPES)
+}
+
+fn read_curve_of_retaining_ropes(entries: &mut Entries, open: Open) -> Read {
+    read_curve_at(entries, open, OF_RETAINING_ROPES)
+}
+
+fn read_curve_at(entries: &mut Entries, open: Open, place: &str) -> Read {
+    let file = curve_key(place, "file");
     let wanted = "a table of stroke or travel, and force, beside the design file";
     let read = opened(entries, &file, open, wanted)?;
     Some(read.and_then(|(name, bytes)| {
@@ -145,7 +153,7 @@ fn read_curve(entries: &mut Entries, open: Open) -> Read {
             Way::Travel => CURVES[1],
         };
         let typed = format!("{} points of {name}", points.len());
-        put(entries, &file, &curve_key(list), Value::Points(points), typed);
+        put(entries, &file, &curve_key(place, list), Value::Points(points), typed);
         Ok((name, bytes))
     }))
 }

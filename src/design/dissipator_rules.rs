@@ -1,20 +1,36 @@
 //! Contradictions between the values of dissipators.
 
-use crate::design::dissipator_entries::{CURVES, DISSIPATORS, SAME, curve_key, dissipators, key, points};
+use crate::design::dissipator_entries::{CURVES, PLACES, SAME, curve_key, dissipators, key, points};
 use crate::design::entries::Entries;
 use crate::design::show::length;
 use crate::problem::Problem;
 use crate::units::Dimension;
 
+/// Rules of dissipators, wherever they stand.
+const RULES: &[fn(&Entries, &str) -> Option<Problem>] = &[
+    they_yield_one_way,
+    curve_goes_forwards,
+    curve_is_within_bounds,
+    curve_is_no_stiffer_than_elastic,
+    only_what_does_not_fall_stands_in_series,
+    curve_falls_gently,
+    dissipators_are_stiff,
+];
+
+/// What is wrong with the dissipators: the first of each place.
+pub fn are_sound(e: &Entries) -> Vec<Problem> {
+    PLACES.iter().flat_map(|place| RULES.iter().filter_map(|rule| rule(e, place))).collect()
+}
+
 /// Largest travel (m) and force (N) of a point.
 const BOUNDS: [f64; 2] = [20.0, 1e8];
 
 /// They yield at one force or by a curve.
-pub fn they_yield_one_way(e: &Entries) -> Option<Problem> {
-    if !e.has_section(DISSIPATORS) {
+fn they_yield_one_way(e: &Entries, place: &str) -> Option<Problem> {
+    if !e.has_section(place) {
         return None;
     }
-    let [plateau, stroke, curve] = ["plateau_force", "stroke", "curve"].map(|name| e.mentions(&key(name)));
+    let [plateau, stroke, curve] = ["plateau_force", "stroke", "curve"].map(|name| e.mentions(&key(place, name)));
     let found = match (plateau, stroke, curve) {
         (true, true, false) | (false, false, true) => return None,
         (true, _, true) => "a plateau_force and a curve",
@@ -23,23 +39,23 @@ pub fn they_yield_one_way(e: &Entries) -> Option<Problem> {
         (false, true, false) => "a stroke without a plateau_force",
         (false, false, false) => "neither a plateau_force nor a curve",
     };
-    Some(Problem::new(DISSIPATORS, found, "either plateau_force and stroke, or a curve").hint(
+    Some(Problem::new(place, found, "either plateau_force and stroke, or a curve").hint(
         "a curve tells force against stroke as tests show it: `curve: {after_unloading: [[0 m, 60 kN], [0.9 m, 140 kN]]}`",
     ))
 }
 
 /// The key of the curve as given, a file included, with its points.
-fn typed(e: &Entries) -> Option<(String, &[[f64; 2]])> {
-    let file = curve_key("file");
+fn typed<'e>(e: &'e Entries, place: &str) -> Option<(String, &'e [[f64; 2]])> {
+    let file = curve_key(place, "file");
     CURVES.iter().find_map(|name| {
-        let points = e.points(&curve_key(name))?;
-        Some((if e.mentions(&file) { file.clone() } else { curve_key(name) }, points))
+        let points = e.points(&curve_key(place, name))?;
+        Some((if e.mentions(&file) { file.clone() } else { curve_key(place, name) }, points))
     })
 }
 
 /// From the beginning on, to and fro in no place.
-pub fn curve_goes_forwards(e: &Entries) -> Option<Problem> {
-    let (path, points) = typed(e)?;
+fn curve_goes_forwards(e: &Entries, place: &str) -> Option<Problem> {
+    let (path, points) = typed(e, place)?;
     let wanted = "two points or more, the first at 0 m, with a travel that rises";
     if points.len() < 2 {
         return Some(Problem::new(path, format!("{} point(s)", points.len()), wanted));
@@ -57,8 +73,8 @@ pub fn curve_goes_forwards(e: &Entries) -> Option<Problem> {
 }
 
 /// What a file gives is within the bounds of what may be typed, and some force is there.
-pub fn curve_is_within_bounds(e: &Entries) -> Option<Problem> {
-    let (path, points) = typed(e)?;
+fn curve_is_within_bounds(e: &Entries, place: &str) -> Option<Problem> {
+    let (path, points) = typed(e, place)?;
     let dimensions = [Dimension::Length, Dimension::Force];
     let outside = points.iter().find_map(|point| {
         (0..2).find(|&side| !(0.0..=BOUNDS[side]).contains(&point[side])).map(|side| (side, point[side]))
@@ -74,19 +90,19 @@ pub fn curve_is_within_bounds(e: &Entries) -> Option<Problem> {
 }
 
 /// What is elastic comes back: a curve under load is nowhere stiffer than the elastic stiffness.
-pub fn curve_is_no_stiffer_than_elastic(e: &Entries) -> Option<Problem> {
-    if curve_goes_forwards(e).is_some() || curve_is_within_bounds(e).is_some() {
+fn curve_is_no_stiffer_than_elastic(e: &Entries, place: &str) -> Option<Problem> {
+    if curve_goes_forwards(e, place).is_some() || curve_is_within_bounds(e, place).is_some() {
         return None;
     }
-    let travels = e.points(&curve_key(CURVES[1]))?;
-    let (path, _) = typed(e)?;
+    let travels = e.points(&curve_key(place, CURVES[1]))?;
+    let (path, _) = typed(e, place)?;
     if travels[0][1] > 0.0 {
         let found = format!("{} at 0 m", Dimension::Force.show(travels[0][1]));
         return Some(Problem::new(path, found, "no force without travel").hint(
             "under load a dissipator stretches elastically before it yields; strokes without that go under `after_unloading`",
         ));
     }
-    let points = points(e)?;
+    let points = points(e, place)?;
     if points.len() < 2 {
         let found = format!("a curve that is elastic up to its end at {}", length(travels.last()?[0]));
         return Some(Problem::new(path, found, "a part with less than the elastic stiffness, where it yields").hint(
@@ -99,16 +115,16 @@ pub fn curve_is_no_stiffer_than_elastic(e: &Entries) -> Option<Problem> {
     let found = format!("a rise to {} that is stiffer than the elastic stiffness", Dimension::Force.show(back[1][1]));
     let least = Dimension::Stiffness.show((1.01 * steepest * 1e-4).ceil() * 1e4);
     let hint = format!("give a stiffness of {least} or more, which is that of the steepest part of this curve");
-    Some(Problem::new(path, found, format!("no more than `{}` anywhere", e.typed(&key("stiffness")))).hint(hint))
+    Some(Problem::new(path, found, format!("no more than `{}` anywhere", e.typed(&key(place, "stiffness")))).hint(hint))
 }
 
 /// Two that fall do not share a stroke: the weaker runs down its curve alone.
-pub fn only_what_does_not_fall_stands_in_series(e: &Entries) -> Option<Problem> {
-    let (points, in_series) = (points(e)?, e.number(&key("in_series"))?);
+fn only_what_does_not_fall_stands_in_series(e: &Entries, place: &str) -> Option<Problem> {
+    let (points, in_series) = (points(e, place)?, e.number(&key(place, "in_series"))?);
     let falls = points.windows(2).any(|pair| pair[1][1] < pair[0][1]);
     (in_series > 1.0 && falls).then(|| {
         let found = format!("{in_series} in series, with a curve whose force falls");
-        Problem::new(key("in_series"), found, "one, or a curve that nowhere falls").hint(
+        Problem::new(key(place, "in_series"), found, "one, or a curve that nowhere falls").hint(
             "where the force falls the weaker of them pays out alone: give the curve of all together, one stroke after the other",
         )
     })
@@ -118,11 +134,11 @@ pub fn only_what_does_not_fall_stands_in_series(e: &Entries) -> Option<Problem> 
 const STEEPEST_FALL: f64 = 0.5;
 
 /// A force that falls faster than the dissipator relaxes makes it jump.
-pub fn curve_falls_gently(e: &Entries) -> Option<Problem> {
-    if curve_goes_forwards(e).is_some() || curve_is_no_stiffer_than_elastic(e).is_some() {
+fn curve_falls_gently(e: &Entries, place: &str) -> Option<Problem> {
+    if curve_goes_forwards(e, place).is_some() || curve_is_no_stiffer_than_elastic(e, place).is_some() {
         return None;
     }
-    let ((path, _), points, stiffness) = (typed(e)?, points(e)?, e.number(&key("stiffness"))?);
+    let ((path, _), points, stiffness) = (typed(e, place)?, points(e, place)?, e.number(&key(place, "stiffness"))?);
     let limit = STEEPEST_FALL * stiffness;
     let steep = points.windows(2).find(|pair| pair[0][1] - pair[1][1] > limit * (pair[1][0] - pair[0][0]))?;
     let show = |force: f64| Dimension::Force.show(force);
@@ -139,11 +155,11 @@ pub fn curve_falls_gently(e: &Entries) -> Option<Problem> {
 /// Elastic travel of a dissipator before it yields, over its stroke, up to which it can be left out of the stroke.
 const ELASTIC_TRAVEL: f64 = 0.25;
 
-pub fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
-    let given = dissipators(e)?;
+fn dissipators_are_stiff(e: &Entries, place: &str) -> Option<Problem> {
+    let given = dissipators(e, place)?;
     let travel = given.plateau / given.stiffness;
     (travel > ELASTIC_TRAVEL * given.stroke).then(|| {
-        if let Some((path, _)) = typed(e) {
+        if let Some((path, _)) = typed(e, place) {
             let (travel, stroke) = (length(travel), length(given.stroke));
             let found = format!("an elastic travel of {travel} up to the largest force, with a stroke of {stroke}");
             return Problem::new(
@@ -158,7 +174,7 @@ pub fn dissipators_are_stiff(e: &Entries) -> Option<Problem> {
             length(travel),
             length(given.stroke)
         );
-        Problem::new(key("stiffness"), found, "a plateau that is reached within a quarter of the stroke")
+        Problem::new(key(place, "stiffness"), found, "a plateau that is reached within a quarter of the stroke")
             .hint("the stroke is the travel at the plateau; elastic travel does not count to it")
     })
 }

@@ -22,6 +22,8 @@ pub(crate) mod key;
 pub(crate) mod net_ring_rules;
 pub(crate) mod net_rings;
 pub(crate) mod net_rules;
+pub(crate) mod post_rules;
+pub mod posts;
 pub mod read;
 pub(crate) mod resolve;
 pub(crate) mod rope;
@@ -45,6 +47,7 @@ use std::sync::Arc;
 
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
 pub use self::net_rings::NetRings;
+pub use self::posts::{PostStrength, Posts, RetainingRopes, SteelSection};
 pub use self::rope::Rope;
 
 use crate::yield_curve::YieldCurve;
@@ -119,6 +122,18 @@ impl Channel {
     pub fn ground(&self) -> Option<Survey> {
         let walls = || Survey::between_walls(self.width, self.wall_height);
         self.survey.clone().or_else(|| self.profile.is_some().then(walls))
+    }
+
+    /// Place in the channel's frame, from its right bank or side wall, of one that is told to the right looking downstream (m): in the
+    /// coordinates of a surveyed section, or from the middle between side walls.
+    pub fn across(&self, right: f64) -> f64 {
+        let datum = self.survey.as_ref().map_or(0.5 * self.width, |survey| survey.surveyed(0.0));
+        datum - right
+    }
+
+    /// Height of the ground at the barrier, normal to the bed (m).
+    pub fn ground_at(&self, across: f64) -> f64 {
+        self.survey.as_ref().map_or(0.0, |survey| survey.ground(across))
     }
 
     /// What is beside its bed, in words.
@@ -209,6 +224,7 @@ pub struct FlexibleNet {
     pub bed_bolts: Option<BedBolts>,
     pub bottom: Bottom,
     pub side_extension: Option<SideExtension>,
+    pub posts: Option<Posts>,
 }
 
 /// Bolts at even distances along the lowest rope, the first and the last at its ends.
@@ -252,12 +268,26 @@ impl FlexibleNet {
 
     /// All kinds of rope of the net.
     pub fn ropes(&self) -> impl Iterator<Item = &Rope> {
-        [&self.net_rope, &self.lateral_rope].into_iter().chain(self.main_ropes.levels.iter().map(|level| &level.rope))
+        let of_posts = self.posts.iter().map(|posts| &posts.retaining.rope);
+        let main = self.main_ropes.levels.iter().map(|level| &level.rope);
+        [&self.net_rope, &self.lateral_rope].into_iter().chain(main).chain(of_posts)
     }
 
     /// Diameter of the largest stone that passes the net by itself (m): the mesh, or a whole ring.
     pub fn opening(&self) -> f64 {
         self.rings.map_or(self.mesh_opening, |rings| rings.diameter)
+    }
+
+    /// All anchors of ropes: of each free main rope from the bottom at the right bank and at the left, then those of the ropes that retain posts.
+    pub fn anchors(&self) -> Vec<AnchorOf> {
+        let banks = [Bank::Right, Bank::Left];
+        let free = self.ropes_held_by_bed()..self.main_ropes.levels.len();
+        let main = free.flat_map(|rope| banks.map(|bank| AnchorOf::Main { rope, bank }));
+        let posts = self.posts.iter().flat_map(|posts| {
+            let sides = posts.retaining.sides();
+            (0..posts.at.len()).flat_map(move |post| sides.clone().into_iter().map(move |side| (post, side)))
+        });
+        main.chain(posts.map(|(post, side)| AnchorOf::Retaining { post, side })).collect()
     }
 
     /// Number of main ropes, from the bottom, that the bed holds along their length.
@@ -337,6 +367,22 @@ pub struct DissipatorDesign {
     pub stiffness: f64,
 }
 
+/// A bank of the channel, looking downstream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bank {
+    Right,
+    Left,
+}
+
+/// What an anchor holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnchorOf {
+    /// A main rope, counted from 0 at the bottom, at one of its ends.
+    Main { rope: usize, bank: Bank },
+    /// The head of a post, counted from 0 at the left, with an anchor so far to the right of it (m).
+    Retaining { post: usize, side: f64 },
+}
+
 /// What holds the lowest main rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bottom {
@@ -404,8 +450,10 @@ pub struct Factors {
     pub load_given: bool,
     /// On rope resistance: breaking load over this is the design resistance.
     pub rope: f64,
-    /// On anchor resistance.
+    /// On anchor resistance, and on that of the foundations of posts.
     pub anchor: f64,
+    /// On the resistance of posts.
+    pub post: f64,
     /// Share of a rope's breaking load that its ends hold.
     pub rope_end: f64,
     /// Whether the design says so, or it was taken.

@@ -7,6 +7,7 @@ use crate::design::entries::{Entries, Origin, Purpose, Value, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
+use crate::design::dissipator_rules;
 use crate::design::rules::{GRAIN_RULES, RULES};
 use crate::design::schema::DESIGN;
 use crate::problem::{MOST_PROBLEMS, Problem, Problems, harmless};
@@ -59,6 +60,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
+    problems.extend(dissipator_rules::are_sound(&entries));
     if purpose == Purpose::Simulation {
         problems.extend(GRAIN_RULES.iter().filter_map(|rule| rule(&entries)));
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
-use crate::design::dissipator_entries::{DISSIPATORS, dissipators};
+use crate::design::dissipator_entries::{OF_MAIN_ROPES, dissipators};
 use crate::design::entries::Entries;
 use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::{
@@ -12,6 +12,7 @@ use crate::design::flow_entries::{
 use crate::design::hydrograph_entries::{HYDROGRAPH, as_of_a_surge, hydrograph};
 use crate::design::net_rings::net_rings;
 use crate::design::net_rules::rope_heights;
+use crate::design::posts::posts;
 use crate::design::rope_entries::{levels_at, rope};
 use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
@@ -234,7 +235,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
 
 fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{key}"));
-    let dissipators = e.has_section(DISSIPATORS).then(|| dissipators(e));
+    let dissipators = e.has_section(OF_MAIN_ROPES).then(|| dissipators(e, OF_MAIN_ROPES));
     let tied_to = e.text("barrier.flexible_net.lateral_ropes.tied_to")?;
     let rings = match e.mentions("barrier.flexible_net.net") {
         true => Some(net_rings(e)?),
@@ -278,6 +279,10 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
                 holding_force_given: e.given("barrier.flexible_net.side_extension.holding_force"),
             },
         ),
+        posts: match e.has_section("barrier.flexible_net.posts") {
+            true => Some(posts(e)?),
+            false => None,
+        },
     })
 }
 
@@ -320,6 +325,7 @@ fn factors(e: &Entries) -> Option<Factors> {
         load_given: e.given("factors.load"),
         rope: value("rope")?,
         anchor: value("anchor")?,
+        post: value("post")?,
         rope_end: value("rope_end")?,
         rope_end_given: e.given("factors.rope_end"),
         overstrength: overstrength.unwrap_or(load),

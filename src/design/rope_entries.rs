@@ -2,6 +2,7 @@
 
 use crate::design::Level;
 use crate::design::entries::{Entries, Entry, Origin, Value};
+use crate::design::posts::RETAINING;
 use crate::design::rope::Rope;
 use crate::design::rope_table::{Listed, plain};
 use crate::design::show::at;
@@ -26,7 +27,7 @@ pub const OF_A_ROPE: [&str; 3] = ["diameter", "modulus", "breaking_load"];
 
 /// Parts of a net that describe a rope, as far as the design has them.
 pub fn parts(e: &Entries) -> Vec<String> {
-    let all = ["net_rope", "main_ropes", "lateral_ropes"].map(String::from);
+    let all = ["net_rope", "main_ropes", "lateral_ropes", RETAINING].map(String::from);
     all.into_iter().chain(levels(e)).filter(|part| e.has_section(&at(part))).collect()
 }
 

@@ -22,7 +22,7 @@ pub fn lateral_ropes_are_described(e: &Entries) -> Option<Problem> {
 }
 
 /// All that a rope must be told to have, by itself or, of main ropes, at every level.
-fn is_described(e: &Entries, part: &str) -> Option<Problem> {
+pub(super) fn is_described(e: &Entries, part: &str) -> Option<Problem> {
     let levels = if part == "main_ropes" { levels(e) } else { Vec::new() };
     let mentions = |part: &str, key: &str| e.mentions(&at(&format!("{part}.{key}")));
     let told =

@@ -9,8 +9,8 @@ use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
 use crate::design::{
-    boulder_rules, channel_rules, dissipator_rules, hydrograph_rules, net_ring_rules, net_rules, rope_rules,
-    size_rules, surge_rules, wall_rules,
+    boulder_rules, channel_rules, hydrograph_rules, net_ring_rules, net_rules, post_rules, rope_rules, size_rules,
+    surge_rules, wall_rules,
 };
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -96,13 +96,6 @@ pub const RULES: &[Rule] = &[
     slope_lets_a_dam_break_flow,
     dam_break_clears_the_barrier,
     net_rules::lateral_ropes_have_their_dissipators,
-    dissipator_rules::they_yield_one_way,
-    dissipator_rules::curve_goes_forwards,
-    dissipator_rules::curve_is_within_bounds,
-    dissipator_rules::curve_is_no_stiffer_than_elastic,
-    dissipator_rules::curve_falls_gently,
-    dissipator_rules::only_what_does_not_fall_stands_in_series,
-    dissipator_rules::dissipators_are_stiff,
     net_rules::cylinders_have_no_slack,
     net_rules::net_rope_draws_out_or_breaks,
     net_rules::main_rope_draws_out_or_breaks,
@@ -113,6 +106,12 @@ pub const RULES: &[Rule] = &[
     rope_rules::a_level_tells_its_rope,
     rope_rules::ropes_side_by_side_are_modelled,
     rope_rules::every_rope_is_one,
+    post_rules::retaining_ropes_are_described,
+    post_rules::posts_stand_one_beside_the_other,
+    post_rules::posts_stand_between_the_banks,
+    post_rules::posts_stand_on_low_ground,
+    post_rules::posts_have_one_strength,
+    post_rules::posts_belong_to_models_of_ropes,
 ];
 
 /// Rules that only a simulation needs.

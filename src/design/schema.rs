@@ -2,6 +2,7 @@
 
 use crate::design::factor_sets;
 use crate::design::key::{Bounded, Key, Kind, quantity};
+use crate::design::posts;
 use crate::design::rope_table::{BREAKING_LOADS, DIAMETERS, MODULI};
 use crate::units::Dimension as D;
 
@@ -517,6 +518,78 @@ const FLEXIBLE_NET: &[Key] = &[
         Kind::Section(SIDE_EXTENSION),
         "strips of net along the side walls, which close the windows that open beside the barrier when dissipators pay out",
     ),
+    Key::optional(
+        "posts",
+        Kind::Section(POSTS),
+        "equal posts on hinged feet in the plane of the barrier, whose heads carry the uppermost main ropes",
+    ),
+];
+
+const POSTS: &[Key] = &[
+    Key::required(
+        "at",
+        Kind::Quantities { dimension: D::Length, low: -500.0, high: 500.0 },
+        "where they stand, from the left to the right looking downstream: in the coordinates of the section, or from the middle between side walls",
+    ),
+    Key::required("width", quantity(D::Length, 0.02, 2.0), "width that a post turns to the flow"),
+    Key::required("area", quantity(D::Area, 1e-4, 0.5), "area of its steel section: EA = E A"),
+    Key::default("modulus", quantity(D::Pressure, 1e9, 4e11), "210 GPa", "Young's modulus of the post"),
+    Key::optional(
+        "radius_of_gyration",
+        quantity(D::Length, 0.005, 1.0),
+        "radius of gyration of the section about its weaker axis; give this with section_modulus and yield_strength, or resistances",
+    ),
+    Key::optional(
+        "section_modulus",
+        quantity(D::Volume, 1e-6, 0.1),
+        "elastic section modulus against bending down the channel",
+    ),
+    Key::optional("yield_strength", quantity(D::Pressure, 1e8, 1.5e9), "yield strength of the steel"),
+    Key::default(
+        "buckling_curve",
+        Kind::Choice(&posts::CURVES),
+        "c",
+        "buckling curve of the section by EN 1993-1-1",
+    ),
+    Key::optional(
+        "resistance",
+        quantity(D::Force, 1.0, 1e9),
+        "characteristic resistance of a post to compression, buckling included; give this with bending_resistance, or a section",
+    ),
+    Key::optional("bending_resistance", quantity(D::Moment, 1.0, 1e9), "characteristic resistance of a post to bending"),
+    Key::optional(
+        "foot_resistance",
+        quantity(D::Force, 1.0, 1e9),
+        "characteristic resistance of the foundation of a post to the force of its foot",
+    ),
+    Key::optional(
+        "head_friction",
+        FRICTION,
+        "friction angle between a rope and the head of a post; by default that of the rings on the ropes",
+    ),
+    Key::required("retaining_ropes", Kind::Section(RETAINING_ROPES), "ropes that hold the head of a post upstream"),
+];
+
+const RETAINING_ROPES: &[Key] = &[
+    NAMED,
+    DIAMETER,
+    MODULUS,
+    BREAKING_LOAD,
+    ELASTIC_LIMIT,
+    AT_BREAKING_LOAD,
+    Key::required(
+        "set_back",
+        quantity(D::Length, 0.1, 60.0),
+        "distance of the anchors from the foot of the post, upstream along the bed",
+    ),
+    Key::default(
+        "spread",
+        quantity(D::Length, 0.0, 30.0),
+        "0 m",
+        "distance of the anchors to either side of the post, where it has two ropes; with 0 it has one",
+    ),
+    Key::optional("dissipators", Kind::Section(DISSIPATORS), "one at the anchor of every retaining rope"),
+    Key::required("anchor_resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one anchor"),
 ];
 
 const NETS: &[Key] = &[Key::optional("rings", Kind::Section(NET_RINGS), "a ring net: each ring meets four others")];
@@ -788,6 +861,12 @@ const FACTORS: &[Key] = &[
     Key::default("load", Kind::Number { low: 1.0, high: 5.0 }, "1", "partial factor on loads"),
     Key::default("rope", Kind::Number { low: 1.0, high: 5.0 }, "1.5", "partial factor on rope resistance"),
     Key::default("anchor", Kind::Number { low: 1.0, high: 5.0 }, "1.1", "partial factor on anchor resistance"),
+    Key::default(
+        "post",
+        Kind::Number { low: 1.0, high: 5.0 },
+        "1.1",
+        "partial factor on the resistance of posts; their foundations have that of anchors",
+    ),
     Key::default(
         "rope_end",
         Kind::Number { low: 0.5, high: 1.0 },

@@ -6,6 +6,7 @@ pub(crate) mod fill;
 pub(crate) mod impact;
 pub(crate) mod input;
 pub(crate) mod other_models;
+pub(crate) mod posts;
 pub(crate) mod pressure;
 pub(crate) mod ring_net;
 pub(crate) mod rope;

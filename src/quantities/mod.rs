@@ -7,6 +7,7 @@ pub mod anchor_load;
 pub mod bed;
 pub mod boulder;
 pub mod coefficients;
+pub mod counts;
 pub mod dissipator;
 pub mod earth_pressure;
 pub mod height;
@@ -14,6 +15,7 @@ pub mod incoming;
 pub mod mass;
 pub mod observed;
 pub mod other_ropes;
+pub mod posts;
 pub mod quantity;
 pub mod reading;
 pub mod rope_tension;
@@ -84,4 +86,15 @@ pub const QUANTITIES: &[&Quantity] = &[
     &earth_pressure::LAMBDA_MEAN,
     &boulder::FORCE,
     &boulder::NET,
+    &posts::COMPRESSION,
+    &posts::FOOT,
+    &posts::FOOT_ALONG,
+    &posts::FOOT_ACROSS,
+    &posts::FOOT_UP,
+    &posts::RETAINING,
+    &posts::STROKE,
+    &anchor_load::EACH,
+    &anchor_load::ALONG,
+    &anchor_load::ACROSS,
+    &anchor_load::UP,
 ];

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::{BarrierDesign, Design};
+use crate::design::Design;
 use crate::guideline::Guideline;
 use crate::quantities::coefficients::Coefficients;
-use crate::quantities::quantity::{Of, Quantity};
+use crate::quantities::counts::Counts;
+use crate::quantities::quantity::Quantity;
 use crate::quantities::reading::{Reading, Samples};
 use crate::quantities::{QUANTITIES, earth_pressure, height, incoming, mass};
 use dem::recorders::gauge::Gauge;
@@ -34,14 +35,9 @@ impl Observed {
         Self { values, force: reading.smooth, incoming: reading.incoming, coefficients: reading.coefficients }
     }
 
-    /// A run in which nothing happened to a net on so many main ropes, or to a wall of so many segments: all is held and stands.
-    pub fn of_nothing(ropes: usize, segments: usize) -> Self {
-        let zeros = |quantity: &Quantity| match quantity.of {
-            Of::Run => vec![0.0],
-            Of::RunIfKnown => Vec::new(),
-            Of::EachRope => vec![0.0; ropes],
-            Of::EachSegment => vec![0.0; segments],
-        };
+    /// A run in which nothing happened to a barrier of so many parts: all is held and stands.
+    pub fn of_nothing(counts: Counts) -> Self {
+        let zeros = |quantity: &Quantity| vec![0.0; counts.values(quantity.of)[0]];
         let values = QUANTITIES.iter().map(|quantity| (quantity.id.to_string(), zeros(quantity))).collect();
         Self { values, ..Self::default() }.with(&mass::RETAINED, &[1.0]).with(&height::RESIDUAL, &[1.0])
     }
@@ -86,18 +82,13 @@ impl Observed {
         mass::WAYS.map(|(_, quantity)| self.one(quantity))
     }
 
-    /// Whether there is a number for each main rope of the design, and for each segment of its wall: what was read from a file may have
+    /// Whether there is a number for each part of the design's barrier: what was read from a file may have
     /// been forged.
     pub fn fits(&self, design: &Design) -> bool {
-        let (ropes, segments) = match &design.barrier {
-            BarrierDesign::FlexibleNet(net) => (net.main_ropes.levels.len(), 0),
-            BarrierDesign::RigidWall(wall) => (0, wall.segment_tops.len()),
-        };
-        let whole = |quantity: &&Quantity| match (quantity.of, self.each(quantity).len()) {
-            (Of::Run, count) => count == 1,
-            (Of::RunIfKnown, count) => count <= 1,
-            (Of::EachRope, count) => count == ropes,
-            (Of::EachSegment, count) => count == segments,
+        let counts = Counts::of(design);
+        let whole = |quantity: &&Quantity| {
+            let [least, most] = counts.values(quantity.of);
+            (least..=most).contains(&self.each(quantity).len())
         };
         QUANTITIES.iter().all(whole) && self.coefficients.is_whole()
     }
@@ -105,7 +96,7 @@ impl Observed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::Stability;
+    use crate::design::{BarrierDesign, Stability};
     use crate::design::read::read_design;
     use crate::quantities::quantity::Quantity;
     use crate::quantities::{
@@ -352,7 +343,7 @@ mod tests {
     #[test]
     fn what_has_not_a_number_for_each_part_does_not_fit() {
         let net = net();
-        let whole = || Observed::of_nothing(3, 0);
+        let whole = || Observed::of_nothing(Counts::of(&net));
         assert!(whole().fits(&net));
         assert!(!whole().with(&rope_tension::BULGE, &[0.0; 2]).fits(&net));
         assert!(!whole().with(&wall::SEGMENT, &[0.0]).fits(&net));

@@ -1,7 +1,7 @@
 //! What a quantity is: one item tells how it is read, what it is called, where it is told and what is asked of it.
 
 use crate::design::Factors;
-use crate::guideline::Guideline;
+use crate::guideline::{Guideline, PostLoad};
 use crate::quantities::reading::Reading;
 
 /// SI unit of a quantity.
@@ -51,6 +51,10 @@ pub enum Of {
     RunIfKnown,
     /// Each main rope, from the lowest to the highest.
     EachRope,
+    /// Each post of a net, from the left to the right looking downstream.
+    EachPost,
+    /// Each anchor of a net, in the order of [`crate::design::FlexibleNet::anchors`].
+    EachAnchor,
     /// Each segment of a rigid wall, from the lowest to the highest.
     EachSegment,
 }
@@ -89,6 +93,10 @@ pub enum Demanded {
     RopeLoad { capped: bool },
     /// Of each main rope, ends at the stop of its dissipators.
     Stroke,
+    /// A load of each post, by the equations as told, and what a dissipator that pulls with more than its plateau makes of it.
+    LoadOfPost(fn(&PostLoad) -> f64, OverPlateau),
+    /// Of the ropes of each post, ends at the stop of their dissipators.
+    StrokeOfPost,
     /// What stays at a plateau: the largest of all ropes and packings.
     Plateau,
     /// What must not happen in any packing: the worst of them.
@@ -97,6 +105,15 @@ pub enum Demanded {
     Level(fn(&Guideline) -> f64),
     /// A share that must be kept: the value that the next packing falls below with a probability of 5 %.
     Kept,
+}
+
+/// What the load of a part does where a retaining rope's dissipator yields at more than its plateau.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverPlateau {
+    /// It grows by what the dissipator pulls more.
+    Adds,
+    /// It grows in proportion, as what the ropes of a post hold does.
+    Grows,
 }
 
 /// A quantity that is measured of a run.
@@ -157,7 +174,7 @@ impl Quantity {
     pub fn title_of(&self, index: usize) -> String {
         match self.of {
             Of::Run | Of::RunIfKnown => self.title.to_string(),
-            Of::EachRope | Of::EachSegment => format!("{} {}", self.title, index + 1),
+            Of::EachRope | Of::EachSegment | Of::EachPost | Of::EachAnchor => format!("{} {}", self.title, index + 1),
         }
     }
 }

@@ -84,6 +84,22 @@ impl<'a> Reading<'a> {
         self.histories.barrier.rows(channel).iter().map(|row| peak(row).1).collect()
     }
 
+    /// The vectors of three channels in the channel frame, of each row when it is largest; by the level: along the valley, to the left, and up.
+    pub fn vectors_at_largest(&self, channels: &[Channel; 3]) -> Vec<[f64; 3]> {
+        let rows = [0, 1, 2].map(|axis| self.histories.barrier.rows(&channels[axis]));
+        let (sine, cosine) = libm::sincos(self.design.channel.slope);
+        let of = |row: usize| {
+            let at = |sample: usize| [0, 1, 2].map(|axis| rows[axis].get(row).map_or(f64::NAN, |row| row[sample]));
+            let sizes: Vec<f64> = (0..self.histories.time.len())
+                .map(|sample| at(sample).iter().map(|part| part * part).sum::<f64>().sqrt())
+                .collect();
+            let (sample, size) = peak(&sizes);
+            let [x, y, z] = if size > 0.0 || size.is_nan() { at(sample) } else { [0.0; 3] };
+            [x * cosine + z * sine, y, z * cosine - x * sine]
+        };
+        (0..rows[0].len()).map(of).collect()
+    }
+
     /// Mean of each row of a channel over the end of the run.
     pub fn at_rest(&self, channel: &Channel) -> Vec<f64> {
         self.histories.barrier.rows(channel).iter().map(|row| tail_mean(row, self.samples.tail)).collect()

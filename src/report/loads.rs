@@ -317,8 +317,9 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
         rope.load / 1e3,
     );
     let (q, sag) = (of_one / 1e3, rope.state.sag);
-    let line = RopeInput { span, axial_stiffness: axial_stiffness(run, number), dissipator: None };
-    let arc = line.arc(sag);
+    let others = rope.others.clone();
+    let line = RopeInput { span, others, axial_stiffness: axial_stiffness(run, number), dissipator: None };
+    let arc = line.arcs(sag);
     let dissipator = run.guideline.dissipator.as_ref();
     let from = match dissipator.filter(|dissipator| !dissipator.curve.is_plateau()) {
         Some(_) => format!("yield along their curve, after {:.3} m with", rope.state.stroke),
@@ -337,7 +338,7 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
     if yields {
         format!(
             "{load}; the dissipators {from} T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola",
-            span * (1.0 + tension * 1e3 / line.axial_stiffness),
+            line.length() * (1.0 + tension * 1e3 / line.axial_stiffness),
             rope.state.stroke
         )
     } else {

@@ -43,7 +43,7 @@ fn fields() -> Vec<(&'static str, Vec<&'static Quantity>)> {
 /// A list of ropes or segments, or the number of a run; null where it tells none, and where a number is not finite.
 fn value(quantity: &Quantity, values: &[f64]) -> Value {
     match quantity.of {
-        Of::EachRope | Of::EachSegment => json!(values),
+        Of::EachRope | Of::EachSegment | Of::EachPost | Of::EachAnchor => json!(values),
         Of::Run | Of::RunIfKnown => values.first().map_or(Value::Null, |value| json!(value)),
     }
 }
@@ -89,7 +89,7 @@ impl Serialize for Measured {
 /// The schema of a quantity's field.
 fn schema_of(quantity: &Quantity) -> Value {
     let mut schema = match quantity.of {
-        Of::EachRope | Of::EachSegment => json!({ "type": "array", "items": { "type": "number" } }),
+        Of::EachRope | Of::EachSegment | Of::EachPost | Of::EachAnchor => json!({ "type": "array", "items": { "type": "number" } }),
         Of::Run | Of::RunIfKnown => json!({ "type": ["number", "null"] }),
     };
     if !quantity.meaning.is_empty() {

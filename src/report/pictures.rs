@@ -1,8 +1,8 @@
 //! The pictures of the report: charts over time, the flow from the side, the barrier from upstream, pressure over height.
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::checks::ropes;
-use crate::design::{BarrierDesign, Bottom, Channel};
+use crate::checks::{posts, ropes};
+use crate::design::{BarrierDesign, Bottom, Channel, Design, FlexibleNet};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
 use crate::quantities::{mass, total_force, wall};
@@ -296,6 +296,7 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
             SegmentKind::Main(rope) => ropes::resistance(design, &net.main_ropes.levels[usize::from(rope)].rope),
             SegmentKind::Lateral => ropes::resistance(design, &net.lateral_rope),
             SegmentKind::Net | SegmentKind::Ring => ropes::resistance_of_net(design, net),
+            SegmentKind::Retaining(_) | SegmentKind::Post(_) => return of_posts(design, net, kind) / design.factors.load,
         };
         holds.characteristic / holds.factor / design.factors.load
     };
@@ -318,6 +319,20 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
             }
         ),
     })
+}
+
+/// What a post or a rope that retains one holds (N), without end where nobody says.
+fn of_posts(design: &Design, net: &FlexibleNet, kind: SegmentKind) -> f64 {
+    let Some(given) = &net.posts else { return f64::INFINITY };
+    match kind {
+        SegmentKind::Post(number) => {
+            posts::strut(design, given, usize::from(number)).map_or(f64::INFINITY, |strut| strut.compression)
+        }
+        _ => {
+            let holds = ropes::resistance(design, &given.retaining.rope);
+            holds.characteristic / holds.factor
+        }
+    }
 }
 
 /// The film of the first start.

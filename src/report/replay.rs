@@ -150,6 +150,8 @@ impl<'a> Packer<'a> {
             SegmentKind::Main(_) => 1,
             SegmentKind::Lateral => 2,
             SegmentKind::Ring => 3,
+            SegmentKind::Retaining(_) => 4,
+            SegmentKind::Post(_) => 5,
         };
         // To the millimetre.
         let corner = |place: &Vec3| [place.x, place.y, place.z].map(|length| (1e3 * length).round() as f32 / 1e3);

@@ -28,7 +28,7 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
         let with_unit = |name: String| if unit.is_empty() { name } else { format!("{name}_{unit}") };
         match rows {
             Rows::One => add(with_unit(name.to_string()), histories.barrier.series(channel).to_vec()),
-            Rows::EachRope | Rows::EachSegment => {
+            Rows::EachRope | Rows::EachSegment | Rows::EachPost | Rows::EachAnchor => {
                 for (index, row) in histories.barrier.rows(channel).iter().enumerate() {
                     add(with_unit(format!("{name}_{}", index + 1)), row.clone());
                 }

@@ -40,7 +40,7 @@ fn spread(run: &Simulated, quantity: &Quantity, index: usize) -> Option<(Observa
     };
     let id = match quantity.of {
         Of::Run | Of::RunIfKnown => quantity.id.to_string(),
-        Of::EachRope | Of::EachSegment => format!("{}_{}", quantity.id, index + 1),
+        Of::EachRope | Of::EachSegment | Of::EachPost | Of::EachAnchor => format!("{}_{}", quantity.id, index + 1),
     };
     let observable = || Observable { id, title: quantity.title_of(index), unit: quantity.unit };
     tells.then(|| (observable(), Spread::of(&values)))

@@ -8,7 +8,7 @@ use crate::design::{Arrival, BarrierDesign, DamBreak, Design, Flow, Surge};
 use crate::fidelity::{Fidelity, net_pieces};
 use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, count_of_boulders, packed_block, shape};
-use crate::scene::ground::{self, bed_at};
+use crate::scene::ground::{self, bed_at, gravity};
 use crate::scene::inlet::{Feed, block_behind, inlet};
 use crate::scene::net::build::{BuiltNet, build as build_net};
 use crate::scene::patience::Patience;
@@ -81,11 +81,6 @@ const RESTS_BELOW_OF_VELOCITY: f64 = 0.05;
 /// Settling time over √(block height/g), and its drag times that time.
 const SETTLING: f64 = 1.2;
 const SETTLING_DRAG: f64 = 2.5;
-
-/// Gravity in the channel frame.
-fn gravity(slope: f64) -> Vec3 {
-    Vec3::new(GRAVITY * libm::sin(slope), 0.0, -GRAVITY * libm::cos(slope))
-}
 
 /// What is prepared of a scene so far, to be kept.
 #[derive(Serialize, Deserialize)]
@@ -287,14 +282,15 @@ fn wall_shape(design: &Design) -> WallShape {
 fn reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
     match &design.barrier {
         BarrierDesign::RigidWall(wall) => (wall.height * libm::sin(wall.lean)).max(0.0),
-        BarrierDesign::FlexibleNet(_) => net.map_or(0.0, BuiltNet::reach),
+        BarrierDesign::FlexibleNet(_) => net.map_or(0.0, |net| net.barrier.face()),
     }
 }
 
-/// The same with room for the largest grain.
+/// The same with all that holds the barrier, and with room for the largest grain.
 fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
     let largest = |number: usize| design.flow.alone(number).sizes.quantile(1.0);
-    reach(design, net) + 0.5 * (0..design.flow.surges()).map(largest).fold(0.0, f64::max)
+    let all = net.map_or(0.0, BuiltNet::reach).max(reach(design, net));
+    all + 0.5 * (0..design.flow.surges()).map(largest).fold(0.0, f64::max)
 }
 
 /// Lets the block settle behind the gate under gravity, slowed by drag; handed to `keep` at its stops.

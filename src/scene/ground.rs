@@ -4,6 +4,7 @@ use crate::design::Channel;
 use crate::design::channel_entries::STEEPEST_BED;
 use crate::relief::Relief;
 use crate::section::{Section, Survey};
+use crate::units::GRAVITY;
 use dem::Vec3;
 use dem::recorders::across::{Across, GroundLine, HeightGrid};
 use dem::tables::surfaces::SurfaceRole;
@@ -124,6 +125,24 @@ pub fn pieces(channel: &Channel, along: [f64; 2]) -> Vec<Vec<Vec3>> {
     (0..terrain.facets().len() as u32).map(|facet| terrain.outline(facet).collect()).collect()
 }
 
+/// The place of the ground at a distance along the bed from the barrier's foot and across the channel (m).
+pub fn height_at(channel: &Channel, along: f64, across: f64) -> Vec3 {
+    let own = channel.ground_at(across);
+    let Some(profile) = &channel.profile else { return Vec3::new(along, across, own) };
+    let there = profile.at(along);
+    let plumb = match &channel.relief {
+        Some(relief) => {
+            let heights = relief.across(there.x);
+            let step = relief.y(1) - relief.y(0);
+            let place = ((across - relief.y(0)) / step).clamp(0.0, (heights.len() - 1) as f64);
+            let column = (place as usize).min(heights.len() - 2);
+            heights[column] + (heights[column + 1] - heights[column]) * (place - column as f64)
+        }
+        None => there.z + own / libm::cos(channel.slope),
+    };
+    frame_of(channel.slope, there.x, across, plumb)
+}
+
 /// The place of the bed at a distance along it from the foot (m), and the directions down the bed and out of it there.
 pub fn bed_at(channel: &Channel, along: f64) -> (Vec3, [Vec3; 2]) {
     let Some(profile) = &channel.profile else { return (Vec3::x() * along, [Vec3::x(), Vec3::z()]) };
@@ -138,6 +157,11 @@ pub fn bed_at(channel: &Channel, along: f64) -> (Vec3, [Vec3; 2]) {
 pub fn frame_of(slope: f64, level: f64, across: f64, plumb: f64) -> Vec3 {
     let (sine, cosine) = libm::sincos(slope);
     Vec3::new(level * cosine - plumb * sine, across, level * sine + plumb * cosine)
+}
+
+/// Gravity in the frame of a channel on a slope (m/s²).
+pub fn gravity(slope: f64) -> Vec3 {
+    Vec3::new(GRAVITY * libm::sin(slope), 0.0, -GRAVITY * libm::cos(slope))
 }
 
 /// The points with every vertical bank leaning outwards a little.

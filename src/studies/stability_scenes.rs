@@ -406,7 +406,7 @@ fn stop() -> Model {
     });
     barrier.dissipators = vec![Dissipator {
         nodes: [0, 1],
-        rope: 0,
+        kind: SegmentKind::Main(0),
         rest_length: 0.06,
         radius: 0.016,
         stiffness: 46e6,

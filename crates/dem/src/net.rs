@@ -21,6 +21,8 @@ pub struct NetForces {
     pub dissipators: Vec<f64>,
     /// Torque on each node that turns (N m).
     pub torques: Vec<Vec3>,
+    /// Axial force of each post (N), tension positive.
+    pub posts: Vec<f64>,
     /// Axial force of each cylinder (N), tension positive.
     pub axial: Vec<f64>,
     /// Force of a leg of each ring of the net, as that of a chain that is as near to breaking (N), at each of its sides.
@@ -62,6 +64,7 @@ pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
     net.pull_segments(barrier, law.time_step);
     net.pull_rings(barrier, law.time_step);
     net.pull_dissipators(barrier);
+    net.push_posts(barrier, law.time_step);
     net.hold(barrier);
     net.rest_on_ground(barrier, law);
     net.strain_cylinders(barrier, law.time_step);
@@ -121,6 +124,18 @@ impl NetForces {
             self.stored += result.stored;
             self.lost_dissipators += result.lost;
             self.dissipators.push(result.tension);
+        }
+    }
+
+    fn push_posts(&mut self, barrier: &Barrier, step: f64) {
+        for post in &barrier.posts {
+            let [foot, head] = post.nodes.map(|node| node as usize);
+            let result = post.push(&barrier.nodes, step);
+            self.forces[foot] += result.on_foot;
+            self.forces[head] += result.on_head;
+            self.stored += result.stored;
+            self.lost_ropes += result.lost;
+            self.posts.push(-result.compression);
         }
     }
 
@@ -201,7 +216,7 @@ impl NetForces {
 
     /// Tensions of all that pulls (N), in the order of [`Barrier::strands`]; of one rope where several share them.
     pub fn strand_tensions<'a>(&'a self, barrier: &'a Barrier) -> impl Iterator<Item = f64> + 'a {
-        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators);
+        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators).chain(&self.posts);
         barrier.strands().zip(all).map(|(strand, tension)| tension / barrier.sharing(strand.kind))
     }
 
@@ -258,13 +273,14 @@ impl NetForces {
         add(&mut self.dissipators, &later.dissipators);
         add(&mut self.axial, &later.axial);
         add(&mut self.rings, &later.rings);
+        add(&mut self.posts, &later.posts);
     }
 
     /// Turns sums over `parts` parts of a step into means.
     pub fn share_out(&mut self, parts: u32) {
         let share = 1.0 / f64::from(parts);
         self.forces.iter_mut().for_each(|force| *force *= share);
-        for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial, &mut self.rings] {
+        for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial, &mut self.rings, &mut self.posts] {
             sums.iter_mut().for_each(|sum| *sum *= share);
         }
     }

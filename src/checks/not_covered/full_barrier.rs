@@ -117,6 +117,7 @@ mod tests {
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::Demands;
     use crate::guideline::guideline;
+    use crate::quantities::counts::Counts;
     use crate::quantities::observed::Observed;
     use crate::quantities::{bed, height, other_ropes, rope_tension};
 
@@ -138,7 +139,7 @@ mod tests {
     #[test]
     fn the_full_barrier_is_open_where_the_simulation_is_not_accurate_enough_for_it() {
         let design = small_net();
-        let observed = Observed::of_nothing(3, 0).with(&other_ropes::NET, &[0.3 * net_holds(&design)]);
+        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[0.3 * net_holds(&design)]);
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |force_band: f64| {
             simulated_verdict(&design, "net_tension", &observed, FirstSurge { force_band, ..pushing(first) })
@@ -161,7 +162,7 @@ mod tests {
             // Of a space with one ring in it.
             let axial = rope.axial_stiffness() * concentration(1.0);
             let load = ((used * holds).powi(3) * 24.0 / axial).sqrt();
-            let observed = Observed::of_nothing(3, 0).with(&bed::BOLT, &[load]);
+            let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&bed::BOLT, &[load]);
             simulated_verdict(&design, "rope_1_tension", &observed, pushing(first))
         };
         assert_eq!(verdict(0.59), CheckVerdict::Pass);
@@ -174,7 +175,7 @@ mod tests {
         let design = small_net();
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |residual_height: f64, share_band: f64| {
-            let observed = Observed::of_nothing(3, 0).with(&height::RESIDUAL, &[residual_height]);
+            let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&height::RESIDUAL, &[residual_height]);
             simulated_verdict(&design, "residual_height", &observed, FirstSurge { share_band, ..pushing(first) })
         };
         assert_eq!(verdict(0.8, 0.0), CheckVerdict::Pass);
@@ -192,7 +193,7 @@ mod tests {
         let holds = net.main_ropes.levels[2].rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let tension = 0.95 * holds;
         assert!(tension > guideline.ropes[2].state.tension);
-        let observed = Observed::of_nothing(3, 0).with(&rope_tension::PEAK, &[0.0, 0.0, tension]);
+        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&rope_tension::PEAK, &[0.0, 0.0, tension]);
         let first = guideline.largest_force / 1.2;
         assert_eq!(simulated_verdict(&design, "rope_3_tension", &observed, pushing(first)), CheckVerdict::Open);
         let mut capped = check_all(&design, &Demands::by_equations(&guideline, &design.factors));

@@ -25,7 +25,8 @@ pub fn elevation(snapshot: &Snapshot, [from, to]: [f64; 2], resistance: impl Fn(
     let height = (highest - lowest) * scale + 2.0 * MARGIN + FOOT;
     let screen = |place: &Vec3| (MARGIN + (to - place.y) * scale, MARGIN + (highest - place.z) * scale);
     let class = |strand: &Strand| {
-        let used = strand.tension / resistance(strand.kind);
+        // A post is pressed.
+        let used = strand.tension.abs() / resistance(strand.kind);
         CLASSES.iter().position(|limit| used <= *limit).unwrap_or(CLASSES.len() - 1)
     };
     let mut paths = vec![[String::new(), String::new()]; CLASSES.len()];

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::UnitQuaternion;
 
-use crate::design::{BarrierModel, Bottom, Channel, FlexibleNet, LateralTo, Rope};
+use crate::design::{BarrierModel, Bottom, Channel, DissipatorDesign, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
 use crate::scene::net::ring_shape::{POISSON, ring_stand_off};
 use dem::Vec3;
@@ -39,7 +39,7 @@ pub struct BuiltNet {
 }
 
 impl BuiltNet {
-    /// How far upstream of its foot the barrier reaches (m).
+    /// How far upstream of its foot the barrier reaches with all that holds it (m).
     pub fn reach(&self) -> f64 {
         self.barrier.nodes.iter().map(|node| -node.position.x).fold(0.0, f64::max)
     }
@@ -71,6 +71,7 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
         rope_nodes: BTreeMap::new(),
         wings: Vec::new(),
         cut_sides: BTreeMap::new(),
+        heads: Vec::new(),
     };
     if let Some(survey) = &channel.survey {
         builder.add_cut_net(survey);
@@ -112,6 +113,8 @@ pub(super) struct Builder<'a> {
     pub(super) wings: Vec<[Vec<u32>; 2]>,
     /// In a ring net, the node on the edge at which a side between two places of the lattice was cut, by the place that is left.
     pub(super) cut_sides: BTreeMap<[Place; 2], u32>,
+    /// Heads of posts.
+    pub(super) heads: Vec<u32>,
 }
 
 impl Builder<'_> {
@@ -233,7 +236,10 @@ impl Builder<'_> {
             let nodes = if self.model == BarrierModel::Cylinders && free {
                 self.add_ringed_rope(rope, row, ends)
             } else {
-                let nodes: Vec<u32> = [&ends[..1], &self.knots_of_row(row), &ends[1..]].concat();
+                let mut nodes: Vec<u32> = [&ends[..1], &self.knots_of_row(row), &ends[1..]].concat();
+                if usize::from(rope) + 1 == self.grid.rope_rows.len() {
+                    nodes = self.add_posts(nodes);
+                }
                 for pair in nodes.windows(2) {
                     self.add_line([pair[0], pair[1]], SegmentKind::Main(rope), &self.main_rope(rope).clone());
                 }
@@ -255,28 +261,27 @@ impl Builder<'_> {
         if self.model == BarrierModel::SlidingRopes {
             let rings = &self.design.main_ropes;
             let shortest = SHORTEST_SEGMENT * rings.ring_spacing;
-            self.barrier.chains.push(Chain { segments, friction: rings.ring_friction, shortest });
+            let over_a_head = self.design.posts.as_ref().map_or(0.0, |posts| posts.head_friction);
+            let friction = |segment: &u32| {
+                let joint = self.barrier.segments[*segment as usize].nodes[0];
+                if self.heads.contains(&joint) { over_a_head } else { rings.ring_friction }
+            };
+            let frictions = segments.iter().skip(1).map(friction).collect();
+            self.barrier.chains.push(Chain { segments, frictions, shortest });
         }
     }
 
     /// Anchors one end of a main rope, through a dissipator where the design has them.
     pub(super) fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
-        let anchor = self.add_node(place, true);
-        self.barrier.anchors.push(Anchor { node: anchor, rope });
-        let sharing = self.barrier.sharing(SegmentKind::Main(rope));
+        let (anchor, kind) = (self.add_node(place, true), SegmentKind::Main(rope));
+        self.barrier.anchors.push(Anchor { node: anchor, kind });
+        let radius = 0.5 * self.main_rope(rope).diameter;
         match &self.design.dissipators {
-            Some(dissipator) => self.barrier.dissipators.push(Dissipator {
-                nodes: [anchor, end],
-                rope,
-                rest_length: self.design.side_gap(),
-                radius: 0.5 * self.main_rope(rope).diameter,
-                stiffness: sharing * dissipator.stiffness,
-                plateau: sharing * dissipator.plateau,
-                curve: YieldCurve::new(dissipator.curve.points()),
-                stroke: dissipator.stroke,
-                used: 0.0,
-            }),
-            None => self.add_line([anchor, end], SegmentKind::Main(rope), &self.main_rope(rope).clone()),
+            Some(design) => {
+                let (sharing, gap) = (self.barrier.sharing(kind), self.design.side_gap());
+                self.barrier.dissipators.push(dissipator([anchor, end], kind, gap, design, sharing, radius));
+            }
+            None => self.add_line([anchor, end], kind, &self.main_rope(rope).clone()),
         }
     }
 
@@ -296,7 +301,7 @@ impl Builder<'_> {
             return self.knots.get(&(column, row)).copied();
         };
         let side = usize::from(column > 0);
-        let mut anchors = self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == rope);
+        let mut anchors = self.barrier.anchors.iter().filter(|anchor| anchor.kind == SegmentKind::Main(rope as u16));
         match (self.design.lateral_to, anchors.nth(side)) {
             (LateralTo::Anchors, Some(anchor)) => Some(anchor.node),
             _ => {
@@ -346,6 +351,8 @@ impl Builder<'_> {
     }
 
     fn finish(mut self) -> BuiltNet {
+        // Those of posts after all others.
+        self.barrier.anchors.sort_by_key(|anchor| matches!(anchor.kind, SegmentKind::Retaining(_)));
         self.barrier.connect();
         // Along a main rope, the rope tells how high a row stands and how wide.
         let row = |row| self.rope_nodes.get(&row).cloned().unwrap_or_else(|| self.knots_of_row(row));
@@ -356,6 +363,28 @@ impl Builder<'_> {
             row.extend(last);
         }
         BuiltNet { barrier: self.barrier, rows, rope_rows: self.grid.rope_rows, screen_rows }
+    }
+}
+
+/// Dissipators at the end of so many ropes that run side by side, which go taut at a rest length (m).
+pub(super) fn dissipator(
+    nodes: [u32; 2],
+    kind: SegmentKind,
+    rest_length: f64,
+    design: &DissipatorDesign,
+    sharing: f64,
+    radius: f64,
+) -> Dissipator {
+    Dissipator {
+        nodes,
+        kind,
+        rest_length,
+        radius,
+        stiffness: sharing * design.stiffness,
+        plateau: sharing * design.plateau,
+        curve: YieldCurve::new(design.curve.points()),
+        stroke: design.stroke,
+        used: 0.0,
     }
 }
 

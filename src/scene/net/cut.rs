@@ -191,7 +191,10 @@ impl Builder<'_> {
             let [across, _] = outline.point(Edge::Bank(side), outline.way_to(side, up));
             self.add_node(self.place(across, up), false)
         });
-        let line = [&[right], &self.knots_of_row(row)[..], &[left]].concat();
+        let mut line = [&[right], &self.knots_of_row(row)[..], &[left]].concat();
+        if number + 1 == self.grid.rope_rows.len() {
+            line = self.add_posts(line);
+        }
         self.add_rope(number, line, &rope, true, outline);
     }
 
@@ -232,7 +235,7 @@ impl Builder<'_> {
 
     /// The node by which a lateral rope goes at a main rope.
     fn lateral_stop_of(&self, number: usize, side: usize) -> u32 {
-        let mut anchors = self.barrier.anchors.iter().filter(|anchor| anchor.rope as usize == number);
+        let mut anchors = self.barrier.anchors.iter().filter(|anchor| anchor.kind == SegmentKind::Main(number as u16));
         match (self.design.lateral_to, anchors.nth(side)) {
             (LateralTo::Anchors, Some(anchor)) => anchor.node,
             _ => {

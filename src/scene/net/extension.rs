@@ -17,9 +17,6 @@ use dem::elements::yield_curve::YieldCurve;
 /// Way after which a knot has its whole holding force (m).
 const GIVE: f64 = 0.01;
 
-/// Number of a rope where there is none.
-const NO_ROPE: u16 = u16::MAX;
-
 impl Builder<'_> {
     /// Adds a strip on each side, and puts its knots into `wings`, row by row from the net outwards.
     pub(super) fn add_side_extensions(&mut self, extension: &SideExtension) {
@@ -42,7 +39,7 @@ impl Builder<'_> {
                     let pin = self.add_node(place, true);
                     self.barrier.holds.push(Dissipator {
                         nodes: [pin, knot],
-                        rope: NO_ROPE,
+                        kind: SegmentKind::Net,
                         rest_length: 0.0,
                         radius: 0.0,
                         stiffness: extension.holding_force / GIVE,

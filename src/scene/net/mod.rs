@@ -6,5 +6,6 @@ mod extension;
 pub(crate) mod grid;
 pub(crate) mod outline;
 pub(crate) mod ring_net;
-pub(crate) mod ring_shape;
+pub(crate) mod posts;
+mod ring_shape;
 pub(crate) mod rings;

@@ -4,6 +4,7 @@ use crate::validation::barrier::stand::Stand;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::segment::SegmentKind;
 use dem::elements::yield_curve::YieldCurve;
 use dem::tables::barrier::Barrier;
 use dem::tables::nodes::Node;
@@ -48,7 +49,7 @@ const STROKE: f64 = 2.5;
 fn dissipator() -> Dissipator {
     Dissipator {
         nodes: [0, 1],
-        rope: 0,
+        kind: SegmentKind::Main(0),
         rest_length: 1.0,
         radius: 0.016,
         stiffness: STIFFNESS,

@@ -5,6 +5,7 @@ use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::GRAVITY;
 use dem::Vec3;
 use dem::elements::dissipator::Dissipator;
+use dem::elements::segment::SegmentKind;
 use dem::elements::yield_curve::YieldCurve;
 use dem::tables::barrier::Barrier;
 
@@ -201,7 +202,7 @@ fn braked() -> Result<Vec<Finding>, Broken> {
         barrier.nodes.push(node);
         barrier.dissipators.push(Dissipator {
             nodes: [barrier.nodes.len() as u32 - 1, end as u32],
-            rope: 0,
+            kind: SegmentKind::Main(0),
             rest_length: 0.0,
             radius: 0.016,
             stiffness: 46e6,

@@ -17,8 +17,8 @@ use crate::tables::nodes::Node;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dissipator {
     pub nodes: [u32; 2],
-    /// Number of the main rope it holds, from the bottom.
-    pub rope: u16,
+    /// The rope it holds.
+    pub kind: SegmentKind,
     /// Length at which tension starts (m).
     pub rest_length: f64,
     /// Radius with which grains touch it and what it has paid out (m): that of its rope.
@@ -50,7 +50,7 @@ pub struct Pull {
 
 impl Dissipator {
     pub fn strand(&self) -> Strand {
-        Strand { nodes: self.nodes, kind: SegmentKind::Main(self.rope), rest_length: None }
+        Strand { nodes: self.nodes, kind: self.kind, rest_length: None }
     }
 
     pub fn taut(&self) -> Taut {
@@ -88,7 +88,7 @@ mod tests {
     fn example() -> Dissipator {
         Dissipator {
             nodes: [0, 1],
-            rope: 0,
+            kind: SegmentKind::Main(0),
             rest_length: 0.0,
             radius: 0.016,
             stiffness: 45.957e6,

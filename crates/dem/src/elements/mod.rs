@@ -4,6 +4,7 @@ pub mod cylinder;
 pub mod dissipator;
 pub mod ground;
 pub mod net_ring;
+pub mod post;
 pub mod ring;
 pub mod rope;
 pub mod segment;

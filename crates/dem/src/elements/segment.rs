@@ -43,7 +43,8 @@ impl Segment {
     }
 }
 
-/// Which part of the barrier a segment or cylinder belongs to; `Main` carries the number of its rope from the bottom.
+/// Which part of the barrier an element belongs to; `Main` carries the number of its rope from the bottom, `Retaining` and `Post` that of the
+/// post, both from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SegmentKind {
     Net,
@@ -51,6 +52,9 @@ pub enum SegmentKind {
     Lateral,
     /// A ring, or what ties it to the net. Grains pass it by: it lies behind the net.
     Ring,
+    /// A rope that holds the head of a post.
+    Retaining(u16),
+    Post(u16),
 }
 
 /// What pulls on two nodes, as it is recorded and shown.
@@ -58,7 +62,7 @@ pub enum SegmentKind {
 pub struct Strand {
     pub nodes: [u32; 2],
     pub kind: SegmentKind,
-    /// Unloaded length of a piece of rope (m); nothing for a dissipator, which is no part of its rope.
+    /// Unloaded length of a piece of rope or a post (m); nothing for a dissipator, which is no part of its rope.
     pub rest_length: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! A main rope that runs through rings: rope passes from one side of a ring to the other when the tensions
+//! A main rope that runs through rings and over the heads of posts: rope passes from one side of a ring to the other when the tensions
 //! differ by more than friction can hold.
 //!
 //! At a ring with wrap angle θ the tensions of the two sides obey T_1 ≤ T_2 e^(μθ) and the other way round
@@ -16,8 +16,8 @@ use crate::tables::nodes::Node;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chain {
     pub segments: Vec<u32>,
-    /// Friction coefficient between ring and rope.
-    pub friction: f64,
+    /// Friction coefficient between the rope and each ring, or the head of a post, from the first to the last.
+    pub frictions: Vec<f64>,
     /// Shortest rest length of a segment (m).
     pub shortest: f64,
 }
@@ -67,15 +67,16 @@ impl Chain {
         let [first, second] = [pieces[joint - 1].tension(), pieces[joint].tension()];
         let (taut, slack) = if first > second { (joint - 1, joint) } else { (joint, joint - 1) };
         let (high, low) = (first.max(second), first.min(second));
+        let friction = self.frictions[joint - 1];
         let hold = match holds[joint] {
             Some(hold) => hold,
             None => {
                 let cosine = pieces[joint - 1].direction.dot(&pieces[joint].direction).clamp(-1.0, 1.0);
                 // A chord is no longer than its arc: e^(μθ) ≥ 1 + μ √(2 − 2 cos θ), which most rings need no more than.
-                if high <= low * (1.0 + self.friction * (2.0 - 2.0 * cosine).sqrt()) {
+                if high <= low * (1.0 + friction * (2.0 - 2.0 * cosine).sqrt()) {
                     return;
                 }
-                *holds[joint].insert(libm::exp(self.friction * libm::acos(cosine)))
+                *holds[joint].insert(libm::exp(friction * libm::acos(cosine)))
             }
         };
         if high <= low * hold {

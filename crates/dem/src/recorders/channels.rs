@@ -9,6 +9,10 @@ pub enum Rows {
     One,
     /// Each main rope, from the lowest to the highest.
     EachRope,
+    /// Each post of a net, from one bank to the other.
+    EachPost,
+    /// Each anchor of a net, in the order in which its model lists them.
+    EachAnchor,
     /// Each segment of a rigid wall, from the lowest to the highest.
     EachSegment,
 }
@@ -59,12 +63,15 @@ impl Channels {
         Self(self.0.iter().map(|(name, rows)| (name.clone(), rows.iter().map(cut).collect())).collect())
     }
 
-    /// Whether every row has a value for each of so many samples, or none, and every one of these channels as many rows as the others.
-    pub fn is_whole(&self, samples: usize, of_ropes: &[&Channel]) -> bool {
+    /// Whether every row has a value for each of so many samples, or none, and the channels of each of these groups as many rows as each other.
+    pub fn is_whole(&self, samples: usize, alike: &[Vec<&Channel>]) -> bool {
         let rows = self.0.iter().flat_map(|(_, rows)| rows);
-        let counts: Vec<usize> =
-            of_ropes.iter().map(|channel| self.rows(channel).len()).filter(|count| *count > 0).collect();
-        rows.map(Vec::len).all(|count| count == 0 || count == samples) && counts.windows(2).all(|two| two[0] == two[1])
+        let even = |group: &Vec<&Channel>| {
+            let counts = group.iter().map(|channel| self.rows(channel).len()).filter(|count| *count > 0);
+            let counts: Vec<usize> = counts.collect();
+            counts.windows(2).all(|two| two[0] == two[1])
+        };
+        rows.map(Vec::len).all(|count| count == 0 || count == samples) && alike.iter().all(even)
     }
 
     fn rows_of(&mut self, channel: &Channel) -> &mut Vec<Vec<f64>> {
@@ -96,7 +103,7 @@ mod tests {
         assert_eq!(channels.series(&WHOLE), [1.0, 2.0]);
         assert_eq!(channels.rows(&MEAN), [vec![1.0, 2.0], vec![3.0, 6.0]]);
         assert!(channels.rows(&LOAD).is_empty());
-        let of_ropes = [&MEAN, &LOAD];
+        let of_ropes = [vec![&MEAN, &LOAD]];
         assert!(channels.is_whole(2, &of_ropes) && !channels.is_whole(3, &of_ropes));
         assert!(!channels.clone().with(&LOAD, vec![vec![0.0; 2]; 3]).is_whole(2, &of_ropes));
         assert!(channels.with(&LOAD, vec![vec![0.0; 2]; 2]).is_whole(2, &of_ropes));

@@ -90,14 +90,14 @@ impl Histories {
             self.ledger.len(),
             self.entered.len(),
         ];
-        let of_ropes: Vec<&Channel> =
-            CHANNELS.iter().copied().filter(|channel| channel.rows == Rows::EachRope).collect();
+        let of = |rows: Rows| CHANNELS.iter().copied().filter(|channel| channel.rows == rows).collect::<Vec<&Channel>>();
+        let alike = [Rows::EachRope, Rows::EachPost, Rows::EachAnchor].map(of);
         let in_order = self.surges.windows(2).all(|pair| pair[0] <= pair[1]);
         let told = |series: &[f64], count: usize| series.is_empty() || series.len() == count;
         let several = self.surges.len() + 1;
         let told = told(&self.shares, several) && told(&self.stopped_of, several);
         let surges = in_order && told && self.surges.iter().all(|sample| *sample <= moments);
-        surges && single.into_iter().all(fits) && self.barrier.is_whole(moments, &of_ropes) && self.film.is_whole()
+        surges && single.into_iter().all(fits) && self.barrier.is_whole(moments, &alike) && self.film.is_whole()
     }
 }
 

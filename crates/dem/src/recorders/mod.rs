@@ -13,6 +13,7 @@ pub mod of_anchors;
 pub mod of_boulders;
 pub mod of_dissipators;
 pub mod of_level;
+pub mod of_posts;
 pub mod of_ropes;
 pub mod of_wall;
 pub mod passage;
@@ -23,7 +24,7 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 22] = [
+pub const CHANNELS: [&Channel; 31] = [
     &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
@@ -46,4 +47,13 @@ pub const CHANNELS: [&Channel; 22] = [
     &of_ropes::TOP_HEIGHT,
     &of_boulders::FORCE,
     &of_boulders::NET,
+    &of_posts::COMPRESSION,
+    &of_posts::FOOT[0],
+    &of_posts::FOOT[1],
+    &of_posts::FOOT[2],
+    &of_posts::RETAINING,
+    &of_posts::STROKE,
+    &of_anchors::EACH[0],
+    &of_anchors::EACH[1],
+    &of_anchors::EACH[2],
 ];

@@ -14,6 +14,12 @@ use crate::tables::barrier::Barrier;
 
 /// Load of the higher loaded anchor of each main rope; where several ropes run side by side each has its own, and takes its share.
 pub const LOAD: Channel = Channel { name: "anchor", unit: "n", rows: Rows::EachRope };
+/// Force on each anchor in the channel frame; where several ropes run side by side that on the anchor of one.
+pub const EACH: [Channel; 3] = [
+    Channel { name: "anchor_x", unit: "n", rows: Rows::EachAnchor },
+    Channel { name: "anchor_y", unit: "n", rows: Rows::EachAnchor },
+    Channel { name: "anchor_z", unit: "n", rows: Rows::EachAnchor },
+];
 /// Force on what holds the lowest main rope to the bed.
 pub const BED: Channel = Channel { name: "bed_force", unit: "n", rows: Rows::One };
 /// Largest force on one of the bolts that hold the lowest main rope to the bed, and the largest lift of one; not recorded where their
@@ -24,6 +30,7 @@ pub const BOLT_LIFT: Channel = Channel { name: "bolt_lift", unit: "n", rows: Row
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct OfAnchors {
     load: Vec<f64>,
+    each: Vec<Vec3>,
     bed: Vec3,
     bolts: Vec<Vec3>,
 }
@@ -33,6 +40,10 @@ impl BodyRecorder for OfAnchors {
         let (Some(barrier), forces) = (&simulation.model.barrier, &simulation.sums.net.forces) else { return };
         self.bed += bed_force(barrier, forces, &setup.net_rows);
         add_rows(&mut self.load, &anchor_loads(barrier, forces, setup.ropes));
+        self.each.resize(barrier.anchors.len(), Vec3::zeros());
+        for (sum, anchor) in self.each.iter_mut().zip(&barrier.anchors) {
+            *sum += forces[anchor.node as usize] / barrier.sharing(anchor.kind);
+        }
         if setup.bolt_spaces > 0 {
             let loads = bolt_loads(barrier, setup, forces);
             self.bolts.resize(loads.len(), Vec3::zeros());
@@ -46,6 +57,10 @@ impl BodyRecorder for OfAnchors {
         }
         let done = std::mem::take(self);
         channels.push(&LOAD, &means(&done.load, steps));
+        for (axis, channel) in EACH.iter().enumerate() {
+            let along: Vec<f64> = done.each.iter().map(|force| force[axis]).collect();
+            channels.push(channel, &means(&along, steps));
+        }
         channels.push(&BED, &means(&[done.bed.norm()], steps));
         if setup.bolt_spaces > 0 {
             let most = |of: fn(&Vec3) -> f64| means(&[done.bolts.iter().map(of).fold(0.0, larger_or_nan)], steps);
@@ -65,9 +80,9 @@ fn bed_force(barrier: &Barrier, forces: &[Vec3], rows: &[Vec<u32>]) -> Vec3 {
 fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
     let mut loads = vec![0.0_f64; ropes];
     for anchor in &barrier.anchors {
-        let load = &mut loads[anchor.rope as usize];
-        let sharing = barrier.sharing(SegmentKind::Main(anchor.rope));
-        *load = larger_or_nan(*load, forces[anchor.node as usize].norm() / sharing);
+        let SegmentKind::Main(rope) = anchor.kind else { continue };
+        let load = &mut loads[usize::from(rope)];
+        *load = larger_or_nan(*load, forces[anchor.node as usize].norm() / barrier.sharing(anchor.kind));
     }
     loads
 }

@@ -26,9 +26,9 @@ impl BodyRecorder for OfDissipators {
         let Some(barrier) = &simulation.model.barrier else { return };
         let mut tensions = vec![0.0_f64; setup.ropes];
         for (dissipator, &tension) in barrier.dissipators.iter().zip(&simulation.sums.net.dissipators) {
-            let rope = dissipator.rope as usize;
-            let sharing = barrier.sharing(SegmentKind::Main(dissipator.rope));
-            tensions[rope] = larger_or_nan(tensions[rope], tension / sharing);
+            let SegmentKind::Main(rope) = dissipator.kind else { continue };
+            let of_rope = &mut tensions[usize::from(rope)];
+            *of_rope = larger_or_nan(*of_rope, tension / barrier.sharing(dissipator.kind));
         }
         add_rows(&mut self.tension, &tensions);
     }
@@ -40,7 +40,8 @@ impl BodyRecorder for OfDissipators {
         let mut larger = vec![0.0_f64; setup.ropes];
         let mut sums = larger.clone();
         for dissipator in &barrier.dissipators {
-            let rope = dissipator.rope as usize;
+            let SegmentKind::Main(rope) = dissipator.kind else { continue };
+            let rope = usize::from(rope);
             larger[rope] = larger_or_nan(larger[rope], dissipator.used);
             sums[rope] += dissipator.used;
         }

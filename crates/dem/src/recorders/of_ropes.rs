@@ -52,7 +52,7 @@ impl BodyRecorder for OfRopes {
                 }
                 SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
                 SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
-                SegmentKind::Ring => {}
+                SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
             }
         }
         let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();

@@ -16,6 +16,7 @@ use crate::recorders::of_anchors::OfAnchors;
 use crate::recorders::of_boulders::OfBoulders;
 use crate::recorders::of_dissipators::OfDissipators;
 use crate::recorders::of_level::OfLevel;
+use crate::recorders::of_posts::OfPosts;
 use crate::recorders::of_ropes::OfRopes;
 use crate::recorders::of_wall::OfWall;
 use crate::recorders::passage::{Screen, WAYS, Way};
@@ -83,11 +84,20 @@ struct Bodies {
     dissipators: OfDissipators,
     anchors: OfAnchors,
     boulders: OfBoulders,
+    posts: OfPosts,
 }
 
 impl Bodies {
-    fn each(&mut self) -> [&mut dyn BodyRecorder; 6] {
-        [&mut self.level, &mut self.wall, &mut self.ropes, &mut self.dissipators, &mut self.anchors, &mut self.boulders]
+    fn each(&mut self) -> [&mut dyn BodyRecorder; 7] {
+        [
+            &mut self.level,
+            &mut self.wall,
+            &mut self.ropes,
+            &mut self.dissipators,
+            &mut self.anchors,
+            &mut self.boulders,
+            &mut self.posts,
+        ]
     }
 }
 
@@ -301,7 +311,7 @@ impl Recorder {
     /// Notes the share of the mass, and of each surge's, that lies upstream without leaning on the barrier, at rest or not.
     fn note_what_stopped_upstream(&mut self, simulation: &Simulation, grains: &[Grain]) {
         let face = match &simulation.model.barrier {
-            Some(barrier) => barrier.nodes.iter().map(|node| node.position.x).fold(0.0, f64::min),
+            Some(barrier) => -barrier.face(),
             None => 0.0,
         };
         let here: Vec<&Grain> = grains.iter().filter(|grain| !self.passed.contains_key(&grain.id)).collect();

@@ -6,6 +6,7 @@ use crate::elements::cylinder::Cylinder;
 use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::{Footing, Ground};
 use crate::elements::net_ring::NetRing;
+use crate::elements::post::Post;
 use crate::elements::ring::RingSide;
 use crate::elements::segment::{Segment, SegmentKind};
 use crate::elements::segment::{Strand, Taut};
@@ -23,11 +24,11 @@ pub struct Line {
     pub broken: bool,
 }
 
-/// An anchor point with the main rope it holds.
+/// An anchor point with the rope it holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Anchor {
     pub node: u32,
-    pub rope: u16,
+    pub kind: SegmentKind,
 }
 
 /// The flexible barrier as the engine sees it.
@@ -51,6 +52,8 @@ pub struct Barrier {
     pub chains: Vec<Chain>,
     /// Rings of a ring net.
     pub net_rings: Vec<NetRing>,
+    /// Posts, from one bank to the other.
+    pub posts: Vec<Post>,
     /// Sides of rings round ropes of cylinders, and the moduli of ring and rope in contact (Pa).
     pub rings: Vec<RingSide>,
     pub ring_moduli: [f64; 2],
@@ -71,13 +74,18 @@ impl Barrier {
             .chain(self.cylinders.iter().map(Cylinder::strand))
             .chain(self.net_rings.iter().flat_map(NetRing::strands))
             .chain(self.dissipators.iter().map(Dissipator::strand))
+            .chain(self.posts.iter().map(Post::strand))
     }
 
     /// Ropes that share what an element of this kind bears.
     pub fn sharing(&self, kind: SegmentKind) -> f64 {
         match kind {
             SegmentKind::Main(rope) => f64::from(self.bundles.get(usize::from(rope)).copied().unwrap_or(1)),
-            SegmentKind::Net | SegmentKind::Lateral | SegmentKind::Ring => 1.0,
+            SegmentKind::Net
+            | SegmentKind::Lateral
+            | SegmentKind::Ring
+            | SegmentKind::Retaining(_)
+            | SegmentKind::Post(_) => 1.0,
         }
     }
 
@@ -85,7 +93,21 @@ impl Barrier {
     pub fn springs(&self) -> impl Iterator<Item = Taut> {
         let segments = self.segments.iter().map(Segment::taut);
         let rings = self.net_rings.iter().flat_map(|ring| ring.springs(&self.nodes));
-        segments.chain(self.dissipators.iter().chain(&self.holds).map(Dissipator::taut)).chain(rings)
+        let posts = self.posts.iter().map(|post| post.taut(&self.nodes));
+        segments.chain(self.dissipators.iter().chain(&self.holds).map(Dissipator::taut)).chain(rings).chain(posts)
+    }
+
+    /// How far upstream of its foot the net reaches (m): what holds its posts lies further upstream.
+    pub fn face(&self) -> f64 {
+        let mut of_net = vec![true; self.nodes.len()];
+        let retaining = self.segments.iter().map(|segment| (segment.kind, segment.nodes));
+        let retaining = retaining.chain(self.dissipators.iter().map(|dissipator| (dissipator.kind, dissipator.nodes)));
+        for (_, nodes) in retaining.filter(|(kind, _)| matches!(kind, SegmentKind::Retaining(_))) {
+            nodes.iter().for_each(|node| of_net[*node as usize] = false);
+        }
+        self.posts.iter().for_each(|post| of_net[post.nodes[1] as usize] = true);
+        let nodes = self.nodes.iter().zip(&of_net).filter(|(_, of_net)| **of_net);
+        nodes.map(|(node, _)| -node.position.x).fold(0.0, f64::max)
     }
 
     /// Radius with which grains may touch a line or either of its nodes (m).
@@ -133,6 +155,8 @@ impl Barrier {
             radius: dissipator.radius,
             broken: false,
         }));
+        let posts = self.posts.iter();
+        self.lines.extend(posts.map(|post| Line { nodes: post.nodes, radius: post.radius, broken: false }));
         for node in &mut self.nodes {
             node.lines.clear();
             node.radius = 0.0;

@@ -1,0 +1,73 @@
+//! What posts, their feet and the ropes that retain them bear.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+use crate::elements::segment::SegmentKind;
+use crate::larger_or_nan;
+use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::recorders::channels::{Channel, Channels, Rows};
+use crate::recorders::setup::RecorderSetup;
+use crate::simulation::Simulation;
+
+/// Compression of each post; negative where it is pulled.
+pub const COMPRESSION: Channel = Channel { name: "post", unit: "n", rows: Rows::EachPost };
+/// Force of each post and of the grains that lean on it on its foot, in the channel frame.
+pub const FOOT: [Channel; 3] = [
+    Channel { name: "foot_x", unit: "n", rows: Rows::EachPost },
+    Channel { name: "foot_y", unit: "n", rows: Rows::EachPost },
+    Channel { name: "foot_z", unit: "n", rows: Rows::EachPost },
+];
+/// Largest tension of the ropes that retain each post, their dissipators included.
+pub const RETAINING: Channel = Channel { name: "retaining_largest", unit: "n", rows: Rows::EachPost };
+/// Stroke used by the dissipators of the ropes that retain each post, the largest of them.
+pub const STROKE: Channel = Channel { name: "retaining_stroke", unit: "m", rows: Rows::EachPost };
+
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct OfPosts {
+    compression: Vec<f64>,
+    feet: Vec<Vec3>,
+    retaining: Vec<f64>,
+}
+
+impl BodyRecorder for OfPosts {
+    fn add_step(&mut self, simulation: &Simulation, _: &RecorderSetup) {
+        let (Some(barrier), net) = (&simulation.model.barrier, &simulation.sums.net) else { return };
+        if barrier.posts.is_empty() {
+            return;
+        }
+        let compression: Vec<f64> = net.posts.iter().map(|tension| -tension).collect();
+        add_rows(&mut self.compression, &compression);
+        self.feet.resize(barrier.posts.len(), Vec3::zeros());
+        for (sum, post) in self.feet.iter_mut().zip(&barrier.posts) {
+            *sum += net.forces[post.nodes[0] as usize];
+        }
+        let mut largest = vec![0.0_f64; barrier.posts.len()];
+        for (strand, tension) in barrier.strands().zip(net.strand_tensions(barrier)) {
+            if let SegmentKind::Retaining(post) = strand.kind {
+                let of_post = &mut largest[usize::from(post)];
+                *of_post = larger_or_nan(*of_post, tension);
+            }
+        }
+        add_rows(&mut self.retaining, &largest);
+    }
+
+    fn sample(&mut self, simulation: &Simulation, _: &RecorderSetup, steps: u32, channels: &mut Channels) {
+        let Some(barrier) = &simulation.model.barrier else { return };
+        let done = std::mem::take(self);
+        channels.push(&COMPRESSION, &means(&done.compression, steps));
+        for (axis, channel) in FOOT.iter().enumerate() {
+            let along: Vec<f64> = done.feet.iter().map(|force| force[axis]).collect();
+            channels.push(channel, &means(&along, steps));
+        }
+        channels.push(&RETAINING, &means(&done.retaining, steps));
+        let mut strokes = vec![0.0_f64; barrier.posts.len()];
+        for dissipator in &barrier.dissipators {
+            if let SegmentKind::Retaining(post) = dissipator.kind {
+                let of_post = &mut strokes[usize::from(post)];
+                *of_post = larger_or_nan(*of_post, dissipator.used);
+            }
+        }
+        channels.push(&STROKE, &strokes);
+    }
+}

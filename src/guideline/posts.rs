@@ -1,0 +1,109 @@
+//! Posts under the guideline's loads: what the uppermost rope hands to their heads, and what presses on themselves.
+
+use crate::design::{Design, FlexibleNet, Posts};
+use crate::guideline::{RopeLoad, lean};
+use crate::larger::larger_or_nan;
+use crate::loads::cases::load_case::LoadCase;
+use crate::loads::posts::{BeamState, HeadState, PostInput, beam};
+use crate::loads::rope::Yielding;
+
+/// A post, with the partial factor on loads.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PostLoad {
+    /// m
+    pub length: f64,
+    /// On its head, normal to the net: from the rope over it, and from what presses on the post itself (N).
+    pub from_rope: f64,
+    pub own: BeamState,
+    /// Largest pull along the rope by friction on the head (N).
+    pub along: f64,
+    pub head: HeadState,
+    /// Force on its foundation (N).
+    pub foot: f64,
+    /// Stroke of the dissipators of its ropes (m): none below their force, and all of it above, because nothing else would hold the head.
+    pub stroke: f64,
+}
+
+/// The bays of the uppermost rope from the right bank to the left (m): where it begins, the posts, where it ends.
+pub fn stops(design: &Design, [from, to]: [f64; 2]) -> Vec<f64> {
+    let posts = posts_of(design).map_or(Vec::new(), |posts| posts.at.clone());
+    let mut places: Vec<f64> = posts.iter().map(|right| design.channel.across(*right)).collect();
+    places.reverse();
+    [from].into_iter().chain(places).chain([to]).collect()
+}
+
+fn posts_of(design: &Design) -> Option<&Posts> {
+    net_of(design)?.posts.as_ref()
+}
+
+fn net_of(design: &Design) -> Option<&FlexibleNet> {
+    match &design.barrier {
+        crate::design::BarrierDesign::FlexibleNet(net) => Some(net),
+        crate::design::BarrierDesign::RigidWall(_) => None,
+    }
+}
+
+/// How the dissipators of the ropes that retain posts yield, if there are any.
+pub fn retaining(design: &Design) -> Option<Yielding> {
+    let given = posts_of(design)?.retaining.dissipators.as_ref()?;
+    Some(Yielding { largest: given.plateau, stroke: given.stroke, curve: given.curve.clone() })
+}
+
+/// Where a post stands and is held: its foot on the ground at the barrier, its anchors on the bed as it falls there.
+pub fn input(design: &Design, posts: &Posts, right: f64, top: f64) -> PostInput {
+    let (channel, lean) = (&design.channel, lean(design));
+    let across = channel.across(right);
+    let ground = channel.ground_at(across);
+    let anchor = |side: f64| [-posts.retaining.set_back, -side, channel.ground_at(across - side) - ground];
+    PostInput {
+        length: (top - ground) / libm::cos(lean),
+        lean,
+        anchors: posts.retaining.sides().into_iter().map(anchor).collect(),
+    }
+}
+
+/// Each post under the governing load of the uppermost rope.
+pub fn loads(design: &Design, rope: Option<&RopeLoad>, stages: &[LoadCase], top: f64) -> Vec<PostLoad> {
+    let (Some(posts), Some(rope)) = (posts_of(design), rope) else { return Vec::new() };
+    let ends = design.channel.section().banks(top);
+    let stops = stops(design, ends);
+    let retaining = retaining(design);
+    let of = |(number, right): (usize, &f64)| {
+        let post = input(design, posts, *right, top);
+        let across = design.channel.across(*right);
+        // The stops go from the right to the left, the posts from the left to the right.
+        let at = stops.len() - 2 - number;
+        let bays = [stops[at] - stops[at - 1], stops[at + 1] - stops[at]];
+        let from_rope = 0.5 * rope.load * (bays[0] + bays[1]);
+        let own = worst_beam(design, posts, &post, design.channel.ground_at(across), stages);
+        let along = friction(rope, bays, posts.head_friction);
+        let head = post.under(from_rope + own.head, along);
+        let holds = retaining.as_ref().map_or(f64::INFINITY, Yielding::least);
+        // Asked so that a tension that is not a number uses it up.
+        let below = head.tension <= holds;
+        let stroke = retaining.as_ref().filter(|_| !below).map_or(0.0, |given| given.stroke);
+        let foot = libm::hypot(head.compression, own.foot);
+        PostLoad { length: post.length, from_rope, own, along, head, foot, stroke }
+    };
+    posts.at.iter().enumerate().map(of).collect()
+}
+
+/// What presses on the width of the post itself, in the stage that bends it most.
+fn worst_beam(design: &Design, posts: &Posts, post: &PostInput, ground: f64, stages: &[LoadCase]) -> BeamState {
+    let upright = libm::cos(post.lean);
+    let of = |case: &LoadCase| {
+        beam(post.length, |place| design.factors.load * posts.width * case.diagram.at(ground + place * upright))
+    };
+    stages.iter().map(of).fold(BeamState::default(), |most, state| BeamState {
+        head: larger_or_nan(most.head, state.head),
+        foot: larger_or_nan(most.foot, state.foot),
+        moment: larger_or_nan(most.moment, state.moment),
+    })
+}
+
+/// Largest difference of the rope's pull on the two sides of a head, T (1 − e^(−μθ)), with the angle θ by which the rope turns over it.
+fn friction(rope: &RopeLoad, bays: [f64; 2], friction: f64) -> f64 {
+    let slope = |bay: f64| libm::atan(4.0 * rope.state.sag * bay / (rope.span * rope.span));
+    let turn = slope(bays[0]) + slope(bays[1]);
+    f64::from(rope.ropes) * rope.state.tension * -libm::expm1(-friction * turn)
+}

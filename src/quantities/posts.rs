@@ -1,0 +1,63 @@
+//! What posts, their feet and the ropes that retain them bear.
+
+use crate::quantities::quantity::Unit::{Metre, Newton};
+use crate::quantities::quantity::{Demanded, Of, OverPlateau, Quantity, Told};
+use crate::quantities::reading::Reading;
+use dem::recorders::of_posts;
+
+/// Largest compression of each post.
+pub const COMPRESSION: Quantity =
+    Quantity::new("post_compression", "Compression of post", Newton, Of::EachPost, |run| {
+        run.peaks(&of_posts::COMPRESSION)
+    })
+    .json("post_compression_peak_n")
+    .told(Told::WhereLoaded)
+    .demanded(Demanded::LoadOfPost(|post| post.head.compression, OverPlateau::Grows));
+
+/// Largest force of each post on its foundation.
+pub const FOOT: Quantity =
+    Quantity::new("foot_force", "Force on the foundation of post", Newton, Of::EachPost, |run| {
+        at_largest(run).into_iter().map(|[along, across, up]| libm::hypot(libm::hypot(along, across), up)).collect()
+    })
+    .json("foot_force_peak_n")
+    .demanded(Demanded::LoadOfPost(|post| post.foot, OverPlateau::Grows));
+
+/// Parts of that force, by the level: down the valley, to the left, and up.
+pub const FOOT_ALONG: Quantity =
+    Quantity::new("foot_force_along", "Force along the valley on the foundation of post", Newton, Of::EachPost, |run| {
+        part(run, 0)
+    })
+    .json_in("foot_force_at_peak_n", "along");
+pub const FOOT_ACROSS: Quantity =
+    Quantity::new("foot_force_across", "Force to the left on the foundation of post", Newton, Of::EachPost, |run| {
+        part(run, 1)
+    })
+    .json_in("foot_force_at_peak_n", "to_the_left");
+pub const FOOT_UP: Quantity =
+    Quantity::new("foot_force_up", "Upward force on the foundation of post", Newton, Of::EachPost, |run| part(run, 2))
+        .json_in("foot_force_at_peak_n", "up");
+
+/// Largest tension of the ropes that retain each post.
+pub const RETAINING: Quantity =
+    Quantity::new("retaining_tension", "Tension of the retaining ropes of post", Newton, Of::EachPost, |run| {
+        run.peaks(&of_posts::RETAINING)
+    })
+    .json("retaining_tension_peak_n")
+    .told(Told::WhereLoaded)
+    .demanded(Demanded::LoadOfPost(|post| post.head.tension, OverPlateau::Adds));
+
+/// Largest stroke used by the dissipators of the ropes that retain each post.
+pub const STROKE: Quantity =
+    Quantity::new("retaining_stroke", "Stroke of the dissipators of post", Metre, Of::EachPost, |run| {
+        run.peaks(&of_posts::STROKE)
+    })
+    .json("retaining_stroke_m")
+    .demanded(Demanded::StrokeOfPost);
+
+fn at_largest(run: &Reading) -> Vec<[f64; 3]> {
+    run.vectors_at_largest(&of_posts::FOOT)
+}
+
+fn part(run: &Reading, part: usize) -> Vec<f64> {
+    at_largest(run).into_iter().map(|vector| vector[part]).collect()
+}
