@@ -133,6 +133,7 @@ fn like_the_design(given_flux: Option<f64>, given: f64, velocity: f64, flux: f64
 mod tests {
     use super::*;
     use crate::design::read::read_design;
+    use crate::quantities::counts::Counts;
 
     fn small_net() -> Design {
         read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design
@@ -145,7 +146,7 @@ mod tests {
 
     /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
     fn arriving(velocity: f64, flux: f64) -> Observed {
-        let mut seen = Observed::of_nothing(3, 0);
+        let mut seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() });
         (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
         seen
     }

@@ -2,13 +2,14 @@
 
 pub(crate) mod posts;
 
+pub use self::posts::PostLoad;
 use crate::design::{
-    Arrival, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, Level, RunUp,
+    AnchorOf, Arrival, Bank, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, Level,
+    RunUp,
 };
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
-pub use self::posts::PostLoad;
 pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::impact::hertz;
@@ -48,6 +49,8 @@ pub struct Guideline {
     pub rings: Option<RingLoad>,
     /// Each post of a net, from the left to the right looking downstream.
     pub posts: Vec<PostLoad>,
+    /// What its anchors hold.
+    pub anchors: Vec<AnchorOf>,
     /// The dissipators of the main ropes, and of the ropes that retain posts, if there are any.
     pub dissipator: Option<Yielding>,
     pub retaining: Option<Yielding>,
@@ -77,6 +80,8 @@ pub struct RopeLoad {
     /// From bank to bank, or the longest between banks and posts (m), and the other spans.
     pub span: f64,
     pub others: Vec<f64>,
+    /// Of the rope between the edges of the net and its anchors, at both ends together (m).
+    pub behind: f64,
     /// Ropes that run side by side and share the load.
     pub ropes: u16,
     /// Load across the span, of all of them and of one (N/m): a point load is that of one.
@@ -157,6 +162,10 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         foot_moment: stages.iter().map(|case| case.foot_moment(hit, lean(design))).fold(0.0, larger_or_nan),
         posts: posts::loads(design, ropes.last(), &stages, height_over_bed(design)),
         ropes,
+        anchors: match &design.barrier {
+            BarrierDesign::FlexibleNet(net) => net.anchors(),
+            BarrierDesign::RigidWall(_) => Vec::new(),
+        },
         dissipator: dissipator(design),
         retaining: posts::retaining(design),
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
@@ -504,8 +513,14 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             let mut others: Vec<f64> = stops.windows(2).map(|pair| pair[1] - pair[0]).collect();
             let longest = (0..others.len()).max_by(|a, b| others[*a].total_cmp(&others[*b])).unwrap_or(0);
             let span = others.remove(longest);
-            let span =
-                RopeInput { span, others, axial_stiffness: rope.axial_stiffness(), dissipator: dissipator(design) };
+            let behind = [Bank::Right, Bank::Left].map(|bank| net.anchor_designs.of(index, bank).set_back);
+            let span = RopeInput {
+                span,
+                others,
+                behind: behind[0] + behind[1],
+                axial_stiffness: rope.axial_stiffness(),
+                dissipator: dissipator(design),
+            };
             let spread_of = |case: &LoadCase| match &section {
                 Section::Rectangle { .. } => case.strip_force(low, high),
                 Section::Surveyed(survey) => {
@@ -554,6 +569,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
                 ropes,
                 span: span.span,
                 others: span.others,
+                behind: span.behind,
                 load,
                 of_one,
                 point,
@@ -606,7 +622,8 @@ fn pieces(survey: &Survey, [from, to]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
 /// span, between banks and posts, goes to their ends.
 fn even_load(survey: &Survey, stops: &[f64], bay: usize, top: f64, per_width: impl Fn(f64) -> f64) -> f64 {
     let [from, to] = [stops[bay], stops[bay + 1]];
-    let within = [if bay == 0 { f64::NEG_INFINITY } else { from }, if bay + 2 == stops.len() { f64::INFINITY } else { to }];
+    let within =
+        [if bay == 0 { f64::NEG_INFINITY } else { from }, if bay + 2 == stops.len() { f64::INFINITY } else { to }];
     let span = to - from;
     let mut loads: Vec<[f64; 2]> = Vec::new();
     for pair in pieces(survey, within) {
@@ -801,6 +818,7 @@ mod tests {
         let rope = RopeInput {
             span: two.span,
             others: Vec::new(),
+            behind: 0.0,
             axial_stiffness: net.main_ropes.levels[2].rope.axial_stiffness(),
             dissipator: dissipator(&single),
         };

@@ -322,6 +322,7 @@ mod tests {
     use super::*;
     use crate::checks::outcome::{CheckName, Opening, Resistance};
     use crate::demand::Demand;
+    use crate::quantities::counts::Counts;
     use crate::quantities::quantity::Unit;
     use crate::quantities::{earth_pressure, total_force, wall};
 
@@ -364,7 +365,7 @@ mod tests {
 
     /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
     fn arriving(velocity: f64, flux: f64) -> Observed {
-        let mut seen = Observed::of_nothing(3, 0);
+        let mut seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() });
         (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
         seen
     }
@@ -409,7 +410,10 @@ mod tests {
 
     #[test]
     fn a_doubt_says_of_which_packing_and_flow_it_is() {
-        let run = Simulated { doubts: vec!["it broke".into()], ..simulated(vec![Observed::of_nothing(3, 0)]) };
+        let run = Simulated {
+            doubts: vec!["it broke".into()],
+            ..simulated(vec![Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })])
+        };
         assert_eq!(doubts_of(LoadCase::Characteristic, &run, 1), ["it broke"]);
         assert_eq!(doubts_of(LoadCase::Characteristic, &run, 2), ["seed 7: it broke"]);
         assert_eq!(doubts_of(LoadCase::Factored, &run, 1), ["factored flow: it broke"]);

@@ -2,7 +2,7 @@
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
-use crate::design::{BarrierDesign, Design, FlexibleNet, LateralTo};
+use crate::design::{AnchorOf, Bank, BarrierDesign, Design, FlexibleNet, LateralTo};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{anchor_load, other_ropes};
 use crate::sources::ANCHOR_FACTOR;
@@ -11,16 +11,21 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else {
         return Vec::new();
     };
-    let capacity = Resistance { characteristic: net.anchor_resistance, factor: design.factors.anchor };
-    let loads = demands.each(&anchor_load::PEAK).iter().enumerate().skip(net.ropes_held_by_bed());
-    let by_load = loads.map(|(index, demand)| {
+    let by_load = loads_of_ropes(net, demands).into_iter().map(|(index, bank, demand)| {
         let ropes = net.main_ropes.levels.get(index).map_or(1, |level| level.ropes);
-        let name = CheckName::of(&anchor_load::PEAK, index, format!("anchor_{}_load", index + 1), ANCHOR_FACTOR);
-        let name = name.each_of(ropes);
-        let (demand, beside) = match net.dissipators {
-            Some(_) => (*demand, 0.0),
-            None => with_lateral(*demand, demands),
+        let (id, title) = match bank {
+            None => (format!("anchor_{}_load", index + 1), anchor_load::PEAK.title_of(index)),
+            Some(bank) => (
+                format!("anchor_{}_{}_load", index + 1, bank.word()),
+                format!("Load of the {} anchor of main rope {}", bank.word(), index + 1),
+            ),
         };
+        let name = CheckName::new(id, title, Unit::Newton, ANCHOR_FACTOR).each_of(ropes);
+        let (demand, beside) = match net.dissipators {
+            Some(_) => (demand, 0.0),
+            None => with_lateral(demand, demands),
+        };
+        let capacity = resistance(design, net, index, bank.unwrap_or(Bank::Right));
         let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation).of_rope(index);
         let outcome = Outcome { beside, ..outcome };
         match net.lateral_to {
@@ -33,7 +38,46 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             ),
         }
     });
-    by_load.chain(against_plateau(net, design, demands, capacity)).collect()
+    by_load.chain(against_plateau(net, design, demands)).collect()
+}
+
+/// The demand of each main rope's higher loaded anchor, or where its two anchors differ that of each.
+fn loads_of_ropes(net: &FlexibleNet, demands: &Demands) -> Vec<(usize, Option<Bank>, Demand)> {
+    let unknown = Demand { guideline: Some(f64::NAN), ..Demand::default() };
+    let of = |index: usize| {
+        let [right, left] = [Bank::Right, Bank::Left].map(|bank| net.anchor_designs.of(index, bank).resistance);
+        if right == left {
+            let demand = demands.each(&anchor_load::PEAK).get(index).copied();
+            return demand.map(|demand| (index, None, demand)).into_iter().collect::<Vec<_>>();
+        }
+        let each = net.anchors().into_iter().enumerate().filter_map(move |(number, anchor)| match anchor {
+            AnchorOf::Main { rope, bank } if rope == index => Some((number, bank)),
+            _ => None,
+        });
+        let demand = |number: usize| demands.each(&anchor_load::EACH).get(number).copied().unwrap_or(unknown);
+        each.map(|(number, bank)| (index, Some(bank), demand(number))).collect()
+    };
+    (net.ropes_held_by_bed()..net.main_ropes.levels.len()).flat_map(of).collect()
+}
+
+/// What an anchor of a main rope withstands.
+pub fn resistance(design: &Design, net: &FlexibleNet, rope: usize, bank: Bank) -> Resistance {
+    let given = net.anchor_designs.of(rope, bank).resistance;
+    Resistance { characteristic: given.value(), factor: given.factor(design.factors.anchor) }
+}
+
+/// Design resistance of the weakest anchor of a main rope (N).
+pub fn weakest(design: &Design, net: &FlexibleNet) -> f64 {
+    let Resistance { characteristic, factor } = weakest_of(design, net);
+    characteristic / factor
+}
+
+fn weakest_of(design: &Design, net: &FlexibleNet) -> Resistance {
+    let free = net.ropes_held_by_bed()..net.main_ropes.levels.len();
+    let all = free.flat_map(|rope| [Bank::Right, Bank::Left].map(|bank| resistance(design, net, rope, bank)));
+    let holds = |resistance: &Resistance| resistance.characteristic / resistance.factor;
+    let least = all.min_by(|a, b| holds(a).total_cmp(&holds(b)));
+    least.unwrap_or_else(|| resistance(design, net, 0, Bank::Right))
 }
 
 /// Without dissipators a lateral rope pulls at the anchor wherever it is tied: what the equations have for the main rope and what the simulation
@@ -48,7 +92,8 @@ fn with_lateral(demand: Demand, demands: &Demands) -> (Demand, f64) {
 const USUAL_OVERSTRENGTH: f64 = 1.15;
 
 /// A dissipator at work loads its anchor with its plateau, overstrength included, whatever the design flow shows.
-fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands, capacity: Resistance) -> Option<Outcome> {
+fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands) -> Option<Outcome> {
+    let capacity = weakest_of(design, net);
     let plateau = net.dissipators.as_ref()?.plateau;
     let name = CheckName::new(
         "anchor_plateau",

@@ -95,7 +95,12 @@ fn of_net(net: &FlexibleNet) -> Vec<Usual> {
     let ropes = of_net.into_iter().chain(main).chain([("lateral_ropes", &net.lateral_rope)]);
     let mut all: Vec<Usual> = ropes.flat_map(|(name, rope)| of_rope(name, rope)).collect();
     all.extend(net.rings.iter().flat_map(of_rings));
-    all.push(usual("barrier.flexible_net.anchors.resistance", net.anchor_resistance, "N", [0.0, 3e6]));
+    all.push(usual(
+        "barrier.flexible_net.anchors.resistance",
+        net.anchor_designs.all.resistance.value(),
+        "N",
+        [0.0, 3e6],
+    ));
     let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);
     all.extend(bolt.map(|it| usual("barrier.flexible_net.anchors.bed_bolt_resistance", it, "N", [0.0, 1e6])));
     if let Some(dissipator) = &net.dissipators {

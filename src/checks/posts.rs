@@ -4,8 +4,8 @@ use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::checks::ropes;
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, PostStrength, Posts};
+use crate::guideline::height_over_bed;
 use crate::guideline::posts::input;
-use crate::guideline::{Guideline, guideline, height_over_bed};
 use crate::loads::posts::{Column, Strut};
 use crate::quantities::posts;
 use crate::sources::{ANCHOR_FACTOR, POST_STRENGTH, ROPE_FACTOR, STROKE_DATA};
@@ -19,10 +19,9 @@ fn of(design: &Design) -> Option<&Posts> {
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let Some(given) = of(design) else { return Vec::new() };
-    let guideline = guideline(design);
     (0..given.at.len())
         .flat_map(|number| {
-            let compression = compressed(design, given, &guideline, number, demands);
+            let compression = compressed(design, given, number, demands);
             [compression, foot(design, given, number, demands), rope(design, given, number, demands)]
                 .into_iter()
                 .chain(stroke(design, given, number, demands))
@@ -55,33 +54,42 @@ pub fn strut(design: &Design, given: &Posts, number: usize) -> Option<Strut> {
     }
 }
 
-/// Compression of a post against what is left of its resistance to buckling beside the moment of what presses on it.
-fn compressed(
-    design: &Design,
-    given: &Posts,
-    guideline: &Guideline,
-    number: usize,
-    demands: &Demands,
-) -> Outcome {
-    let demand = demand(demands.each(&posts::COMPRESSION), number);
+/// Compression of a post, with what takes up as much of it as its bending, against its resistance to buckling.
+fn compressed(design: &Design, given: &Posts, number: usize, demands: &Demands) -> Outcome {
+    let pressed = demand(demands.each(&posts::COMPRESSION), number);
+    let bent = demand(demands.each(&posts::MOMENT), number);
     let id = format!("post_{}_compression", number + 1);
-    let name = CheckName::of(&posts::COMPRESSION, number, id, POST_STRENGTH);
+    let title = format!("Compression of post {}, with its bending", number + 1);
+    let name = CheckName::new(id, title, posts::COMPRESSION.unit, POST_STRENGTH);
     let Some(strut) = strut(design, given, number) else {
         let give = "posts.radius_of_gyration, section_modulus and yield_strength, or resistance and bending_resistance";
-        return Outcome::without_resistance(name, demand, give);
+        return Outcome::without_resistance(name, pressed, give);
     };
-    let moment = guideline.posts.get(number).map_or(f64::NAN, |post| post.own.moment);
+    let both = |compression: Option<f64>, moment: Option<f64>| {
+        compression.map(|compression| strut.with_moment(compression, moment.unwrap_or(f64::NAN)))
+    };
+    let with_moment = Demand {
+        guideline: both(pressed.guideline, bent.guideline),
+        simulation: both(pressed.simulation, bent.simulation),
+        characteristic: both(pressed.characteristic, bent.characteristic),
+        cap: None,
+    };
     let factor = design.factors.post;
-    let left = Resistance { characteristic: factor * strut.beside(moment), factor };
-    let mut outcome = Outcome::at_most(name, demand, left, 1.0);
-    if let Some(drawn) = demand.largest().filter(|largest| *largest < 0.0 && outcome.holds()) {
+    let resistance = Resistance { characteristic: factor * strut.compression, factor };
+    let mut outcome = Outcome::at_most(name, with_moment, resistance, 1.0).only_by_simulation(NOT_BY_EQUATIONS);
+    let pull = [pressed.guideline, pressed.simulation].into_iter().flatten().find(|compression| *compression < 0.0);
+    if let Some(pull) = pull.filter(|_| outcome.holds()) {
         outcome.leave_open(Opening::NotGiven(format!(
             "the post is pulled with {:.1} kN, and what holds it down is not given",
-            -drawn / 1e3
+            -pull / 1e3
         )));
     }
     outcome
 }
+
+/// Why the equations alone let no post and no foundation pass.
+const NOT_BY_EQUATIONS: &str =
+    "the net pulls the head of a post down and grains jam at a post, and the equations do not know by how much";
 
 fn demand(all: &[Demand], number: usize) -> Demand {
     // What nobody tells is not a number, so that nothing is judged by it.
@@ -97,6 +105,7 @@ fn foot(design: &Design, given: &Posts, number: usize, demands: &Demands) -> Out
         Some(characteristic) => {
             let resistance = Resistance { characteristic, factor: design.factors.anchor };
             Outcome::at_most(name, demand, resistance, design.limits.anchor_utilisation)
+                .only_by_simulation(NOT_BY_EQUATIONS)
         }
         None => Outcome::without_resistance(name, demand, "posts.foot_resistance"),
     }
@@ -125,8 +134,7 @@ fn anchor(design: &Design, given: &Posts, number: usize, demands: &Demands) -> O
     let title = format!("Load of the anchors of post {}", number + 1);
     let id = format!("post_{}_anchor_load", number + 1);
     let name = CheckName::new(id, title, crate::quantities::quantity::Unit::Newton, ANCHOR_FACTOR);
-    let resistance =
-        Resistance { characteristic: given.retaining.anchor_resistance, factor: design.factors.anchor };
+    let resistance = Resistance { characteristic: given.retaining.anchor_resistance, factor: design.factors.anchor };
     Outcome::at_most(name, demand, resistance, design.limits.anchor_utilisation)
 }
 
@@ -145,6 +153,7 @@ mod tests {
         let zero = Demand { simulation: Some(0.0), ..Demand::default() };
         let demands = Demands::default()
             .with(&posts::COMPRESSION, &[demand; 2])
+            .with(&posts::MOMENT, &[zero; 2])
             .with(&posts::FOOT, &[demand; 2])
             .with(&posts::RETAINING, &[zero; 2])
             .with(&posts::STROKE, &[zero; 2]);
@@ -164,7 +173,10 @@ mod tests {
         assert_eq!(verdict(&judged(|text| text, f64::NAN), "post_1_compression"), CheckVerdict::Fail);
         assert_eq!(verdict(&judged(|text| text, -1e3), "post_1_compression"), CheckVerdict::Open);
         // A longer post buckles earlier.
-        let longer = judged(|text| text.replace("height: 2 m", "height: 3.2 m").replace("wall_height: 3 m", "wall_height: 4 m"), 1e3);
+        let longer = judged(
+            |text| text.replace("height: 2 m", "height: 3.2 m").replace("wall_height: 3 m", "wall_height: 4 m"),
+            1e3,
+        );
         assert!(longer[0].capacity.expect("a capacity") < capacity);
     }
 

@@ -1,12 +1,12 @@
 //! How the value that is checked is made of a quantity: by the equations, and by the packings that were simulated.
 
 use crate::demand::value::{Demand, Seen};
-use crate::design::Factors;
+use crate::design::{AnchorOf, Factors};
 use crate::guideline::{Guideline, PostLoad, RopeLoad};
 use crate::larger::larger_or_nan;
-use crate::quantities::{dissipator, posts};
 use crate::quantities::observed::Observed;
 use crate::quantities::quantity::{Demanded, OverPlateau, Quantity};
+use crate::quantities::{dissipator, posts};
 use crate::starts::Spread;
 
 /// Factor up to which a load counts as at its cap: rounding, and the elastic part of a dissipator, lift it a little above.
@@ -53,6 +53,7 @@ impl Meeting<'_> {
             }
             Some(Demanded::RopeLoad { capped }) => self.by_rope(quantity, capped),
             Some(Demanded::Stroke) => self.strokes(quantity),
+            Some(Demanded::LoadOfAnchor) => self.loads_of_anchors(quantity),
             Some(Demanded::LoadOfPost(by_equations, over)) => self.loads_of_posts(quantity, by_equations, over),
             Some(Demanded::StrokeOfPost) => self.strokes_of_posts(quantity),
             Some(Demanded::Plateau) => vec![Demand {
@@ -148,26 +149,38 @@ impl Meeting<'_> {
     }
 
     fn by_rope(&self, quantity: &Quantity, at_plateau: bool) -> Vec<Demand> {
-        let of = |rope: usize| {
-            let is_capped = at_plateau && self.guideline.anchors_capped && !self.may_be_used_up(rope);
-            let cap = if is_capped { self.plateau() } else { f64::INFINITY };
-            // What a run does not give is not a number, so that nothing is judged by it.
-            let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
-            let yields = self.yields(largest(self.governing, &|seen: &Observed| {
-                seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(f64::NAN)
-            }));
-            let excess = if yields { self.excess() } else { 0.0 };
-            let most = largest(self.governing, &value);
-            let within = most <= cap * CAP_TOLERANCE;
-            Demand {
-                guideline: self.by_equations(rope),
-                simulation: capped(self.governing, &value, cap).map(|upper| self.factor * upper + excess),
-                characteristic: capped(&self.seen.characteristic, &value, cap).filter(|_| self.is_factored()),
-                cap: (within && cap.is_finite() && !self.governing.is_empty())
-                    .then_some(self.factor * most.max(cap) + excess),
-            }
-        };
+        let of = |rope: usize| self.load_at_a_rope(quantity, rope, rope, at_plateau);
         (0..self.ropes(quantity)).map(of).collect()
+    }
+
+    /// Of each anchor of a main rope.
+    fn loads_of_anchors(&self, quantity: &Quantity) -> Vec<Demand> {
+        let of = |(number, anchor): (usize, &AnchorOf)| match anchor {
+            AnchorOf::Main { rope, .. } => self.load_at_a_rope(quantity, number, *rope, true),
+            AnchorOf::Retaining { .. } => Demand::default(),
+        };
+        self.guideline.anchors.iter().enumerate().map(of).collect()
+    }
+
+    /// One of the values of a quantity, at a main rope.
+    fn load_at_a_rope(&self, quantity: &Quantity, number: usize, rope: usize, at_plateau: bool) -> Demand {
+        let is_capped = at_plateau && self.guideline.anchors_capped && !self.may_be_used_up(rope);
+        let cap = if is_capped { self.plateau() } else { f64::INFINITY };
+        // What a run does not give is not a number, so that nothing is judged by it.
+        let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
+        let yields = self.yields(largest(self.governing, &|seen: &Observed| {
+            seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(f64::NAN)
+        }));
+        let excess = if yields { self.excess() } else { 0.0 };
+        let most = largest(self.governing, &value);
+        let within = most <= cap * CAP_TOLERANCE;
+        Demand {
+            guideline: self.by_equations(rope),
+            simulation: capped(self.governing, &value, cap).map(|upper| self.factor * upper + excess),
+            characteristic: capped(&self.seen.characteristic, &value, cap).filter(|_| self.is_factored()),
+            cap: (within && cap.is_finite() && !self.governing.is_empty())
+                .then_some(self.factor * most.max(cap) + excess),
+        }
     }
 
     /// A rope that the equations put a load on.
@@ -183,14 +196,19 @@ impl Meeting<'_> {
     }
 
     /// Loads of posts, with what their dissipators may pull beyond their plateau.
-    fn loads_of_posts(&self, quantity: &Quantity, by_equations: fn(&PostLoad) -> f64, over: OverPlateau) -> Vec<Demand> {
+    fn loads_of_posts(
+        &self,
+        quantity: &Quantity,
+        by_equations: fn(&PostLoad) -> f64,
+        over: OverPlateau,
+    ) -> Vec<Demand> {
         let retaining = self.guideline.retaining.as_ref();
         let least = retaining.map_or(f64::INFINITY, |given| given.least());
         // Asked so that a tension that is not known may yield.
         let with_more = |load: f64, tension: f64| {
             let stays = tension < least / CAP_TOLERANCE;
             match (over, retaining) {
-                (_, None) => load,
+                (_, None) | (OverPlateau::Stays, _) => load,
                 _ if stays => load,
                 (OverPlateau::Adds, Some(given)) => load + (self.factors.overstrength - 1.0) * given.largest,
                 (OverPlateau::Grows, Some(_)) => load * self.factors.overstrength,
@@ -200,7 +218,8 @@ impl Meeting<'_> {
             let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
             let tension = |seen: &Observed| seen.each(&posts::RETAINING).get(number).copied().unwrap_or(f64::NAN);
             let pulled = largest(self.governing, &tension);
-            let simulated = spread(self.governing, &value).map(|spread| with_more(self.factor * spread.upper(), pulled));
+            let simulated =
+                spread(self.governing, &value).map(|spread| with_more(self.factor * spread.upper(), pulled));
             Demand {
                 guideline: Some(with_more(by_equations(post), post.head.tension)),
                 simulation: simulated,

@@ -202,7 +202,8 @@ mod tests {
             (None, None)
         );
         assert_eq!(alone.one(&mass::RETAINED).characteristic, None);
-        let seen = |net: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[net]);
+        let seen =
+            |net: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[net]);
         let [one, two] = [seen(1e3), seen(2e3)];
         let both = Seen { characteristic: vec![&one], factored: vec![&two] };
         let design = small_net();
@@ -217,7 +218,9 @@ mod tests {
     #[test]
     fn a_share_that_is_not_a_number_in_either_case_is_none() {
         let design = small_net();
-        let seen = |retained: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&mass::RETAINED, &[retained]);
+        let seen = |retained: f64| {
+            Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&mass::RETAINED, &[retained])
+        };
         for (one, other) in [(0.9, f64::NAN), (f64::NAN, 0.9)] {
             let [one, other] = [seen(one), seen(other)];
             let both = Seen { characteristic: vec![&one], factored: vec![&other] };
@@ -290,7 +293,10 @@ mod tests {
         let stroke = |values: &[f64]| {
             let seen: Vec<Observed> = values
                 .iter()
-                .map(|stroke| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&dissipator::STROKE, &[0.0, *stroke, 0.0]))
+                .map(|stroke| {
+                    Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+                        .with(&dissipator::STROKE, &[0.0, *stroke, 0.0])
+                })
                 .collect();
             let seen = Seen { characteristic: seen.iter().collect(), factored: Vec::new() };
             let met = Demands::meet(&guideline(&design), &seen, &design.factors);
@@ -318,7 +324,9 @@ mod tests {
     fn what_broke_or_drew_out_is_that_of_the_worst_packing() {
         let design = small_net();
         let seen = |broken_pieces: f64, drawn_out: f64| {
-            Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&wear::BROKEN, &[broken_pieces]).with(&wear::DRAWN_OUT, &[drawn_out])
+            Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+                .with(&wear::BROKEN, &[broken_pieces])
+                .with(&wear::DRAWN_OUT, &[drawn_out])
         };
         let [one, other] = [seen(2.0, 0.1), seen(0.0, 0.3)];
         let both = Seen { characteristic: vec![&one, &other], factored: Vec::new() };

@@ -1,5 +1,7 @@
 //! What is asked: a barrier, a flow, limits. SI units, checked. Imports nothing above it.
 
+pub(crate) mod anchor_rules;
+pub mod anchors;
 pub mod attached;
 pub(crate) mod boulder_rules;
 pub(crate) mod channel_entries;
@@ -45,6 +47,7 @@ pub(crate) mod yaml_faults;
 
 use std::sync::Arc;
 
+pub use self::anchors::{AnchorDesign, AnchorDesigns, AnchorResistance};
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
 pub use self::net_rings::NetRings;
 pub use self::posts::{PostStrength, Posts, RetainingRopes, SteelSection};
@@ -218,8 +221,7 @@ pub struct FlexibleNet {
     pub lateral_rope: Rope,
     pub lateral_to: LateralTo,
     pub dissipators: Option<DissipatorDesign>,
-    /// Characteristic resistance of each anchor (N).
-    pub anchor_resistance: f64,
+    pub anchor_designs: AnchorDesigns,
     /// What holds the lowest rope to the bed, where the bed does, if known.
     pub bed_bolts: Option<BedBolts>,
     pub bottom: Bottom,
@@ -372,6 +374,15 @@ pub struct DissipatorDesign {
 pub enum Bank {
     Right,
     Left,
+}
+
+impl Bank {
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Left => "left",
+        }
+    }
 }
 
 /// What an anchor holds.

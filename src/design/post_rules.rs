@@ -89,7 +89,10 @@ pub fn posts_have_one_strength(e: &Entries) -> Option<Problem> {
             format!("no `{}`", missing.join("` and no `"))
         }
     };
-    Some(Problem::new(at("posts"), found, allowed).hint("without either the posts are simulated, and their check stays open"))
+    Some(
+        Problem::new(at("posts"), found, allowed)
+            .hint("without either the posts are simulated, and their check stays open"),
+    )
 }
 
 pub fn posts_belong_to_models_of_ropes(e: &Entries) -> Option<Problem> {

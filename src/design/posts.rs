@@ -36,7 +36,10 @@ pub enum PostStrength {
     /// Nobody says.
     Unknown,
     /// Characteristic resistances to compression, buckling included (N), and to bending (N m).
-    Given { compression: f64, bending: f64 },
+    Given {
+        compression: f64,
+        bending: f64,
+    },
     Section(SteelSection),
 }
 

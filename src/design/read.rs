@@ -2,12 +2,12 @@
 
 use crate::design::Design;
 use crate::design::attached::{Attached, Open, read_attached};
+use crate::design::dissipator_rules;
 use crate::design::document::Document;
 use crate::design::entries::{Entries, Origin, Purpose, Value, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
 use crate::design::resolve::resolve;
-use crate::design::dissipator_rules;
 use crate::design::rules::{GRAIN_RULES, RULES};
 use crate::design::schema::DESIGN;
 use crate::problem::{MOST_PROBLEMS, Problem, Problems, harmless};

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::design::anchors::anchors;
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::dissipator_entries::{OF_MAIN_ROPES, dissipators};
 use crate::design::entries::Entries;
@@ -269,7 +270,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             Some(dissipators) => Some(dissipators?),
             None => None,
         },
-        anchor_resistance: value("anchors.resistance")?,
+        anchor_designs: anchors(e)?,
         bed_bolts: bed_bolts(e),
         bottom: value("bottom.opening").map_or(Bottom::Fixed, Bottom::Opening),
         side_extension: value("side_extension.length").zip(value("side_extension.holding_force")).map(

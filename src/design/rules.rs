@@ -9,8 +9,8 @@ use crate::design::schema::SCHEMA_VERSION;
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{SURGES, of_the_first, volume_of_all};
 use crate::design::{
-    boulder_rules, channel_rules, hydrograph_rules, net_ring_rules, net_rules, post_rules, rope_rules, size_rules,
-    surge_rules, wall_rules,
+    anchor_rules, boulder_rules, channel_rules, hydrograph_rules, net_ring_rules, net_rules, post_rules, rope_rules,
+    size_rules, surge_rules, wall_rules,
 };
 use crate::problem::Problem;
 use crate::units::Dimension;
@@ -106,6 +106,9 @@ pub const RULES: &[Rule] = &[
     rope_rules::a_level_tells_its_rope,
     rope_rules::ropes_side_by_side_are_modelled,
     rope_rules::every_rope_is_one,
+    anchor_rules::anchors_have_one_resistance,
+    anchor_rules::an_axis_dips,
+    anchor_rules::single_anchors_are_there,
     post_rules::retaining_ropes_are_described,
     post_rules::posts_stand_one_beside_the_other,
     post_rules::posts_stand_between_the_banks,

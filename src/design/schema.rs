@@ -545,18 +545,17 @@ const POSTS: &[Key] = &[
         "elastic section modulus against bending down the channel",
     ),
     Key::optional("yield_strength", quantity(D::Pressure, 1e8, 1.5e9), "yield strength of the steel"),
-    Key::default(
-        "buckling_curve",
-        Kind::Choice(&posts::CURVES),
-        "c",
-        "buckling curve of the section by EN 1993-1-1",
-    ),
+    Key::default("buckling_curve", Kind::Choice(&posts::CURVES), "c", "buckling curve of the section by EN 1993-1-1"),
     Key::optional(
         "resistance",
         quantity(D::Force, 1.0, 1e9),
         "characteristic resistance of a post to compression, buckling included; give this with bending_resistance, or a section",
     ),
-    Key::optional("bending_resistance", quantity(D::Moment, 1.0, 1e9), "characteristic resistance of a post to bending"),
+    Key::optional(
+        "bending_resistance",
+        quantity(D::Moment, 1.0, 1e9),
+        "characteristic resistance of a post to bending",
+    ),
     Key::optional(
         "foot_resistance",
         quantity(D::Force, 1.0, 1e9),
@@ -782,8 +781,58 @@ const YIELD_CURVE: &[Key] = &[
     ),
 ];
 
+const RESISTANCE: Key = Key::optional(
+    "resistance",
+    quantity(D::Force, 1.0, 1e9),
+    "characteristic resistance of one anchor; give this, proof_load or design_resistance",
+);
+const PROOF_LOAD: Key = Key::optional(
+    "proof_load",
+    quantity(D::Force, 1.0, 1e9),
+    "load that each anchor was tested with, taken as its characteristic resistance",
+);
+const DESIGN_RESISTANCE: Key = Key::optional(
+    "design_resistance",
+    quantity(D::Force, 1.0, 1e9),
+    "resistance of one anchor with its partial factor in it already",
+);
+const PLUNGE: Key = Key::optional(
+    "plunge",
+    quantity(D::Angle, 0.0, std::f64::consts::FRAC_PI_2),
+    "how steeply an anchor dips into the ground; by default it lies in the line of its rope",
+);
+const BEARING: Key = Key::optional(
+    "bearing",
+    quantity(D::Angle, -std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2),
+    "angle in plan between an anchor and the line of its rope, positive where the anchor points upstream; by default 0 deg",
+);
+/// How far behind the edge of a net an anchor lies (m).
+const SET_BACK: Kind = quantity(D::Length, 0.0, 30.0);
+
+const ANCHOR: &[Key] = &[
+    Key::required("level", Kind::Count { low: 1, high: 30 }, "main rope that it holds, from 1 at the bottom"),
+    Key::required("bank", Kind::Choice(&["left", "right"]), "bank that it is in, looking downstream"),
+    RESISTANCE,
+    PROOF_LOAD,
+    DESIGN_RESISTANCE,
+    Key::optional("set_back", SET_BACK, "distance from the edge of the net along the line of the rope"),
+    PLUNGE,
+    BEARING,
+];
+
 const ANCHORS: &[Key] = &[
-    Key::required("resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one anchor"),
+    RESISTANCE,
+    PROOF_LOAD,
+    DESIGN_RESISTANCE,
+    Key::default(
+        "set_back",
+        SET_BACK,
+        "0 m",
+        "distance of the anchors from the edge of the net along the line of their ropes",
+    ),
+    PLUNGE,
+    BEARING,
+    Key::optional("each", Kind::Sections(ANCHOR), "anchors that differ from the others, one by one"),
     Key::optional(
         "bed_resistance",
         quantity(D::Force, 1.0, 1e10),
@@ -993,4 +1042,5 @@ pub const EITHER: &[Either] = &[
     Either { keys: &["mesh_opening", "net"], needed: true, instead: &[] },
     Either { keys: &["plateau_force", "curve"], needed: true, instead: &[] },
     Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: &[] },
+    Either { keys: &["resistance", "proof_load", "design_resistance"], needed: true, instead: &[] },
 ];

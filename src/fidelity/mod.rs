@@ -6,6 +6,7 @@ use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish, FlexibleN
 use crate::ring_law;
 use crate::scene::flow::release::bodies;
 use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
+use crate::scene::net::posts::piece_of_retaining_rope;
 use dem::contact::law::contact_stiffness;
 use dem::contact::restitution::{LONGEST_PHASE, damping_ratio_for};
 use dem::time::stable_step::critical_step_of_pair;
@@ -132,7 +133,12 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
         let ropes = f64::from(level.ropes);
         (ropes * mass + net_mass) / (ropes * stiffness + net_stiffness + contact)
     };
-    let least = net.main_ropes.levels.iter().map(on_rope).fold(on_net, f64::min);
+    // A node between two pieces of a retaining rope, on which a grain presses.
+    let on_retaining = net.posts.as_ref().map_or(f64::INFINITY, |posts| {
+        let [mass, stiffness] = piece_of_retaining_rope(posts, net.main_ropes.ring_spacing);
+        mass / (4.0 * stiffness + contact)
+    });
+    let least = net.main_ropes.levels.iter().map(on_rope).fold(on_net.min(on_retaining), f64::min);
     critical_step_of_pair(1.0, least, ROPE_DAMPING_RATIO)
 }
 

@@ -167,21 +167,15 @@ impl Column {
 }
 
 impl Strut {
-    /// Compression that it bears beside a moment (N): N/N_b + k M/M_R = 1, the moment growing with the compression by k = 1/(1 − N/N_cr)
-    /// (linear interaction, on the safe side of EN 1993-1-1, 6.3.3). Nothing where the moment alone is too much.
-    pub fn beside(&self, moment: f64) -> f64 {
-        let bent = moment / self.bending;
-        if bent <= 0.0 {
-            return self.compression;
-        }
-        // With n = N/N_b and c = N_b/N_cr: (1 − n)(1 − c n) = m, of which the smaller root is wanted.
-        let ratio = self.compression / self.critical;
-        let half = 0.5 * (1.0 + ratio);
-        let rest = 1.0 - bent;
-        let root = (half * half - ratio * rest).max(0.0).sqrt();
-        let share = rest / (half + root);
+    /// Compression that uses up as much of the post as a compression with a moment does (N): N + k N_b M/M_R with k = 1/(1 − N/N_cr), by which
+    /// the compression makes the moment larger (linear interaction, on the safe side of EN 1993-1-1, 6.3.3).
+    pub fn with_moment(&self, compression: f64, moment: f64) -> f64 {
+        let grows = (1.0 - compression.max(0.0) / self.critical).recip();
         // Asked so that what is not a number stays so.
-        if share < 0.0 { 0.0 } else { share * self.compression }
+        if grows < 0.0 || grows == f64::INFINITY {
+            return f64::INFINITY;
+        }
+        compression + grows * self.compression * moment / self.bending
     }
 }
 
@@ -248,17 +242,20 @@ mod tests {
         let strut = pipe.strut(1.1);
         assert_relative_eq!(strut.compression, 762e3, max_relative = 3e-3);
         assert_relative_eq!(strut.bending, 49.7e3, max_relative = 1e-3);
-        assert_relative_eq!(strut.beside(0.0), strut.compression);
-        // Beside a moment the sum of both shares is one.
-        for moment in [5e3, 20e3, 45e3] {
-            let left = strut.beside(moment);
-            let sum = left / strut.compression + moment / strut.bending / (1.0 - left / strut.critical);
-            assert_relative_eq!(sum, 1.0, max_relative = 1e-9);
-        }
-        assert_eq!(strut.beside(50e3), 0.0);
-        assert!(strut.beside(f64::NAN).is_nan());
+        assert_eq!(strut.with_moment(100e3, 0.0), 100e3);
+        // Half of each: a moment of half its resistance, grown by 1/(1 − 381/1680).
+        let critical = 9.869_604 * 210e9 * 40.3e-4 * 56.7e-3_f64.powi(2) / 16.0;
+        assert_relative_eq!(strut.critical, critical, max_relative = 1e-6);
+        let both = strut.with_moment(0.5 * strut.compression, 0.5 * strut.bending) / strut.compression;
+        assert_relative_eq!(both, 0.5 + 0.5 / (1.0 - 381e3 / critical), max_relative = 3e-3);
+        assert_eq!(strut.with_moment(1.01 * critical, 1.0), f64::INFINITY);
+        assert!(strut.with_moment(f64::NAN, 1.0).is_nan() && strut.with_moment(1.0, f64::NAN).is_nan());
         // A short one is squashed.
-        assert_relative_eq!(Column { length: 0.5, ..pipe }.strut(1.0).compression, 40.3e-4 * 355e6, max_relative = 1e-12);
+        assert_relative_eq!(
+            Column { length: 0.5, ..pipe }.strut(1.0).compression,
+            40.3e-4 * 355e6,
+            max_relative = 1e-12
+        );
     }
 
     /// An even load of 10 kN/m on 4 m: reactions of 20 kN, q L²/8 = 20 kN m; a triangle with its top at the head: q L/3 there, q L²/(9 √3).

@@ -38,6 +38,8 @@ pub struct RopeInput {
     pub span: f64,
     /// The other spans of a rope that runs over posts (m).
     pub others: Vec<f64>,
+    /// Of the rope beyond its spans, at both ends together, which stretches with it (m).
+    pub behind: f64,
     /// Axial stiffness EA (N).
     pub axial_stiffness: f64,
     /// How each dissipator yields, if there are any.
@@ -107,7 +109,7 @@ impl RopeInput {
         if half < plateau {
             let horizontal = (plateau * plateau - half * half).sqrt();
             let sag = load * self.span * self.span / (8.0 * horizontal);
-            let used = 0.5 * (self.arcs(sag) - self.length() * (1.0 + plateau / self.axial_stiffness));
+            let used = 0.5 * (self.arcs(sag) - self.stretched(plateau));
             if used <= stroke {
                 return RopeState { sag, tension: plateau, stroke: used.max(0.0) };
             }
@@ -118,8 +120,7 @@ impl RopeInput {
     /// Equilibrium with a given stroke at both ends, by bisection on the sag.
     fn with_stroke(&self, load: f64, stroke: f64) -> RopeState {
         let tension_at = |sag: f64| libm::hypot(load * self.span * self.span / (8.0 * sag), 0.5 * load * self.span);
-        let excess =
-            |sag: f64| self.arcs(sag) - self.length() * (1.0 + tension_at(sag) / self.axial_stiffness) - 2.0 * stroke;
+        let excess = |sag: f64| self.arcs(sag) - self.stretched(tension_at(sag)) - 2.0 * stroke;
         let (mut low, mut high) = (1e-9 * self.span, self.span);
         while excess(high) < 0.0 && high < 1e6 * self.span {
             high *= 2.0;
@@ -139,6 +140,11 @@ impl RopeInput {
     /// All spans together (m).
     pub fn length(&self) -> f64 {
         self.span + self.others.iter().sum::<f64>()
+    }
+
+    /// Length that the rope of all spans has under a tension (N), with what comes out of it from beyond them (m).
+    pub fn stretched(&self, tension: f64) -> f64 {
+        self.length() * (1.0 + tension / self.axial_stiffness) + self.behind * tension / self.axial_stiffness
     }
 
     /// Length of the arcs of all spans together, with this sag of the longest (m).
@@ -171,7 +177,13 @@ mod tests {
     fn a_rope_stops_where_its_tension_meets_the_curve() {
         let held = |points: &[[f64; 2]]| {
             let (curve, [largest, stroke]) = YieldCurve::of(points);
-            RopeInput { span: 15.0, others: Vec::new(), axial_stiffness: 3.2e6, dissipator: Some(Yielding { largest, stroke, curve }) }
+            RopeInput {
+                span: 15.0,
+                others: Vec::new(),
+                behind: 0.0,
+                axial_stiffness: 3.2e6,
+                dissipator: Some(Yielding { largest, stroke, curve }),
+            }
         };
         let flat = held(&[[0.0, 250e3], [2.5, 250e3]]);
         assert_eq!(flat.under(20e3), RopeInput { dissipator: Some(plateau(250e3, 2.5)), ..flat.clone() }.under(20e3));
@@ -189,7 +201,7 @@ mod tests {
         let state = falling.under(20e3);
         assert_relative_eq!(state.tension, 120e3 + 140e3 * (state.stroke - 0.4) / 2.1, max_relative = 1e-6);
         // A fall that is below the tension at both its ends and above it between them: it stops within.
-        let free = RopeInput { span: 15.0, others: Vec::new(), axial_stiffness: 3.2e6, dissipator: None };
+        let free = RopeInput { span: 15.0, others: Vec::new(), behind: 0.0, axial_stiffness: 3.2e6, dissipator: None };
         let [from, to] = [0.0, 0.9].map(|stroke| 0.99 * free.with_stroke(20e3, stroke).tension);
         let state = held(&[[0.0, from], [0.9, to]]).under(20e3);
         assert_relative_eq!(state.tension, from + (to - from) * state.stroke / 0.9, max_relative = 1e-6);
@@ -203,7 +215,13 @@ mod tests {
     #[test]
     fn matches_the_worked_example_on_the_plateau() {
         // q 20 kN/m, L 15 m, plateau 250 kN: f = 2.8125 m, arc 16.306 m, ΔS = 1.306 m (inextensible rope).
-        let rope = RopeInput { span: 15.0, others: Vec::new(), axial_stiffness: 1e15, dissipator: Some(plateau(250e3, 2.5)) };
+        let rope = RopeInput {
+            span: 15.0,
+            others: Vec::new(),
+            behind: 0.0,
+            axial_stiffness: 1e15,
+            dissipator: Some(plateau(250e3, 2.5)),
+        };
         let state = rope.under(20e3);
         assert_relative_eq!(state.sag, 2.8125, max_relative = 1e-9);
         assert_relative_eq!(rope.arcs(state.sag), 16.306, max_relative = 1e-4);
@@ -213,7 +231,13 @@ mod tests {
 
     #[test]
     fn exhausted_stroke_lets_the_tension_grow() {
-        let rope = RopeInput { span: 15.0, others: Vec::new(), axial_stiffness: 3.2e6, dissipator: Some(plateau(250e3, 0.2)) };
+        let rope = RopeInput {
+            span: 15.0,
+            others: Vec::new(),
+            behind: 0.0,
+            axial_stiffness: 3.2e6,
+            dissipator: Some(plateau(250e3, 0.2)),
+        };
         let state = rope.under(30e3);
         assert_eq!(state.stroke, 0.2);
         assert!(state.tension > 250e3);
@@ -231,10 +255,16 @@ mod tests {
     /// Any rope is in balance, q L²/8 = H f and T² = H² + (q L/2)², and as long as its stretch and strokes make it.
     #[test]
     fn a_rope_is_in_balance_and_as_long_as_it_is_stretched() {
-        let elastic = RopeInput { span: 12.0, others: Vec::new(), axial_stiffness: 8e6, dissipator: None };
+        let elastic = RopeInput { span: 12.0, others: Vec::new(), behind: 0.0, axial_stiffness: 8e6, dissipator: None };
         let used_up = RopeInput { dissipator: Some(plateau(100e3, 0.3)), ..elastic.clone() };
         // So much stroke that it hangs deeper than it spans.
-        let deep = RopeInput { span: 2.0, others: Vec::new(), axial_stiffness: 8e6, dissipator: Some(plateau(1e3, 5.0)) };
+        let deep = RopeInput {
+            span: 2.0,
+            others: Vec::new(),
+            behind: 0.0,
+            axial_stiffness: 8e6,
+            dissipator: Some(plateau(1e3, 5.0)),
+        };
         for (rope, load, stroke) in
             [(elastic.clone(), 15e3, 0.0), (elastic, 200.0, 0.0), (used_up, 40e3, 0.3), (deep.clone(), 10e3, 5.0)]
         {
@@ -251,7 +281,7 @@ mod tests {
     /// Below its plateau a dissipator holds; EA of 10 MN and 5 kN/m on 10 m.
     #[test]
     fn a_dissipator_below_its_plateau_is_as_if_it_were_not_there() {
-        let free = RopeInput { span: 10.0, others: Vec::new(), axial_stiffness: 1e7, dissipator: None };
+        let free = RopeInput { span: 10.0, others: Vec::new(), behind: 0.0, axial_stiffness: 1e7, dissipator: None };
         let held = RopeInput { dissipator: Some(plateau(1e9, 1.0)), ..free.clone() };
         assert_eq!(held.under(5e3), free.under(5e3));
         assert!(free.under(5e3).tension < 1e9);
@@ -260,8 +290,13 @@ mod tests {
     /// Over posts 6, 12 and 6 m apart: one pull in all spans, each as deep as q L²/(8 H), and all of them as long as the rope has become.
     #[test]
     fn over_posts_a_rope_has_one_pull() {
-        let rope =
-            RopeInput { span: 12.0, others: vec![6.0, 6.0], axial_stiffness: 8e6, dissipator: Some(plateau(100e3, 3.0)) };
+        let rope = RopeInput {
+            span: 12.0,
+            others: vec![6.0, 6.0],
+            behind: 0.0,
+            axial_stiffness: 8e6,
+            dissipator: Some(plateau(100e3, 3.0)),
+        };
         let state = rope.under(12e3);
         assert_eq!(state.tension, 100e3);
         let pull = (100e3_f64.powi(2) - 72e3_f64.powi(2)).sqrt();
@@ -276,7 +311,7 @@ mod tests {
 
     #[test]
     fn an_almost_straight_rope_is_longer_by_two_thirds_of_its_slope_squared() {
-        let rope = RopeInput { span: 10.0, others: Vec::new(), axial_stiffness: 1e7, dissipator: None };
+        let rope = RopeInput { span: 10.0, others: Vec::new(), behind: 0.0, axial_stiffness: 1e7, dissipator: None };
         // A slope of 4e-7 at its ends: 16e-14/6.
         assert!((rope.arcs(1e-6) / 10.0 - 1.0 - 16e-14 / 6.0).abs() < 1e-15);
         assert_relative_eq!(rope.arcs(1e-3), length(10.0, 1e-3), max_relative = 1e-12);

@@ -6,19 +6,19 @@ use crate::quantities::reading::Reading;
 use dem::recorders::of_anchors;
 
 /// Largest load of each rope's higher loaded anchor.
-pub const PEAK: Quantity =
-    Quantity::new("anchor", "Load of the anchors of main rope", Newton, Of::EachRope, |run| {
-        run.peaks(&of_anchors::LOAD)
-    })
-    .json("anchor_force_peak_n")
-    .told(Told::WhereLoaded)
-    .demanded(Demanded::RopeLoad { capped: true });
+pub const PEAK: Quantity = Quantity::new("anchor", "Load of the anchors of main rope", Newton, Of::EachRope, |run| {
+    run.peaks(&of_anchors::LOAD)
+})
+.json("anchor_force_peak_n")
+.told(Told::WhereLoaded)
+.demanded(Demanded::RopeLoad { capped: true });
 
 /// Largest load of each anchor.
 pub const EACH: Quantity = Quantity::new("each_anchor", "Load of anchor", Newton, Of::EachAnchor, |run| {
     at_largest(run).into_iter().map(|[along, across, up]| libm::hypot(libm::hypot(along, across), up)).collect()
 })
-.json("each_anchor_peak_n");
+.json("each_anchor_peak_n")
+.demanded(Demanded::LoadOfAnchor);
 
 /// Parts of that load, by the level: down the valley, to the left, and up.
 pub const ALONG: Quantity =

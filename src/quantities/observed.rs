@@ -96,8 +96,8 @@ impl Observed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{BarrierDesign, Stability};
     use crate::design::read::read_design;
+    use crate::design::{BarrierDesign, Stability};
     use crate::quantities::quantity::Quantity;
     use crate::quantities::{
         anchor_load, bed, dissipator, earth_pressure, incoming, other_ropes, rope_tension, total_force, wall, wear,

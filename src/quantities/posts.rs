@@ -1,6 +1,6 @@
 //! What posts, their feet and the ropes that retain them bear.
 
-use crate::quantities::quantity::Unit::{Metre, Newton};
+use crate::quantities::quantity::Unit::{Metre, Newton, NewtonMetre};
 use crate::quantities::quantity::{Demanded, Of, OverPlateau, Quantity, Told};
 use crate::quantities::reading::Reading;
 use dem::recorders::of_posts;
@@ -14,6 +14,13 @@ pub const COMPRESSION: Quantity =
     .told(Told::WhereLoaded)
     .demanded(Demanded::LoadOfPost(|post| post.head.compression, OverPlateau::Grows));
 
+/// Largest moment by which what presses on each post bends it.
+pub const MOMENT: Quantity = Quantity::new("post_moment", "Bending moment of post", NewtonMetre, Of::EachPost, |run| {
+    run.peaks(&of_posts::MOMENT)
+})
+.json("post_moment_peak_n_m")
+.demanded(Demanded::LoadOfPost(|post| post.own.moment, OverPlateau::Stays));
+
 /// Largest force of each post on its foundation.
 pub const FOOT: Quantity =
     Quantity::new("foot_force", "Force on the foundation of post", Newton, Of::EachPost, |run| {
@@ -23,11 +30,14 @@ pub const FOOT: Quantity =
     .demanded(Demanded::LoadOfPost(|post| post.foot, OverPlateau::Grows));
 
 /// Parts of that force, by the level: down the valley, to the left, and up.
-pub const FOOT_ALONG: Quantity =
-    Quantity::new("foot_force_along", "Force along the valley on the foundation of post", Newton, Of::EachPost, |run| {
-        part(run, 0)
-    })
-    .json_in("foot_force_at_peak_n", "along");
+pub const FOOT_ALONG: Quantity = Quantity::new(
+    "foot_force_along",
+    "Force along the valley on the foundation of post",
+    Newton,
+    Of::EachPost,
+    |run| part(run, 0),
+)
+.json_in("foot_force_at_peak_n", "along");
 pub const FOOT_ACROSS: Quantity =
     Quantity::new("foot_force_across", "Force to the left on the foundation of post", Newton, Of::EachPost, |run| {
         part(run, 1)

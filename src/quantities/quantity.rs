@@ -8,6 +8,7 @@ use crate::quantities::reading::Reading;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     Newton,
+    NewtonMetre,
     /// Force per metre of width.
     NewtonPerMetre,
     /// Moment per metre of width.
@@ -29,6 +30,7 @@ impl Unit {
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Newton => "N",
+            Self::NewtonMetre => "N m",
             Self::NewtonPerMetre => "N/m",
             Self::NewtonMetrePerMetre => "N m/m",
             Self::Pascal => "Pa",
@@ -91,6 +93,8 @@ pub enum Demanded {
     Load(ByEquations),
     /// The same of each main rope, by the equations from its parabola; what a dissipator at work caps stays at its plateau.
     RopeLoad { capped: bool },
+    /// The same of each anchor of a main rope; of those of posts there is none.
+    LoadOfAnchor,
     /// Of each main rope, ends at the stop of its dissipators.
     Stroke,
     /// A load of each post, by the equations as told, and what a dissipator that pulls with more than its plateau makes of it.
@@ -110,6 +114,8 @@ pub enum Demanded {
 /// What the load of a part does where a retaining rope's dissipator yields at more than its plateau.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverPlateau {
+    /// Nothing: it does not come from there.
+    Stays,
     /// It grows by what the dissipator pulls more.
     Adds,
     /// It grows in proportion, as what the ropes of a post hold does.

@@ -308,6 +308,14 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
     };
     let tension = libm::hypot(horizontal, half);
     let lean = run.guideline.lean.abs().to_degrees();
+    let over_posts = match rope.others.len() {
+        0 => String::new(),
+        posts => format!(
+            " Over {posts} post{} the rope has one H in all its spans, {} m; shown is the longest, and lengths and arcs are those of all.",
+            if posts > 1 { "s" } else { "" },
+            [rope.span].iter().chain(&rope.others).map(|span| format!("{span:.2}")).collect::<Vec<_>>().join(", ")
+        ),
+    };
     let load = format!(
         "q = {factor}(½ · {:.3} · ({:.3}² − {:.3}²) + {:.2} · {beside:.3})/cos {lean:.1}°{more} = {:.2} kN/m{shared}",
         diagram.unit / 1e3,
@@ -318,7 +326,13 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
     );
     let (q, sag) = (of_one / 1e3, rope.state.sag);
     let others = rope.others.clone();
-    let line = RopeInput { span, others, axial_stiffness: axial_stiffness(run, number), dissipator: None };
+    let line = RopeInput {
+        span,
+        others,
+        behind: rope.behind,
+        axial_stiffness: axial_stiffness(run, number),
+        dissipator: None,
+    };
     let arc = line.arcs(sag);
     let dissipator = run.guideline.dissipator.as_ref();
     let from = match dissipator.filter(|dissipator| !dissipator.curve.is_plateau()) {
@@ -337,13 +351,13 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
     });
     if yields {
         format!(
-            "{load}; the dissipators {from} T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola",
-            line.length() * (1.0 + tension * 1e3 / line.axial_stiffness),
+            "{load}; the dissipators {from} T = {tension:.1} kN; H = √(T² − (q L/2)²) = √({tension:.1}² − {half:.1}²) = {horizontal:.1} kN; f = q L²/(8 H) = {q:.2} · {span:.2}²/(8 · {horizontal:.1}) = {sag:.3} m; stroke of each of the two = (s − L (1 + T/EA))/2 = ({arc:.3} − {:.3})/2 = {:.3} m, s being the arc of the parabola.{over_posts}",
+            line.stretched(tension * 1e3),
             rope.state.stroke
         )
     } else {
         format!(
-            "{load}; f = {sag:.3} m, at which the rope, stretched by H = q L²/(8 f) = {q:.2} · {span:.2}²/(8 · {sag:.3}) = {horizontal:.1} kN{paid_out}, has the length of its curve; T = √(H² + (q L/2)²) = √({horizontal:.1}² + {half:.1}²) = {tension:.1} kN"
+            "{load}; f = {sag:.3} m, at which the rope, stretched by H = q L²/(8 f) = {q:.2} · {span:.2}²/(8 · {sag:.3}) = {horizontal:.1} kN{paid_out}, has the length of its curve; T = √(H² + (q L/2)²) = √({horizontal:.1}² + {half:.1}²) = {tension:.1} kN.{over_posts}"
         )
     }
 }

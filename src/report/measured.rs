@@ -89,7 +89,9 @@ impl Serialize for Measured {
 /// The schema of a quantity's field.
 fn schema_of(quantity: &Quantity) -> Value {
     let mut schema = match quantity.of {
-        Of::EachRope | Of::EachSegment | Of::EachPost | Of::EachAnchor => json!({ "type": "array", "items": { "type": "number" } }),
+        Of::EachRope | Of::EachSegment | Of::EachPost | Of::EachAnchor => {
+            json!({ "type": "array", "items": { "type": "number" } })
+        }
         Of::Run | Of::RunIfKnown => json!({ "type": ["number", "null"] }),
     };
     if !quantity.meaning.is_empty() {

@@ -1,5 +1,6 @@
 //! The report: HTML and Markdown for people, JSON and CSV for programs. Computes no engineering number.
 
+pub(crate) mod anchors;
 pub(crate) mod chart;
 pub(crate) mod compare;
 pub(crate) mod dissipators;
@@ -14,6 +15,7 @@ pub(crate) mod measured;
 pub(crate) mod numbers;
 pub(crate) mod pictures;
 pub(crate) mod plots;
+pub(crate) mod posts;
 pub mod recording;
 pub(crate) mod reliability;
 pub mod render;
@@ -26,6 +28,7 @@ pub(crate) mod stability_map;
 pub(crate) mod statements;
 pub(crate) mod study;
 pub(crate) mod surges;
+pub(crate) mod table;
 pub mod validation;
 pub mod view;
 pub(crate) mod vtk;

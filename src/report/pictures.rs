@@ -1,7 +1,7 @@
 //! The pictures of the report: charts over time, the flow from the side, the barrier from upstream, pressure over height.
 
 use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::checks::{posts, ropes};
+use crate::checks::{anchors, posts, ropes};
 use crate::design::{BarrierDesign, Bottom, Channel, Design, FlexibleNet};
 use crate::loads::pressure::Diagram;
 use crate::pipeline::Run;
@@ -87,10 +87,7 @@ fn anchor_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         along: TIME,
         time: &seen.histories.time,
         series: rope_series(seen.histories.barrier.rows(&of_anchors::LOAD)),
-        levels: vec![Level {
-            label: "design resistance".into(),
-            value: net.anchor_resistance / run.file.design.factors.anchor,
-        }],
+        levels: vec![Level { label: "design resistance".into(), value: anchors::weakest(&run.file.design, net) }],
         band: None,
     };
     let note = "The higher loaded anchor of each main rope, without partial factors.";
@@ -296,7 +293,9 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
             SegmentKind::Main(rope) => ropes::resistance(design, &net.main_ropes.levels[usize::from(rope)].rope),
             SegmentKind::Lateral => ropes::resistance(design, &net.lateral_rope),
             SegmentKind::Net | SegmentKind::Ring => ropes::resistance_of_net(design, net),
-            SegmentKind::Retaining(_) | SegmentKind::Post(_) => return of_posts(design, net, kind) / design.factors.load,
+            SegmentKind::Retaining(_) | SegmentKind::Post(_) => {
+                return of_posts(design, net, kind) / design.factors.load;
+            }
         };
         holds.characteristic / holds.factor / design.factors.load
     };

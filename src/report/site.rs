@@ -1,6 +1,7 @@
 //! The site: the barrier in its section, what lies behind it along the channel, and how much that is.
 
-use crate::design::{BarrierDesign, BarrierModel, Bottom, Design};
+use crate::design::{Bank, BarrierDesign, BarrierModel, Bottom, Design};
+use crate::guideline::posts::input;
 use crate::guideline::{Guideline, event_fill, reservoir};
 use crate::loads::fill::Surface as Slope;
 use crate::pipeline::Run;
@@ -11,6 +12,7 @@ use crate::report::plots::cross_section::{CrossSection, Member, Ring, cross_sect
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::plots::long_profile::{LongProfile, Surface, long_profile};
 use crate::report::plots::plan::{Plan, plan};
+use crate::report::plots::posts_plan::{PostsPlan, posts_plan};
 use crate::report::row::{Row, row};
 use crate::scene::flow::release::Block;
 use crate::scene::net::build::build as build_net;
@@ -23,6 +25,7 @@ const HEIGHTS: usize = 60;
 /// All pictures of the site that the design allows.
 pub fn charts(run: &Run) -> Vec<Chart> {
     let mut charts = vec![across(run)];
+    charts.extend(retained(run));
     charts.extend(above(run));
     charts.extend(along(run));
     charts.extend(storage(run));
@@ -193,7 +196,7 @@ fn across(run: &Run) -> Chart {
             label: format!("rope {}, {times}{what} {length:.2} m", index + 1),
             height: z / plumb,
             ends: drawing.ends([from, to]),
-            is_anchored: !bolted(index),
+            anchored: (!bolted(index)).then(|| set_backs(design, index)),
             line: if bolted(index) { drawing.bed() } else { Vec::new() },
         }
     };
@@ -206,7 +209,7 @@ fn across(run: &Run) -> Chart {
             label,
             height: top / plumb,
             ends: drawing.ends([from, to]),
-            is_anchored: false,
+            anchored: None,
             line: Vec::new(),
         });
     }
@@ -214,6 +217,7 @@ fn across(run: &Run) -> Chart {
     let chart = CrossSection {
         ground: drawing.ground(),
         members,
+        posts: posts(&drawing, top),
         outline: outline(&drawing, low, top),
         rings: rings(&drawing),
         bed: drawing.ends(section.bed_ends()),
@@ -235,9 +239,54 @@ fn across(run: &Run) -> Chart {
                 guideline.width
             ),
         },
-        if is_net { " Ropes are drawn straight, with the length from bank to bank." } else { "" }
+        if is_net {
+            " Ropes are drawn straight, with the length from bank to bank; circles are the heads of ground anchors."
+        } else {
+            ""
+        }
     );
     Chart::of("Barrier in its section", cross_section(&chart), note)
+}
+
+/// How far behind the left and the right edge of the net a main rope is anchored (m).
+fn set_backs(design: &Design, rope: usize) -> [f64; 2] {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return [0.0; 2] };
+    [Bank::Left, Bank::Right].map(|bank| net.anchor_designs.of(rope, bank).set_back)
+}
+
+/// Foot and head of each post.
+fn posts(drawing: &Drawing, top: f64) -> Vec<[[f64; 2]; 2]> {
+    let BarrierDesign::FlexibleNet(net) = &drawing.design.barrier else { return Vec::new() };
+    let channel = &drawing.design.channel;
+    let of = |right: &f64| [channel.ground_at(channel.across(*right)), top].map(|up| [*right, up / drawing.plumb]);
+    net.posts.iter().flat_map(|posts| &posts.at).map(of).collect()
+}
+
+/// Posts and their ropes from above.
+fn retained(run: &Run) -> Option<Chart> {
+    let (design, guideline) = (&run.file.design, &run.guideline);
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    let posts = net.posts.as_ref()?;
+    let drawing = Drawing { design, section: &guideline.section, plumb: libm::cos(design.channel.slope) };
+    let top = guideline.input.barrier_height;
+    let ends = drawing.ends(guideline.section.banks(top));
+    let behind = set_backs(design, net.main_ropes.levels.len() - 1);
+    // By the level: along the bed and out of it, turned by the slope.
+    let upstream = |x: f64, z: f64| -(x * libm::cos(design.channel.slope) + z * libm::sin(design.channel.slope));
+    let of = |right: &f64| {
+        let held = input(design, posts, *right, top);
+        let (sine, cosine) = libm::sincos(held.lean);
+        let head = [*right, upstream(-sine * held.length, cosine * held.length)];
+        let anchor = |place: &[f64; 3]| [*right - place[1], upstream(place[0], place[2])];
+        (head, held.anchors.iter().map(anchor).collect())
+    };
+    let drawn = PostsPlan {
+        ends,
+        anchors: [ends[0] - behind[0], ends[1] + behind[1]],
+        posts: posts.at.iter().map(of).collect(),
+    };
+    let note = "To scale, upstream at the top; squares: heads of posts, circles: heads of ground anchors. The ground is taken as at the barrier, on the slope of the bed there.";
+    Some(Chart::of("Posts and retaining ropes from above", posts_plan(&drawn), note))
 }
 
 /// What closes the section between two heights: from bank to bank, and down to the ground or to the lower edge.

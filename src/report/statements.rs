@@ -77,6 +77,7 @@ fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     let ringed = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.rings.is_some());
+    let posted = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.posts.is_some());
     let bundled = matches!(&design.barrier, BarrierDesign::FlexibleNet(net)
         if net.main_ropes.levels.iter().any(|level| level.ropes > 1));
     vec![
@@ -99,6 +100,16 @@ fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
             net && any_breaks(design),
             "Ropes break in the simulation where the design says so; other ropes and the anchors do not: there, exceeding the resistance shows in the checks alone.",
             UNSAFE,
+        ),
+        (
+            posted,
+            "Posts are straight and stand on hinged feet that do not move. The uppermost rope runs over their heads; the net and all other ropes hang downstream of the posts, clear of them: a net that leans on a post is not modelled. Buckling, and bending by what presses on the post itself, are checked, not simulated.",
+            EITHER,
+        ),
+        (
+            posted,
+            "By the equations the uppermost rope slides over the heads without friction, under the load of its worst span in all of them; friction on a head counts for the post alone, and the load that a yielding retaining rope hands back to the rope is left out: its dissipators are taken as used up.",
+            SAFE,
         ),
         (
             extended && simulated,

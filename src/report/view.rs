@@ -13,17 +13,20 @@ use crate::design::{Arrival, BarrierDesign, NetRings, Rope};
 use crate::load_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
+use crate::report::anchors;
 use crate::report::chart::{self, Chart};
 use crate::report::holding;
 use crate::report::loads::{self, CaseRow, ModelRow, RopeRow, RuleRow, SwingRow};
 use crate::report::numbers::{figures, rope_numbers, with_scatter, with_unit};
 use crate::report::pictures::{self, REPLAY_SCRIPT};
 use crate::report::plots::elevation::class_names;
+use crate::report::posts;
 use crate::report::reliability::{ClimbRow, climb_rows, why_enough};
 use crate::report::replay::Replay;
 use crate::report::site;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::report::surges::{self, Surges};
+use crate::report::table::Table;
 use crate::report::warnings::{left_by_simulation, warnings};
 use crate::simulated::Simulated;
 use crate::sources::VOLKWEIN_2014;
@@ -54,6 +57,10 @@ pub struct View {
     pub bolted_rope: String,
     pub ring_net: String,
     pub ropes: Vec<RopeRow>,
+    pub posts: Option<Table>,
+    /// How their loads by the equations follow.
+    pub posts_working: String,
+    pub anchors: Option<Table>,
     pub other_models: Vec<ModelRow>,
     pub wall: Vec<Row>,
     pub holding: Vec<Row>,
@@ -162,6 +169,9 @@ impl View {
             bolted_rope: loads::bolted_rope(run),
             ring_net: loads::ring_net(run),
             ropes: loads::ropes(run),
+            posts: posts::table(run),
+            posts_working: posts::working(run),
+            anchors: anchors::table(run),
             other_models: loads::other_models(run),
             wall: loads::wall(run),
             holding: holding::rows(run),
@@ -402,8 +412,12 @@ fn guideline_rows(run: &Run) -> Vec<Row> {
     };
     let values = &design.factors;
     let factors = match &design.barrier {
-        BarrierDesign::FlexibleNet(_) => {
-            format!("load {}, rope {}, anchor {}", values.load, values.rope, values.anchor)
+        BarrierDesign::FlexibleNet(net) => {
+            let of_posts = match net.posts {
+                Some(_) => format!(", post {}", values.post),
+                None => String::new(),
+            };
+            format!("load {}, rope {}, anchor {}{of_posts}", values.load, values.rope, values.anchor)
         }
         BarrierDesign::RigidWall(_) => {
             format!("load {}; those of the wall's resistance stand in the load combination", values.load)

@@ -284,7 +284,7 @@ mod tests {
         let everything = |design: &mut Design, factor: f64| {
             let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
             net.main_ropes.levels.iter_mut().for_each(|level| level.rope.breaking_load *= factor);
-            net.anchor_resistance *= factor;
+            net.anchor_designs = net.anchor_designs.times(factor);
             let bolts = net.bed_bolts.as_mut().expect("bolts");
             bolts.resistance = bolts.resistance.map(|it| factor * it);
             let dissipator = net.dissipators.as_mut().expect("dissipators");

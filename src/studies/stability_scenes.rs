@@ -3,6 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use crate::ring_law::{RingLaw, Wires, chain_of, mass};
+use crate::validation::barrier::posts::post;
 use crate::validation::scenes::{MODULUS, ball, closed_box, free_model, material, plane};
 use dem::Vec3;
 use dem::contact::law::contact_stiffness;
@@ -27,7 +28,7 @@ pub struct Scene {
     pub build: fn() -> Model,
 }
 
-pub const SCENES: [Scene; 19] = [
+pub const SCENES: [Scene; 20] = [
     Scene {
         name: "row of balls", what: "eight balls pressed together between walls, ε = 1", linear: true, build: row
     },
@@ -98,6 +99,12 @@ pub const SCENES: [Scene; 19] = [
         what: "the same, nearly taut, with contacts at 5 m/s",
         linear: false,
         build: swinging_rings,
+    },
+    Scene {
+        name: "post on ropes",
+        what: "a steel post of 3 m pressed by two taut ropes of 30 MN",
+        linear: true,
+        build: post_on_ropes,
     },
     Scene {
         name: "used-up dissipator",
@@ -387,6 +394,15 @@ fn squeezed() -> Model {
     let bed = Vec3::x() * (place - radius + push / grain_stiffness);
     model.surfaces = vec![plane(SurfaceRole::Base, bed, Vec3::x(), 0.4)];
     model
+}
+
+fn post_on_ropes() -> Model {
+    let mut barrier = post(Vec3::z() * 3.0, Vec3::zeros(), Some(3e7));
+    barrier.nodes[1].velocity = nudge(1);
+    for rope in &mut barrier.segments {
+        rope.set_rest_length(0.999 * rope.rest_length);
+    }
+    with_barrier(barrier, far_ball())
 }
 
 fn stop() -> Model {

@@ -80,6 +80,7 @@ pub const CASES: &[&Case] = &[
     &barrier::punching::CASE,
     &barrier::ring_chains::CASE,
     &barrier::ring_panel::CASE,
+    &barrier::posts::CASE,
     &barrier::pieces::CASE,
     &barrier::full_scale::BRAKED,
     &barrier::full_scale::UNBRAKED,

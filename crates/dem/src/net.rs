@@ -216,7 +216,8 @@ impl NetForces {
 
     /// Tensions of all that pulls (N), in the order of [`Barrier::strands`]; of one rope where several share them.
     pub fn strand_tensions<'a>(&'a self, barrier: &'a Barrier) -> impl Iterator<Item = f64> + 'a {
-        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators).chain(&self.posts);
+        let all =
+            self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators).chain(&self.posts);
         barrier.strands().zip(all).map(|(strand, tension)| tension / barrier.sharing(strand.kind))
     }
 

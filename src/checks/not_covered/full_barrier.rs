@@ -139,7 +139,8 @@ mod tests {
     #[test]
     fn the_full_barrier_is_open_where_the_simulation_is_not_accurate_enough_for_it() {
         let design = small_net();
-        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[0.3 * net_holds(&design)]);
+        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+            .with(&other_ropes::NET, &[0.3 * net_holds(&design)]);
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |force_band: f64| {
             simulated_verdict(&design, "net_tension", &observed, FirstSurge { force_band, ..pushing(first) })
@@ -175,7 +176,8 @@ mod tests {
         let design = small_net();
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |residual_height: f64, share_band: f64| {
-            let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&height::RESIDUAL, &[residual_height]);
+            let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+                .with(&height::RESIDUAL, &[residual_height]);
             simulated_verdict(&design, "residual_height", &observed, FirstSurge { share_band, ..pushing(first) })
         };
         assert_eq!(verdict(0.8, 0.0), CheckVerdict::Pass);
@@ -193,7 +195,8 @@ mod tests {
         let holds = net.main_ropes.levels[2].rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let tension = 0.95 * holds;
         assert!(tension > guideline.ropes[2].state.tension);
-        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&rope_tension::PEAK, &[0.0, 0.0, tension]);
+        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+            .with(&rope_tension::PEAK, &[0.0, 0.0, tension]);
         let first = guideline.largest_force / 1.2;
         assert_eq!(simulated_verdict(&design, "rope_3_tension", &observed, pushing(first)), CheckVerdict::Open);
         let mut capped = check_all(&design, &Demands::by_equations(&guideline, &design.factors));

@@ -51,6 +51,7 @@ pub mod tests {
     use crate::design::Design;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
+    use crate::quantities::counts::Counts;
     use crate::quantities::observed::Observed;
     use crate::quantities::other_ropes;
 
@@ -104,7 +105,8 @@ pub mod tests {
 
     /// Verdict of the net's tension, which the simulation alone judges, where the first surge pulls it with a tension (N).
     pub fn net_verdict(design: &Design, tension: f64, first_surge: f64) -> CheckVerdict {
-        let observed = Observed::of_nothing(3, 0).with(&other_ropes::NET, &[tension]);
+        let observed =
+            Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[tension]);
         simulated_verdict(design, "net_tension", &observed, pushing(first_surge))
     }
 

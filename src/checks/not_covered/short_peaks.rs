@@ -47,7 +47,8 @@ mod tests {
         (wall.resistance, wall.moment_resistance, wall.resistance_factor) = (Some(10e6), Some(2e6), 1.0);
         // So soft that no grain of the flow breaks a metre.
         design.flow.modulus = 1.0;
-        let observed = Observed::of_nothing(Counts::default()).with(&total_force::PEAK, &[4e6]).with(&wall::MOMENT, &[0.8e6]);
+        let observed =
+            Observed::of_nothing(Counts::default()).with(&total_force::PEAK, &[4e6]).with(&wall::MOMENT, &[0.8e6]);
         let verdicts = |design: &crate::design::Design, force: f64, moment: f64| {
             let seen = FirstSurge {
                 sampled_over_smoothed: force,

@@ -25,7 +25,8 @@ pub struct Member {
     /// Plumb height over the lowest point of the bed, and where it ends, to the right (m).
     pub height: f64,
     pub ends: [f64; 2],
-    pub is_anchored: bool,
+    /// How far behind its ends it is anchored (m), where it is.
+    pub anchored: Option<[f64; 2]>,
     /// Its line where it is not straight.
     pub line: Vec<[f64; 2]>,
 }
@@ -40,6 +41,8 @@ pub enum Ring {
 pub struct CrossSection {
     pub ground: Vec<[f64; 2]>,
     pub members: Vec<Member>,
+    /// Foot and head of each post.
+    pub posts: Vec<[[f64; 2]; 2]>,
     /// Outline of what closes the section: net or wall.
     pub outline: Vec<[f64; 2]>,
     /// Its rings, if it is a ring net.
@@ -109,18 +112,22 @@ pub fn cross_section(drawn: &CrossSection) -> String {
         );
     }
     for member in &drawn.members {
-        let [from, to] = member.ends.map(x);
         let up = y(member.height);
         let straight = member.ends.map(|end| [end, member.height]);
         let line = if member.line.is_empty() { &straight[..] } else { &member.line };
         let _ = write!(svg, "<polyline class=\"rope\" points=\"{}\"/>", points(line));
-        if member.is_anchored {
-            let _ = write!(
-                svg,
-                "<circle class=\"anchor\" cx=\"{from:.1}\" cy=\"{up:.1}\" r=\"3.5\"/><circle class=\"anchor\" cx=\"{to:.1}\" cy=\"{up:.1}\" r=\"3.5\"/>"
-            );
+        for (place, end, behind) in heads(member) {
+            let [place, end] = [place, end].map(x);
+            if behind > 0.0 {
+                let _ = write!(
+                    svg,
+                    "<line class=\"behind\" x1=\"{end:.1}\" x2=\"{place:.1}\" y1=\"{up:.1}\" y2=\"{up:.1}\"/>"
+                );
+            }
+            let _ = write!(svg, "<circle class=\"anchor\" cx=\"{place:.1}\" cy=\"{up:.1}\" r=\"3.5\"/>");
         }
     }
+    svg += &posts(&drawn.posts, &x, &y);
     svg += &labels(drawn, &y, x(right));
     let widest = drawn.members.iter().map(|member| member.ends).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
     if let Some([from, to]) = widest {
@@ -131,6 +138,31 @@ pub fn cross_section(drawn: &CrossSection) -> String {
         svg += &dimension(drawn.bed.map(x), under + 20.0, &format!("bed {bed:.2} m"));
     }
     svg + &super::scale_bar(MARGIN, under + BELOW - 10.0, scale, 0.2 * WIDTH) + "</svg>"
+}
+
+/// Heads of the ground anchors of a member, each with the end that it holds and how far behind it is.
+fn heads(member: &Member) -> Vec<(f64, f64, f64)> {
+    let Some([left, right]) = member.anchored else { return Vec::new() };
+    let [from, to] = member.ends;
+    vec![(from - left, from, left), (to + right, to, right)]
+}
+
+/// Posts from foot to head, with their numbers.
+fn posts(posts: &[[[f64; 2]; 2]], x: &dyn Fn(f64) -> f64, y: &dyn Fn(f64) -> f64) -> String {
+    let mut svg = String::new();
+    for (number, [foot, head]) in posts.iter().enumerate() {
+        let _ = write!(
+            svg,
+            "<line class=\"post\" x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\"/><circle class=\"foot\" cx=\"{0:.1}\" cy=\"{1:.1}\" r=\"4\"/><text text-anchor=\"middle\" x=\"{2:.1}\" y=\"{4:.1}\">post {5}</text>",
+            x(foot[0]),
+            y(foot[1]),
+            x(head[0]),
+            y(head[1]),
+            y(head[1]) - 5.0,
+            number + 1
+        );
+    }
+    svg
 }
 
 /// Names of the members at the right, from the top down, each with a line to its end.
@@ -216,17 +248,18 @@ mod tests {
                     label: "rope 1, 4.00 m".into(),
                     height: 0.0,
                     ends: [-2.0, 2.0],
-                    is_anchored: false,
+                    anchored: None,
                     line: Vec::new(),
                 },
                 Member {
                     label: "rope 2, 8.00 m".into(),
                     height: 2.0,
                     ends: [-4.0, 4.0],
-                    is_anchored: true,
+                    anchored: Some([0.0, 0.4]),
                     line: Vec::new(),
                 },
             ],
+            posts: vec![[[0.0, 0.0], [0.0, 2.0]]],
             outline: vec![[-2.0, 0.0], [2.0, 0.0], [4.0, 2.0], [-4.0, 2.0]],
             rings: vec![
                 Ring::Whole { middle: [0.0, 1.0], diameter: 0.3 },
@@ -238,6 +271,7 @@ mod tests {
         let svg = cross_section(&drawn);
         assert_eq!(svg.matches("class=\"anchor\"").count(), 2);
         assert_eq!(svg.matches("class=\"net-ring\"").count(), 2);
+        assert_eq!((svg.matches("class=\"post\"").count(), svg.matches("class=\"behind\"").count()), (1, 1));
         for text in ["rope 2, 8.00 m", ">8.00 m<", "bed 4.00 m", ">flow<"] {
             assert!(svg.contains(text), "{text}");
         }

@@ -6,6 +6,7 @@ pub(crate) mod line_chart;
 pub(crate) mod long_profile;
 pub(crate) mod pareto;
 pub(crate) mod plan;
+pub(crate) mod posts_plan;
 pub(crate) mod pressure;
 pub(crate) mod profile;
 pub(crate) mod side_view;

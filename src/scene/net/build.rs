@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::UnitQuaternion;
 
-use crate::design::{BarrierModel, Bottom, Channel, DissipatorDesign, FlexibleNet, LateralTo, Rope};
+use crate::design::{Bank, BarrierModel, Bottom, Channel, DissipatorDesign, FlexibleNet, LateralTo, Rope};
 use crate::scene::net::grid::Grid;
 use crate::scene::net::ring_shape::{POISSON, ring_stand_off};
 use dem::Vec3;
@@ -250,8 +250,8 @@ impl Builder<'_> {
                 let segments = (first_segment..self.barrier.segments.len() as u32).collect();
                 self.add_chain(segments);
                 let up = self.grid.row_heights[row];
-                self.add_rope_end(rope, ends[0], self.place(0.0, up));
-                self.add_rope_end(rope, ends[1], self.place(self.width, up));
+                self.add_rope_end(rope, ends[0], self.place(0.0, up), Bank::Right);
+                self.add_rope_end(rope, ends[1], self.place(self.width, up), Bank::Left);
             }
         }
     }
@@ -271,15 +271,24 @@ impl Builder<'_> {
         }
     }
 
-    /// Anchors one end of a main rope, through a dissipator where the design has them.
-    pub(super) fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3) {
-        let (anchor, kind) = (self.add_node(place, true), SegmentKind::Main(rope));
+    /// Anchors one end of a main rope that comes to a bank at a place, through a dissipator where the design has them.
+    pub(super) fn add_rope_end(&mut self, rope: u16, end: u32, place: Vec3, bank: Bank) {
+        let set_back = self.design.anchor_designs.of(usize::from(rope), bank).set_back;
+        let outwards = if bank == Bank::Right { -Vec3::y() } else { Vec3::y() };
+        let (anchor, kind) = (self.add_node(place + outwards * set_back, true), SegmentKind::Main(rope));
         self.barrier.anchors.push(Anchor { node: anchor, kind });
         let radius = 0.5 * self.main_rope(rope).diameter;
         match &self.design.dissipators {
             Some(design) => {
                 let (sharing, gap) = (self.barrier.sharing(kind), self.design.side_gap());
-                self.barrier.dissipators.push(dissipator([anchor, end], kind, gap, design, sharing, radius));
+                let line = self.main_rope(rope);
+                let mut made = dissipator([anchor, end], kind, gap + set_back, design, sharing, radius);
+                if set_back > 0.0 {
+                    // The rope between net and anchor stretches with it.
+                    let of_rope = set_back / (sharing * line.axial_stiffness());
+                    made.stiffness = (made.stiffness.recip() + of_rope).recip();
+                }
+                self.barrier.dissipators.push(made);
             }
             None => self.add_line([anchor, end], kind, &self.main_rope(rope).clone()),
         }

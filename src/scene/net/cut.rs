@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::design::{Bottom, LateralTo};
+use crate::design::{Bank, Bottom, LateralTo};
 use crate::scene::net::build::{Builder, Place};
 use crate::scene::net::outline::{Edge, Outline, Point};
 use crate::section::Survey;
@@ -212,7 +212,8 @@ impl Builder<'_> {
             for (side, end) in [line[0], line[line.len() - 1]].into_iter().enumerate() {
                 let [across, _] = outline.point(Edge::Bank(side), outline.way_to(side, up));
                 let bank = if side == 0 { across - gap } else { across + gap };
-                self.add_rope_end(number as u16, end, self.place(bank, up));
+                let at = if side == 0 { Bank::Right } else { Bank::Left };
+                self.add_rope_end(number as u16, end, self.place(bank, up), at);
             }
         }
         self.rope_nodes.insert(row, line);

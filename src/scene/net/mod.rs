@@ -5,7 +5,7 @@ pub(crate) mod cut;
 mod extension;
 pub(crate) mod grid;
 pub(crate) mod outline;
-pub(crate) mod ring_net;
 pub(crate) mod posts;
+pub(crate) mod ring_net;
 mod ring_shape;
 pub(crate) mod rings;

@@ -100,7 +100,13 @@ impl Builder<'_> {
     }
 
     /// A dissipator between an anchor and the end of its ropes, at rest as it lies.
-    pub(super) fn add_dissipator(&mut self, nodes: [u32; 2], kind: SegmentKind, design: &DissipatorDesign, radius: f64) {
+    pub(super) fn add_dissipator(
+        &mut self,
+        nodes: [u32; 2],
+        kind: SegmentKind,
+        design: &DissipatorDesign,
+        radius: f64,
+    ) {
         let sharing = self.barrier.sharing(kind);
         let [a, b] = nodes.map(|node| self.barrier.nodes[node as usize].position);
         self.barrier.dissipators.push(dissipator(nodes, kind, (b - a).norm(), design, sharing, radius));

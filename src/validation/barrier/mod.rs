@@ -5,6 +5,7 @@ pub(crate) mod contacts;
 pub(crate) mod dissipators;
 pub(crate) mod full_scale;
 pub(crate) mod pieces;
+pub mod posts;
 pub(crate) mod punching;
 pub(crate) mod ring_chains;
 pub mod ring_panel;

@@ -90,7 +90,8 @@ impl Histories {
             self.ledger.len(),
             self.entered.len(),
         ];
-        let of = |rows: Rows| CHANNELS.iter().copied().filter(|channel| channel.rows == rows).collect::<Vec<&Channel>>();
+        let of =
+            |rows: Rows| CHANNELS.iter().copied().filter(|channel| channel.rows == rows).collect::<Vec<&Channel>>();
         let alike = [Rows::EachRope, Rows::EachPost, Rows::EachAnchor].map(of);
         let in_order = self.surges.windows(2).all(|pair| pair[0] <= pair[1]);
         let told = |series: &[f64], count: usize| series.is_empty() || series.len() == count;

@@ -24,7 +24,7 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 31] = [
+pub const CHANNELS: [&Channel; 32] = [
     &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
@@ -48,6 +48,7 @@ pub const CHANNELS: [&Channel; 31] = [
     &of_boulders::FORCE,
     &of_boulders::NET,
     &of_posts::COMPRESSION,
+    &of_posts::MOMENT,
     &of_posts::FOOT[0],
     &of_posts::FOOT[1],
     &of_posts::FOOT[2],

@@ -3,15 +3,20 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::elements::post::Post;
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_rows, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
+use crate::tables::nodes::Node;
 
 /// Compression of each post; negative where it is pulled.
 pub const COMPRESSION: Channel = Channel { name: "post", unit: "n", rows: Rows::EachPost };
+/// Moment by which grains that push on each post bend it, as a beam between foot and head: the sum of the largest moments of all pushes, which
+/// is no less than that of all together.
+pub const MOMENT: Channel = Channel { name: "post_moment", unit: "n_m", rows: Rows::EachPost };
 /// Force of each post and of the grains that lean on it on its foot, in the channel frame.
 pub const FOOT: [Channel; 3] = [
     Channel { name: "foot_x", unit: "n", rows: Rows::EachPost },
@@ -26,6 +31,7 @@ pub const STROKE: Channel = Channel { name: "retaining_stroke", unit: "m", rows:
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct OfPosts {
     compression: Vec<f64>,
+    moment: Vec<f64>,
     feet: Vec<Vec3>,
     retaining: Vec<f64>,
 }
@@ -38,6 +44,7 @@ impl BodyRecorder for OfPosts {
         }
         let compression: Vec<f64> = net.posts.iter().map(|tension| -tension).collect();
         add_rows(&mut self.compression, &compression);
+        add_rows(&mut self.moment, &moments(simulation, &barrier.posts, &barrier.nodes));
         self.feet.resize(barrier.posts.len(), Vec3::zeros());
         for (sum, post) in self.feet.iter_mut().zip(&barrier.posts) {
             *sum += net.forces[post.nodes[0] as usize];
@@ -56,6 +63,7 @@ impl BodyRecorder for OfPosts {
         let Some(barrier) = &simulation.model.barrier else { return };
         let done = std::mem::take(self);
         channels.push(&COMPRESSION, &means(&done.compression, steps));
+        channels.push(&MOMENT, &means(&done.moment, steps));
         for (axis, channel) in FOOT.iter().enumerate() {
             let along: Vec<f64> = done.feet.iter().map(|force| force[axis]).collect();
             channels.push(channel, &means(&along, steps));
@@ -70,4 +78,18 @@ impl BodyRecorder for OfPosts {
         }
         channels.push(&STROKE, &strokes);
     }
+}
+
+/// Σ F a b/L over all pushes on a post, with F across it and its distances a and b from the ends (N m).
+fn moments(simulation: &Simulation, posts: &[Post], nodes: &[Node]) -> Vec<f64> {
+    let mut moments = vec![0.0; posts.len()];
+    for push in simulation.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes) {
+        let Some(number) = posts.iter().position(|post| post.nodes == push.nodes) else { continue };
+        let [foot, head] = push.nodes.map(|node| nodes[node as usize].position);
+        let line = head - foot;
+        let along = push.force.dot(&line) / line.norm_squared();
+        let across = (push.force - line * along).norm();
+        moments[number] += across * push.share * (1.0 - push.share) * line.norm();
+    }
+    moments
 }

@@ -1,0 +1,115 @@
+//! The posts of a net: what their heads carry, what holds them, and how that follows from the loads.
+
+use dem::Vec3;
+
+use crate::checks::posts::strut;
+use crate::design::{BarrierDesign, FlexibleNet, PostStrength, Posts};
+use crate::guideline::PostLoad;
+use crate::pipeline::Run;
+use crate::quantities::observed::Observed;
+use crate::quantities::posts::{COMPRESSION, FOOT_ACROSS, FOOT_ALONG, FOOT_UP, MOMENT, RETAINING, STROKE};
+use crate::quantities::quantity::Quantity;
+use crate::report::anchors::parts;
+use crate::report::numbers::with_unit;
+use crate::report::table::Table;
+
+fn of(run: &Run) -> Option<(&FlexibleNet, &Posts)> {
+    match &run.file.design.barrier {
+        BarrierDesign::FlexibleNet(net) => net.posts.as_ref().map(|posts| (&**net, posts)),
+        BarrierDesign::RigidWall(_) => None,
+    }
+}
+
+/// Nothing where the barrier has none.
+pub fn table(run: &Run) -> Option<Table> {
+    let (_, posts) = of(run)?;
+    let seen = run.simulated.as_ref().map(|simulated| simulated.first());
+    let row = |(number, load): (usize, &PostLoad)| {
+        let value = |quantity: &Quantity| {
+            let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
+            seen.map(value)
+        };
+        let both = |equations: f64, quantity: &Quantity, unit: &str| {
+            let simulated = value(quantity).map_or("–".to_string(), |value| with_unit(value, unit));
+            format!("{} / {simulated}", with_unit(equations, unit))
+        };
+        let foot = [&FOOT_ALONG, &FOOT_ACROSS, &FOOT_UP].map(value);
+        let foot = foot[0].zip(foot[1]).zip(foot[2]).map(|((x, y), z)| parts(&Vec3::new(x, y, z)));
+        vec![
+            (number + 1).to_string(),
+            format!("{:.2} m, {:.2} m long", posts.at[number], load.length),
+            both(load.head.tension, &RETAINING, "N"),
+            both(load.stroke, &STROKE, "m"),
+            both(load.head.compression, &COMPRESSION, "N"),
+            both(load.own.moment, &MOMENT, "N m"),
+            with_unit(load.foot, "N"),
+            foot.unwrap_or("–".into()),
+        ]
+    };
+    Some(Table {
+        columns: vec![
+            "Post",
+            "Where, and how long",
+            "Tension of a retaining rope",
+            "Stroke of its dissipator",
+            "Compression",
+            "Moment of what presses on it",
+            "Force on its foundation, by the equations",
+            "The same in the simulation: down the valley, to the left, up",
+        ],
+        rows: run.guideline.posts.iter().enumerate().map(row).collect(),
+        note: format!(
+            "By the equations with the partial factor on loads / in the first run of the flow without partial factors. Places count {}, to the right looking downstream.",
+            if run.file.design.channel.survey.is_some() {
+                "like the points of the section"
+            } else {
+                "from the middle of the channel"
+            }
+        ),
+    })
+}
+
+/// How the loads of the posts by the equations follow; empty where there are none.
+pub fn working(run: &Run) -> String {
+    let Some((net, posts)) = of(run) else { return String::new() };
+    let Some((worst, load)) =
+        run.guideline.posts.iter().enumerate().max_by(|a, b| a.1.head.tension.total_cmp(&b.1.head.tension))
+    else {
+        return String::new();
+    };
+    let ropes = net.main_ropes.levels.last().map_or(1, |level| level.ropes);
+    let turned = match posts.retaining.count() {
+        1 => "which the rope over its head is left to bear".to_string(),
+        _ => "of which one of its two ropes takes more and the other less".to_string(),
+    };
+    format!(
+        "Post {}: the uppermost rope{} hands it half its load on either side, q (L₁ + L₂)/2 = {:.1} kN normal to the net, and friction on its head up to T (1 − exp(−μ θ)) = {:.1} kN along the rope, {turned}; what presses on the post's own width of {:.0} mm adds {:.1} kN at the head and bends it with {:.1} kN m, as a beam from foot to head. The head is in equilibrium between these, its retaining rope{} with T = {:.1} kN and the post with N = {:.1} kN. The equations do not know how the net pulls the head down, nor how grains jam at a post, so that they alone let no post pass. {}",
+        worst + 1,
+        if ropes > 1 { format!("s ({ropes} together)") } else { String::new() },
+        load.from_rope / 1e3,
+        load.along / 1e3,
+        posts.width * 1e3,
+        load.own.head / 1e3,
+        load.own.moment / 1e3,
+        if posts.retaining.count() > 1 { "s" } else { "" },
+        load.head.tension / 1e3,
+        load.head.compression / 1e3,
+        strength(run, posts, worst)
+    )
+}
+
+fn strength(run: &Run, posts: &Posts, number: usize) -> String {
+    let Some(strut) = strut(&run.file.design, posts, number) else {
+        return "What the posts withstand is not given.".to_string();
+    };
+    let critical = match posts.strength {
+        PostStrength::Section(_) => {
+            format!("N_b = χ A f_y/γ = {:.0} kN (N_cr = {:.0} kN)", strut.compression / 1e3, strut.critical / 1e3)
+        }
+        _ => format!("N_b = {:.0} kN", strut.compression / 1e3),
+    };
+    format!(
+        "It holds {critical} and M_R = {:.1} kN m, one with the other as long as N + N_b M/(M_R (1 − N/N_cr)) ≤ N_b.",
+        strut.bending / 1e3
+    )
+}
