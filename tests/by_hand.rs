@@ -9,6 +9,7 @@ use barrier_check::design::Design;
 use barrier_check::design::entries::Purpose;
 use barrier_check::design::read::read_design_for;
 use barrier_check::guideline::{Guideline, guideline};
+use barrier_check::quantities::counts::Counts;
 use barrier_check::quantities::observed::Observed;
 use barrier_check::quantities::{
     anchor_load, bed, dissipator, height, mass, other_ropes, rope_tension, total_force, wall,
@@ -230,7 +231,7 @@ fn rules_of(design: &Design, guideline: &Guideline) -> Vec<(&'static str, f64)> 
 #[test]
 fn what_a_simulation_without_factors_shows_is_factored() {
     let design = design(NET);
-    let observed = Observed::of_nothing(0, 0)
+    let observed = Observed::of_nothing(Counts::default())
         .with(&total_force::PEAK, &[100e3])
         .with(&rope_tension::PEAK, &[0.0, 60e3, 70e3, 80e3])
         .with(&anchor_load::PEAK, &[0.0, 50e3, 40e3, 30e3])
@@ -281,7 +282,7 @@ fn of_several_packings_the_unfavourable_side_counts() {
 }
 
 fn zero() -> Observed {
-    Observed::of_nothing(4, 0)
+    Observed::of_nothing(Counts { ropes: 4, ..Counts::default() })
 }
 
 /// H = 3 cos 22° = 2.7816 m; the wall stands 2.7816/cos 20° = 2.9601 m high on its base and weighs 104.54 kN/m. The last surge pushes

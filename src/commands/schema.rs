@@ -48,7 +48,8 @@ fn section(keys: &[Key]) -> Value {
     let required: Vec<&str> =
         keys.iter().filter(|key| matches!(key.need, Need::Required | Need::ForGrains)).map(|key| key.name).collect();
     let mut schema = json!({ "type": "object", "additionalProperties": false, "properties": properties(keys), "required": required });
-    let here = |pair: &&Either| pair.keys.iter().all(|name| keys.iter().any(|key| key.name == *name));
+    let has = |name: &str| keys.iter().any(|key| key.name == name);
+    let here = |pair: &&Either| pair.keys.iter().all(|name| has(name)) && (pair.beside.is_empty() || has(pair.beside));
     for pair in EITHER.iter().filter(here) {
         if pair.needed {
             let mut one: Vec<Value> = pair.keys.iter().map(|key| json!({ "required": [key] })).collect();
@@ -128,7 +129,15 @@ fn kind(kind: &Kind) -> Value {
             let mut schema = section(keys);
             schema["minProperties"] = json!(1);
             schema["maxProperties"] = json!(1);
-            schema
+            // What a kit says need not be said beside it.
+            match keys.iter().find(|key| key.name == "kit") {
+                Some(key) => {
+                    let mut with_kit = json!({ "type": "object", "required": ["kit"], "properties": { "kit": self::kind(&key.kind) } });
+                    with_kit["properties"]["kit"]["description"] = json!(key.meaning);
+                    json!({ "anyOf": [with_kit, schema] })
+                }
+                None => schema,
+            }
         }
     }
 }

@@ -21,6 +21,7 @@ pub(crate) mod hydrograph_entries;
 pub(crate) mod hydrograph_file;
 pub(crate) mod hydrograph_rules;
 pub(crate) mod key;
+pub(crate) mod kit;
 pub(crate) mod net_ring_rules;
 pub(crate) mod net_rings;
 pub(crate) mod net_rules;

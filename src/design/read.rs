@@ -7,6 +7,7 @@ use crate::design::document::Document;
 use crate::design::entries::{Entries, Origin, Purpose, Value, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
+use crate::design::kit::{self, Kit};
 use crate::design::resolve::resolve;
 use crate::design::rules::{GRAIN_RULES, RULES};
 use crate::design::schema::DESIGN;
@@ -50,13 +51,22 @@ pub(super) const KEYS: &str = "a design with the sections project, channel, flow
 /// The same for a purpose, with the files that the design names.
 pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -> Result<DesignFile, Problems> {
     let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
-    let document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
+    let mut document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
+    let kit = kit::take(&mut document.root, open, &mut problems);
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
+    if let Some(kit) = &kit {
+        kit.tell_origins(&mut entries, |document, bytes, path| {
+            let text = String::from_utf8_lossy(bytes);
+            let line = text.lines().nth(document.position(path)?.line.checked_sub(1)?)?;
+            comment(line).map(String::from)
+        });
+    }
     take_remarks(&mut entries, &document, bytes);
-    problems.extend(keep_texts_as_typed(&mut entries, &document));
+    problems.extend(keep_texts_as_typed(&mut entries, &document, kit.as_ref()));
     make_harmless(&mut entries);
-    let attached = read_attached(&mut entries, open, &mut problems);
+    let mut attached = read_attached(&mut entries, open, &mut problems);
+    attached.extend(kit.iter().map(|kit| (kit.name.clone(), kit.bytes.clone())));
     factor_sets::apply(&mut entries);
     grain_lengths::put_lengths(&mut entries, &mut problems);
     problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
@@ -74,6 +84,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -
     let more = problems.len().saturating_sub(MOST_PROBLEMS);
     problems.truncate(MOST_PROBLEMS);
     for problem in &mut problems {
+        kit.iter().for_each(|kit| kit.tell_of(problem));
         problem.position = problem.position.or_else(|| match problem.again {
             true => document.position_again(&problem.path),
             false => nearest_position(&document, &problem.path),
@@ -109,11 +120,16 @@ fn take_remarks(entries: &mut Entries, document: &Document, bytes: &[u8]) {
 
 /// A text that the parser takes for a number or a truth value is what stands in the file: revision 1.10 is not 1.1. Where that cannot be told
 /// it is refused.
-fn keep_texts_as_typed(entries: &mut Entries, document: &Document) -> Vec<Problem> {
+fn keep_texts_as_typed(entries: &mut Entries, document: &Document, kit: Option<&Kit>) -> Vec<Problem> {
     let mut problems = Vec::new();
     for path in std::mem::take(&mut entries.rewritten) {
         let Some(entry) = entries.values.get_mut(&path).filter(|entry| entry.origin == Origin::File) else { continue };
-        if let Some(plain) = document.plain(&path, &entry.typed) {
+        let of_kit = kit.filter(|kit| kit.has(&path));
+        let plain = match of_kit {
+            Some(kit) => kit.plain(&path, &entry.typed),
+            None => document.plain(&path, &entry.typed),
+        };
+        if let Some(plain) = plain {
             (entry.value, entry.typed) = (Value::Text(plain.to_string()), plain.to_string());
             continue;
         }

@@ -392,6 +392,11 @@ const SURGES: &[Key] = &[
 const BARRIER: &[Key] = &[
     Key::optional("rigid_wall", Kind::Section(RIGID_WALL), "a wall across the channel"),
     Key::optional("flexible_net", Kind::Section(FLEXIBLE_NET), "a rope net on main ropes"),
+    Key::optional(
+        "kit",
+        Kind::File,
+        "a file with keys of the barrier beside the design: what the design says beside it overrides the kit",
+    ),
 ];
 
 const RIGID_WALL: &[Key] = &[
@@ -1031,16 +1036,24 @@ pub struct Either {
     pub needed: bool,
     /// Keys of groups beside them that stand in their stead.
     pub instead: &'static [[&'static str; 2]],
+    /// A key that tells the group that is meant, where others have the same keys; else empty.
+    pub beside: &'static str,
 }
 
 /// The JSON Schema tells these; [`super::rules`] words what it says of them.
 pub const EITHER: &[Either] = &[
-    Either { keys: &["width", "section", "terrain"], needed: true, instead: &[] },
-    Either { keys: &["mass", "volume"], needed: true, instead: &[["arrival", "surges"], ["arrival", "hydrograph"]] },
-    Either { keys: &["volume", "length"], needed: true, instead: &[] },
-    Either { keys: &["count", "heights", "levels"], needed: true, instead: &[] },
-    Either { keys: &["mesh_opening", "net"], needed: true, instead: &[] },
-    Either { keys: &["plateau_force", "curve"], needed: true, instead: &[] },
-    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: &[] },
-    Either { keys: &["resistance", "proof_load", "design_resistance"], needed: true, instead: &[] },
+    Either { keys: &["width", "section", "terrain"], needed: true, instead: &[], beside: "" },
+    Either {
+        keys: &["mass", "volume"],
+        needed: true,
+        instead: &[["arrival", "surges"], ["arrival", "hydrograph"]],
+        beside: "",
+    },
+    Either { keys: &["volume", "length"], needed: true, instead: &[], beside: "" },
+    Either { keys: &["count", "heights", "levels"], needed: true, instead: &[], beside: "" },
+    Either { keys: &["mesh_opening", "net"], needed: true, instead: &[], beside: "" },
+    Either { keys: &["plateau_force", "curve"], needed: true, instead: &[], beside: "" },
+    Either { keys: &["bed_resistance", "bed_bolt_resistance"], needed: false, instead: &[], beside: "" },
+    Either { keys: &["resistance", "proof_load", "design_resistance"], needed: true, instead: &[], beside: "each" },
+    Either { keys: &["resistance", "radius_of_gyration"], needed: false, instead: &[], beside: "" },
 ];
