@@ -83,7 +83,7 @@ fn first_surge_that_falls_short(design: &Design, simulated: &Simulated) -> Optio
 /// A later surge, counted from 0, that was not simulated or does not come to the deposit as the design says; `led` is the design led by it.
 fn later_surge_that_falls_short(led: &Design, simulated: &Simulated, number: usize) -> Option<String> {
     let name = number + 1;
-    let mut all = simulated.starts.iter().chain(&simulated.factored);
+    let mut all = simulated.all();
     if all.any(|start| start.surges.len() <= number) {
         return Some(format!("surge {name} was not simulated"));
     }

@@ -1,8 +1,13 @@
 //! Guideline loads on the design's barrier: load cases, the governing one of each main rope, what the barrier holds.
 
+pub(crate) mod face;
 pub(crate) mod posts;
+pub(crate) mod rope_load;
 
+pub use self::face::height_over_bed;
+use self::face::lean;
 pub use self::posts::PostLoad;
+pub use self::rope_load::RopeLoad;
 use crate::design::{
     AnchorOf, Arrival, Bank, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, Level,
     RunUp,
@@ -15,7 +20,7 @@ use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::impact::hertz;
 use crate::loads::input::GuidelineInput;
 use crate::loads::ring_net::{RingLoad, RingNet};
-use crate::loads::rope::{RopeInput, RopeState, Yielding};
+use crate::loads::rope::{RopeInput, Yielding};
 use crate::loads::run_up;
 use crate::loads::wall::WallInput;
 use crate::section::{Section, Survey};
@@ -70,31 +75,6 @@ impl Guideline {
     pub fn first_surge(&self) -> f64 {
         later_surge::case(&self.input.without_wood(), 0.0).total_force(&self.section)
     }
-}
-
-/// A main rope under the load of its tributary height, with the partial factor on loads.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RopeLoad {
-    /// Heights above the bed of the strip that the rope carries (m); the topmost has no upper end.
-    pub strip: [f64; 2],
-    /// From bank to bank, or the longest between banks and posts (m), and the other spans.
-    pub span: f64,
-    pub others: Vec<f64>,
-    /// Of the rope between the edges of the net and its anchors, at both ends together (m).
-    pub behind: f64,
-    /// Ropes that run side by side and share the load.
-    pub ropes: u16,
-    /// Load across the span, of all of them and of one (N/m): a point load is that of one.
-    pub load: f64,
-    pub of_one: f64,
-    /// The point load that enters it, as a force at one place, with the partial factor (N).
-    pub point: f64,
-    /// The case that governs; nothing for a rope that the bed holds.
-    pub case: Option<LoadCase>,
-    /// Of one rope.
-    pub state: RopeState,
-    /// What each anchor takes along the rope's span and down the channel (N).
-    pub anchor: [f64; 2],
 }
 
 /// Depth of the wave at the gate over the height behind it, and speed of its front over √(g' h) (Ritter 1892).
@@ -419,14 +399,6 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
     })
 }
 
-/// Height of the barrier's top above the bed, normal to it (m).
-pub fn height_over_bed(design: &Design) -> f64 {
-    match &design.barrier {
-        BarrierDesign::RigidWall(wall) => wall.height * libm::cos(wall.lean),
-        BarrierDesign::FlexibleNet(net) => net.height * libm::cos(design.channel.slope + net.tilt) + net.bottom.gap(),
-    }
-}
-
 /// Depth and velocity with which the flow reaches the barrier. A surge has them; for a dam break the designer
 /// may give them, else the depth is Ritter's at the gate and the velocity the larger of two: that of a block that slides on the bed
 /// with its friction, and that of the front of a collapse.
@@ -479,16 +451,11 @@ fn gain_of(design: &Design, distance: f64) -> f64 {
 /// The dissipators, if there are any.
 fn dissipator(design: &Design) -> Option<Yielding> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    let DissipatorDesign { plateau, stroke, curve, .. } = net.dissipators.clone()?;
-    Some(Yielding { largest: plateau, stroke, curve })
+    net.dissipators.as_ref().map(yielding)
 }
 
-/// Angle by which the barrier leans upstream from the bed's normal (rad).
-pub fn lean(design: &Design) -> f64 {
-    match &design.barrier {
-        BarrierDesign::RigidWall(wall) => wall.lean,
-        BarrierDesign::FlexibleNet(net) => design.channel.slope + net.tilt,
-    }
+fn yielding(given: &DissipatorDesign) -> Yielding {
+    Yielding { largest: given.plateau, stroke: given.stroke, curve: given.curve.clone() }
 }
 
 /// Each rope under the case that loads its tributary height most. The lowest rope also takes what an open gap below it
@@ -562,6 +529,9 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
             let shared = 1.0 / f64::from(ropes);
             let of_one = load * shared + design.factors.load * spread * (1.0 - shared);
             let state = span.under(of_one);
+            let weaker = net.dissipators.as_ref().and_then(DissipatorDesign::weakest);
+            let weak =
+                weaker.map(|given| RopeInput { dissipator: Some(yielding(&given)), ..span.clone() }.under(of_one));
             let across = 0.5 * of_one * span.span;
             let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
             RopeLoad {
@@ -575,6 +545,7 @@ fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stag
                 point,
                 case: governing.cloned(),
                 state,
+                weak,
                 anchor: [along, across],
             }
         })

@@ -19,6 +19,8 @@
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`]; the lattice of the contacts is in `scene::net::grid` and `scene::net::cut`, and what asks of `net.rings` elsewhere (`guideline`, [`fidelity`], [`report::site`], [`report::statements`]) asks of the new kind too |
+//! | a key of posts or anchors | `design::posts`, `design::anchors` and their rules; how they stand in `scene::net::posts`, by the equations in `guideline::posts` and `loads::posts`, their checks in [`checks::posts`] and [`checks::anchors`], their tables in [`report::posts`] and [`report::anchors`] |
+//! | a kit that ships | a file in `designs/kits` |
 //! | a rope that can be named | a line in `design/ropes.csv` |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands` and `Barrier::springs` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |

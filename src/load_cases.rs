@@ -19,12 +19,15 @@ pub enum LoadCase {
     Characteristic,
     /// With the partial factor on loads on its weight.
     Factored,
+    /// The same against dissipators that pull with the least force of their tests.
+    WeakDissipators,
 }
 
 /// The cases to be simulated, each with the design that makes it.
 pub fn cases(design: &Design) -> Vec<(LoadCase, Design)> {
     let factored = factored(design).map(|design| (LoadCase::Factored, design));
-    [(LoadCase::Characteristic, design.clone())].into_iter().chain(factored).collect()
+    let weak = weak(design).map(|design| (LoadCase::WeakDissipators, design));
+    [(LoadCase::Characteristic, design.clone())].into_iter().chain(factored).chain(weak).collect()
 }
 
 /// The design under the factored flow; nothing where that would tell nothing new: without a factor, and for a rigid wall.
@@ -38,6 +41,20 @@ pub fn factored(design: &Design) -> Option<Design> {
     heavier.flow.modulus *= factor;
     heavier.factors.load = 1.0;
     Some(heavier)
+}
+
+/// The design under the factored flow with the least forces of its dissipators; nothing where none are known that are less.
+pub fn weak(design: &Design) -> Option<Design> {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
+    let weaker = net.with_weakest_dissipators()?;
+    let mut design = factored(design).unwrap_or_else(|| design.clone());
+    design.barrier = BarrierDesign::FlexibleNet(Box::new(weaker));
+    Some(design)
+}
+
+/// The case that forces and strokes are designed for: the factored one, or where there is none the flow as it is.
+pub fn governing(design: &Design) -> Design {
+    factored(design).unwrap_or_else(|| design.clone())
 }
 
 /// A row of the load combination table: what is factored, by what, and where.
@@ -103,6 +120,24 @@ fn of_a_net(net: &FlexibleNet, factors: &Factors) -> Vec<Combination> {
             by_simulation: if factors.overstrength_given { "the same" } else { taken },
         });
     }
+    let own = [net.dissipators.as_ref(), net.posts.as_ref().and_then(|posts| posts.retaining.dissipators.as_ref())];
+    let lower = own.into_iter().flatten().filter_map(|dissipators| dissipators.lower_bound);
+    if let Some(least) = lower.reduce(f64::min) {
+        rows.push(Combination {
+            what: "Least force of dissipators",
+            factor: least,
+            by_equations: "multiplies plateau or curve for strokes, and for tensions where a stroke is used up by it",
+            by_simulation: "simulated with these dissipators as well, under the factored flow: the larger loads and strokes, the smaller share held and height",
+        });
+    }
+    if net.posts.is_some() {
+        rows.push(Combination {
+            what: "Resistance of posts",
+            factor: factors.post,
+            by_equations: "divides the resistance to compression and bending; that of foundations is divided as that of anchors",
+            by_simulation: "the same",
+        });
+    }
     rows
 }
 
@@ -159,6 +194,15 @@ mod tests {
         assert!((heavier.flow.largest()[1] / net.flow.largest()[1] - 1.5).abs() < 1e-12);
         assert!((heavier.flow.mass_of_grains() / net.flow.mass_of_grains() - 1.5).abs() < 1e-12);
         assert_eq!((heavier.factors.load, heavier.barrier == net.barrier), (1.0, true));
+        // Against the least force of its dissipators the same heavier flow comes.
+        assert!(weak(&net).is_none());
+        let BarrierDesign::FlexibleNet(barrier) = &mut net.barrier else { panic!("a net") };
+        barrier.dissipators.as_mut().expect("dissipators").lower_bound = Some(0.8);
+        assert_eq!(cases(&net).len(), 3);
+        let weaker = weak(&net).expect("a case");
+        assert_eq!(weaker.flow, heavier.flow);
+        let BarrierDesign::FlexibleNet(barrier) = &weaker.barrier else { panic!("a net") };
+        assert_eq!(barrier.dissipators.as_ref().map(|given| given.plateau), Some(0.8 * 150e3));
         let mut wall = read(include_str!("../designs/rigid_wall.yaml"));
         wall.factors.load = 1.5;
         assert_eq!(cases(&wall).len(), 1);

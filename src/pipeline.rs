@@ -16,7 +16,7 @@ use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
-use crate::load_cases::{LoadCase, cases};
+use crate::load_cases::{self, LoadCase, cases};
 use crate::quantities::observed::Observed;
 use crate::quantities::{earth_pressure, total_force, wall};
 use crate::scene::estimate::estimate;
@@ -129,6 +129,7 @@ fn run_on(rung: Option<&'static Rung>, file: DesignFile, starts: u32, watch: &Wa
         match case {
             LoadCase::Characteristic => simulated.starts.extend(other.starts),
             LoadCase::Factored => simulated.factored.extend(other.starts),
+            LoadCase::WeakDissipators => simulated.weak.extend(other.starts),
         }
     }
     Ok(finish(file, guideline, Some(simulated), rung))
@@ -195,7 +196,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     let variants = variants(&run.file.design);
     let answer = |design: &Design| -> Result<Point, RunError> {
         // Forces and strokes are designed for the factored flow alone.
-        let (_, design) = cases(design).pop().unwrap_or((LoadCase::Characteristic, design.clone()));
+        let design = load_cases::governing(design);
         let guideline = guideline(&design);
         let seed = design.simulation.seed;
         let simulated = simulate(&design, &choose(&design), &guideline, seed, Detail::Observed, watch)?;
@@ -215,7 +216,11 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
 fn doubts_of(case: LoadCase, run: &Simulated, starts: u32) -> Vec<String> {
     let named = |doubt: &String| {
         let seed = if starts > 1 { format!("seed {}: ", run.starts[0].seed) } else { String::new() };
-        let flow = if case == LoadCase::Factored { "factored flow: " } else { "" };
+        let flow = match case {
+            LoadCase::Characteristic => "",
+            LoadCase::Factored => "factored flow: ",
+            LoadCase::WeakDissipators => "weakest dissipators: ",
+        };
         format!("{seed}{flow}{doubt}")
     };
     run.doubts.iter().map(named).collect()

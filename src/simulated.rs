@@ -41,6 +41,8 @@ pub struct Simulated {
     pub starts: Vec<Start>,
     /// What the factored flow showed, packing by packing, where it was simulated ([`crate::load_cases`]).
     pub factored: Vec<Start>,
+    /// The same of the factored flow against dissipators with their least force, where that is known.
+    pub weak: Vec<Start>,
     /// Why runs cannot be relied on.
     pub doubts: Vec<String>,
 }
@@ -73,12 +75,17 @@ impl Simulated {
         fn observed(starts: &[Start]) -> Vec<&Observed> {
             starts.iter().map(|start| &start.observed).collect()
         }
-        Seen { characteristic: observed(&self.starts), factored: observed(&self.factored) }
+        Seen { characteristic: observed(&self.starts), factored: observed(&self.factored), weak: observed(&self.weak) }
+    }
+
+    /// All runs, of whatever case.
+    pub fn all(&self) -> impl Iterator<Item = &Start> {
+        self.starts.iter().chain(&self.factored).chain(&self.weak)
     }
 
     /// Whether it is a simulation of the design, with all that reports rely on.
     pub fn fits(&self, design: &Design) -> bool {
-        let mut all = self.starts.iter().chain(&self.factored);
+        let mut all = self.all();
         let fits = |start: &Start| {
             start.observed.fits(design)
                 && start.surges.len() <= design.flow.surges()
@@ -273,8 +280,9 @@ pub fn simulate(
             Detail::Observed => Histories::default(),
         };
         let (starts, doubts) = (vec![Start { seed, observed, surges }], doubts(&numerics));
-        let factored = Vec::new();
-        let simulated = Simulated { fidelity: fidelity.clone(), histories, facts, numerics, starts, factored, doubts };
+        let (factored, weak) = (Vec::new(), Vec::new());
+        let fidelity = fidelity.clone();
+        let simulated = Simulated { fidelity, histories, facts, numerics, starts, factored, weak, doubts };
         if let Some(slot) = &slot {
             slot.finish(&Kept::<Ready, Halfway<Ongoing>, _>::Done(&simulated));
         }

@@ -209,8 +209,9 @@ fn sliding_rope(scene: &SlidingRope) -> Stand {
     for number in 0..last {
         stand.add_piece([number, number + 1], scene.axial, scene.line_mass);
     }
-    let segments = (0..last as u32).collect();
-    stand.barrier.chains = vec![Chain { segments, friction: scene.friction, shortest: 1e-3 }];
+    let segments: Vec<u32> = (0..last as u32).collect();
+    stand.barrier.chains =
+        vec![Chain { frictions: vec![scene.friction; segments.len() - 1], segments, shortest: 1e-3 }];
     stand
 }
 

@@ -16,7 +16,7 @@ use crate::design::attached::within;
 use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, read_design_for};
 use crate::fidelity::choose;
-use crate::load_cases::{cases, factored};
+use crate::load_cases::cases;
 use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::report::folder::{Folder, Named, folder_name};
@@ -147,7 +147,7 @@ fn open_store(
     let several = request.starts > 1
         || request.vary
         || file.design.simulation.fidelity == FidelityWish::Auto
-        || factored(&file.design).is_some();
+        || cases(&file.design).len() > 1;
     let reported = folder.join("result.json").exists();
     CheckpointStore::new(folder.join(checkpoint::FOLDER), request, keep_every, several || reported, fresh)
 }

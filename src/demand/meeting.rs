@@ -190,7 +190,9 @@ impl Meeting<'_> {
 
     /// Tension by the equations, with the overstrength of a dissipator that yields.
     fn by_equations(&self, rope: usize) -> Option<f64> {
-        let tension = self.loaded(rope)?.state.tension;
+        let rope = self.loaded(rope)?;
+        let weak = rope.weak.map_or(0.0, |weak| weak.tension);
+        let tension = larger_or_nan(rope.state.tension, weak);
         let excess = if self.yields(tension) { self.excess() } else { 0.0 };
         Some(tension + excess)
     }
@@ -253,7 +255,7 @@ impl Meeting<'_> {
             // Asked so that what is not a number stays so.
             let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
             Demand {
-                guideline: self.loaded(rope).map(|rope| rope.state.stroke),
+                guideline: self.loaded(rope).map(|rope| rope.weak.unwrap_or(rope.state).stroke),
                 simulation: spread(self.governing, &value).map(|spread| stopped(spread.upper())),
                 characteristic: self.characteristic(&value).map(stopped),
                 cap: None,

@@ -11,7 +11,7 @@ pub use self::value::{Demand, Seen};
 use crate::design::Factors;
 use crate::guideline::Guideline;
 use crate::quantities::QUANTITIES;
-use crate::quantities::quantity::Quantity;
+use crate::quantities::quantity::{Demanded, Quantity};
 
 /// Demands for every check, under factored actions. Lists go from the lowest main rope to the highest.
 ///
@@ -34,8 +34,19 @@ impl Demands {
     pub fn meet(guideline: &Guideline, seen: &Seen, factors: &Factors) -> Self {
         let (governing, factor) = seen.governing(factors.load);
         let meeting = Meeting { guideline, factors, seen, governing, factor };
+        let weak = (!seen.weak.is_empty()).then(|| Meeting { governing: &seen.weak, factor: 1.0, ..meeting });
         let demanded = QUANTITIES.iter().filter(|quantity| quantity.demanded.is_some());
-        Self(demanded.map(|quantity| (quantity.id, meeting.demands(quantity))).collect())
+        let demands = |quantity: &&Quantity| {
+            let mut demands = meeting.demands(quantity);
+            if let Some(weak) = &weak {
+                let least = matches!(quantity.demanded, Some(Demanded::Kept));
+                for (demand, other) in demands.iter_mut().zip(weak.demands(quantity)) {
+                    *demand = demand.or_worse(&other, least);
+                }
+            }
+            (quantity.id, demands)
+        };
+        Self(demanded.map(|quantity| demands(&quantity)).collect())
     }
 
     /// The demand of a quantity of the barrier as a whole.
@@ -97,7 +108,7 @@ mod tests {
                     .with(&mass::RETAINED, &[retained])
             })
             .collect();
-        let seen = Seen { characteristic: observed.iter().collect(), factored: Vec::new() };
+        let seen = Seen { characteristic: observed.iter().collect(), ..Seen::default() };
         Demands::meet(&guideline(&design), &seen, &design.factors)
     }
 
@@ -158,7 +169,7 @@ mod tests {
                 .with(&height::RESIDUAL, &[retained])
         };
         let (characteristic, factored) = (seen(20e3, 60e3, 0.0, 0.97), seen(26e3, 100e3, 0.3, 0.95));
-        let both = Seen { characteristic: vec![&characteristic], factored: vec![&factored] };
+        let both = Seen { characteristic: vec![&characteristic], factored: vec![&factored], ..Seen::default() };
         let demands = Demands::meet(&guideline(&design), &both, &design.factors);
         // Forces and strokes as the factored flow makes them, never multiplied again.
         assert_eq!(demands.one(&other_ropes::NET).simulation, Some(26e3));
@@ -174,7 +185,7 @@ mod tests {
         let beyond = if tension >= 99.1e3 { 25e3 } else { 0.0 };
         assert_eq!(demands.each(&anchor_load::PEAK)[1].guideline, Some(tension + beyond));
         // Without a simulation of its own the factored case is proportional, as on a rigid wall.
-        let alone = Seen { characteristic: vec![&characteristic], factored: Vec::new() };
+        let alone = Seen { characteristic: vec![&characteristic], ..Seen::default() };
         let demands = Demands::meet(&guideline(&design), &alone, &design.factors);
         assert_eq!(demands.one(&other_ropes::NET).simulation, Some(30e3));
         assert_eq!(demands.one(&mass::RETAINED).simulation, Some(0.97));
@@ -205,7 +216,7 @@ mod tests {
         let seen =
             |net: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[net]);
         let [one, two] = [seen(1e3), seen(2e3)];
-        let both = Seen { characteristic: vec![&one], factored: vec![&two] };
+        let both = Seen { characteristic: vec![&one], factored: vec![&two], ..Seen::default() };
         let design = small_net();
         let met = Demands::meet(&guideline(&design), &both, &design.factors);
         assert_eq!(
@@ -223,7 +234,7 @@ mod tests {
         };
         for (one, other) in [(0.9, f64::NAN), (f64::NAN, 0.9)] {
             let [one, other] = [seen(one), seen(other)];
-            let both = Seen { characteristic: vec![&one], factored: vec![&other] };
+            let both = Seen { characteristic: vec![&one], factored: vec![&other], ..Seen::default() };
             let met = Demands::meet(&guideline(&design), &both, &design.factors);
             assert!(met.one(&mass::RETAINED).simulation.is_some_and(f64::is_nan));
         }
@@ -250,7 +261,7 @@ mod tests {
         let seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
             .with(&anchor_load::PEAK, &[0.0, 100e3, 0.0])
             .with(&dissipator::TENSION, &[0.0, 100e3, 0.0]);
-        let alone = Seen { characteristic: vec![&seen], factored: Vec::new() };
+        let alone = Seen { characteristic: vec![&seen], ..Seen::default() };
         let met = Demands::meet(&guideline(&design), &alone, &design.factors);
         assert_eq!(met.each(&anchor_load::PEAK)[1].cap, Some(175e3));
         // With the lateral ropes at the anchors nothing caps their load.
@@ -275,7 +286,7 @@ mod tests {
                 .with(&anchor_load::PEAK, &[0.0, tension, 0.0])
                 .with(&dissipator::TENSION, &[0.0, tension, 0.0])
                 .with(&dissipator::STROKE, &[0.0, stroke, 0.0]);
-            let seen = Seen { characteristic: vec![&seen], factored: Vec::new() };
+            let seen = Seen { characteristic: vec![&seen], ..Seen::default() };
             Demands::meet(&guideline(&design), &seen, &design.factors).each(&anchor_load::PEAK)[1]
         };
         assert_eq!((met(60e3, 0.5).simulation, met(60e3, 0.5).cap), (Some(85e3), Some(125e3)));
@@ -298,7 +309,7 @@ mod tests {
                         .with(&dissipator::STROKE, &[0.0, *stroke, 0.0])
                 })
                 .collect();
-            let seen = Seen { characteristic: seen.iter().collect(), factored: Vec::new() };
+            let seen = Seen { characteristic: seen.iter().collect(), ..Seen::default() };
             let met = Demands::meet(&guideline(&design), &seen, &design.factors);
             met.each(&dissipator::STROKE)[1].simulation.expect("a stroke")
         };
@@ -329,7 +340,7 @@ mod tests {
                 .with(&wear::DRAWN_OUT, &[drawn_out])
         };
         let [one, other] = [seen(2.0, 0.1), seen(0.0, 0.3)];
-        let both = Seen { characteristic: vec![&one, &other], factored: Vec::new() };
+        let both = Seen { characteristic: vec![&one, &other], ..Seen::default() };
         let met = Demands::meet(&guideline(&design), &both, &design.factors);
         assert_eq!((met.one(&wear::BROKEN).simulation, met.one(&wear::DRAWN_OUT).simulation), (Some(2.0), Some(0.3)));
     }
@@ -340,12 +351,43 @@ mod tests {
         let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
         (design.factors.load, design.channel.width) = (1.35, 15.2);
         let observed = Observed::of_nothing(Counts::default()).with(&total_force::ON_A_METRE, &[600e3 / 15.2]);
-        let seen = Seen { characteristic: vec![&observed], factored: Vec::new() };
+        let seen = Seen { characteristic: vec![&observed], ..Seen::default() };
         let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
         assert_relative_eq!(
             demands.one(&total_force::ON_A_METRE).simulation.unwrap(),
             1.35 * 600e3 / 15.2,
             max_relative = 1e-12
         );
+    }
+
+    /// Weaker dissipators pay out more and, used up, pull more: of loads and strokes the larger counts, of the mass held the smaller; by the
+    /// equations the stroke is that of the weaker ones.
+    #[test]
+    fn the_worse_of_both_bounds_of_a_dissipator_counts() {
+        let mut design = small_net();
+        let by_equations = |design: &Design| {
+            Demands::by_equations(&guideline(design), &design.factors).each(&dissipator::STROKE)[1].guideline
+        };
+        let nominal = by_equations(&design).expect("a stroke");
+        let crate::design::BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+        net.dissipators.as_mut().expect("dissipators").lower_bound = Some(0.8);
+        assert!(by_equations(&design).expect("a stroke") > nominal);
+        let run = |stroke: f64, tension: f64, held: f64| {
+            Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+                .with(&dissipator::STROKE, &[0.0, stroke, 0.0])
+                .with(&other_ropes::NET, &[tension])
+                .with(&mass::RETAINED, &[held])
+        };
+        let (usual, weak) = (run(0.2, 9e3, 0.99), run(0.5, 7e3, 0.97));
+        let seen = Seen { characteristic: vec![&usual], weak: vec![&weak], ..Seen::default() };
+        let met = Demands::meet(&guideline(&design), &seen, &design.factors);
+        assert_eq!(met.each(&dissipator::STROKE)[1].simulation, Some(0.5));
+        assert_eq!(met.one(&other_ropes::NET).simulation, Some(9e3));
+        assert_eq!(met.one(&mass::RETAINED).simulation, Some(0.97));
+        let lost = run(f64::NAN, 7e3, f64::NAN);
+        let seen = Seen { characteristic: vec![&usual], weak: vec![&lost], ..Seen::default() };
+        let met = Demands::meet(&guideline(&design), &seen, &design.factors);
+        assert!(met.each(&dissipator::STROKE)[1].simulation.is_some_and(f64::is_nan));
+        assert!(met.one(&mass::RETAINED).simulation.is_some_and(f64::is_nan));
     }
 }

@@ -16,6 +16,16 @@ pub struct Demand {
 }
 
 impl Demand {
+    /// The same with what another simulation shows, if that is worse: of what must be kept the `least`, of all else the larger; NaN if either is.
+    pub fn or_worse(&self, other: &Self, least: bool) -> Self {
+        let worse = |a: f64, b: f64| match least {
+            true => -larger_or_nan(-a, -b),
+            false => larger_or_nan(a, b),
+        };
+        let simulation = self.simulation.into_iter().chain(other.simulation).reduce(worse);
+        Self { simulation, cap: self.cap.zip(other.cap).map(|(a, b)| a.max(b)), ..*self }
+    }
+
     /// The larger of the two; NaN if either is.
     pub fn largest(&self) -> Option<f64> {
         self.guideline.into_iter().chain(self.simulation).reduce(larger_or_nan)
@@ -29,6 +39,8 @@ pub struct Seen<'a> {
     pub characteristic: Vec<&'a Observed>,
     /// The flow with factored actions, where that was simulated; else forces are proportional to the action.
     pub factored: Vec<&'a Observed>,
+    /// The same against dissipators with their least force, where that was simulated.
+    pub weak: Vec<&'a Observed>,
 }
 
 impl Seen<'_> {

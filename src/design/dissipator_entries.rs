@@ -68,5 +68,6 @@ pub fn dissipators(e: &Entries, place: &str) -> Option<DissipatorDesign> {
         curve,
         stroke: stroke * in_series,
         stiffness: number("stiffness")? * side_by_side / in_series,
+        lower_bound: number("lower_bound"),
     })
 }

@@ -293,6 +293,22 @@ impl FlexibleNet {
         main.chain(posts.map(|(post, side)| AnchorOf::Retaining { post, side })).collect()
     }
 
+    /// The same with the least forces of its dissipators; nothing where none are known that are less.
+    pub fn with_weakest_dissipators(&self) -> Option<Self> {
+        let mut net = self.clone();
+        let own = self.dissipators.as_ref().and_then(DissipatorDesign::weakest);
+        let retaining = |posts: &Posts| posts.retaining.dissipators.as_ref().and_then(DissipatorDesign::weakest);
+        let of_posts = self.posts.as_ref().and_then(retaining);
+        if own.is_none() && of_posts.is_none() {
+            return None;
+        }
+        net.dissipators = own.or(net.dissipators);
+        if let (Some(posts), Some(weak)) = (&mut net.posts, of_posts) {
+            posts.retaining.dissipators = Some(weak);
+        }
+        Some(net)
+    }
+
     /// Number of main ropes, from the bottom, that the bed holds along their length.
     pub fn ropes_held_by_bed(&self) -> usize {
         usize::from(self.bottom == Bottom::Fixed)
@@ -368,6 +384,16 @@ pub struct DissipatorDesign {
     pub stroke: f64,
     /// Elastic stiffness before it yields and when it is unloaded (N/m).
     pub stiffness: f64,
+    /// Least force over that of the curve, where it is known.
+    pub lower_bound: Option<f64>,
+}
+
+impl DissipatorDesign {
+    /// The same with the least forces of its tests; nothing where they are not less.
+    pub fn weakest(&self) -> Option<Self> {
+        let least = self.lower_bound.filter(|least| *least < 1.0)?;
+        Some(Self { plateau: least * self.plateau, lower_bound: None, ..self.clone() })
+    }
 }
 
 /// A bank of the channel, looking downstream.

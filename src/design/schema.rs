@@ -763,6 +763,11 @@ const DISSIPATORS: &[Key] = &[
         "1",
         "dissipators next to each other at each end of a rope: forces add up",
     ),
+    Key::optional(
+        "lower_bound",
+        Kind::Number { low: 0.3, high: 1.0 },
+        "least force of a dissipator over its plateau or its curve, from its tests: strokes must be enough for it as well; factors.dissipator_overstrength is the upper bound",
+    ),
 ];
 
 /// Travel and force of a dissipator.

@@ -1,7 +1,8 @@
 //! Posts under the guideline's loads: what the uppermost rope hands to their heads, and what presses on themselves.
 
-use crate::design::{Design, FlexibleNet, Posts};
-use crate::guideline::{RopeLoad, lean};
+use crate::design::{BarrierDesign, Design, FlexibleNet, Posts};
+use crate::guideline::face::lean;
+use crate::guideline::rope_load::RopeLoad;
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::posts::{BeamState, HeadState, PostInput, beam};
@@ -38,8 +39,8 @@ fn posts_of(design: &Design) -> Option<&Posts> {
 
 fn net_of(design: &Design) -> Option<&FlexibleNet> {
     match &design.barrier {
-        crate::design::BarrierDesign::FlexibleNet(net) => Some(net),
-        crate::design::BarrierDesign::RigidWall(_) => None,
+        BarrierDesign::FlexibleNet(net) => Some(net),
+        BarrierDesign::RigidWall(_) => None,
     }
 }
 
@@ -78,7 +79,8 @@ pub fn loads(design: &Design, rope: Option<&RopeLoad>, stages: &[LoadCase], top:
         let own = worst_beam(design, posts, &post, design.channel.ground_at(across), stages);
         let along = friction(rope, bays, posts.head_friction);
         let head = post.under(from_rope + own.head, along);
-        let holds = retaining.as_ref().map_or(f64::INFINITY, Yielding::least);
+        let weakest = posts.retaining.dissipators.as_ref().and_then(|given| given.lower_bound).unwrap_or(1.0);
+        let holds = retaining.as_ref().map_or(f64::INFINITY, |given| weakest * given.least());
         // Asked so that a tension that is not a number uses it up.
         let below = head.tension <= holds;
         let stroke = retaining.as_ref().filter(|_| !below).map_or(0.0, |given| given.stroke);

@@ -27,6 +27,8 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "N/m" => format!("{} kN/m", figures(value / 1e3)),
         "Pa" if value.abs() < 2000.0 => format!("{value:.0} Pa"),
         "Pa" => format!("{} kPa", figures(value / 1e3)),
+        "N m" if value.abs() < 2000.0 => format!("{value:.1} N m"),
+        "N m" => format!("{} kN m", figures(value / 1e3)),
         "N m/m" if value.abs() < 2000.0 => format!("{value:.1} N m/m"),
         "N m/m" => format!("{} kN m/m", figures(value / 1e3)),
         "kg" if value.abs() < 2000.0 => format!("{} kg", figures(value)),
@@ -47,7 +49,7 @@ pub fn with_unit(value: f64, unit: &str) -> String {
 pub fn with_scatter(mean: f64, deviation: f64, unit: &str) -> String {
     match unit {
         "-" => format!("{:.1} ± {:.1} %", 100.0 * mean, 100.0 * deviation),
-        "N" | "N/m" | "Pa" | "N m/m" if mean.abs() >= 2000.0 => {
+        "N" | "N/m" | "Pa" | "N m" | "N m/m" if mean.abs() >= 2000.0 => {
             format!("{} k{unit}", alike(mean / 1e3, deviation / 1e3))
         }
         unit => format!("{} {unit}", alike(mean, deviation)).trim_end().to_string(),

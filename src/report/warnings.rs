@@ -128,7 +128,7 @@ const LEAK: f64 = 0.1;
 /// What of the flow went past the barrier comes before all forces: they are those of the rest.
 fn flow_not_stopped(run: &Run) -> Option<String> {
     let seen = run.simulated.as_ref()?;
-    let all = seen.starts.iter().chain(&seen.factored).map(|start| &start.observed);
+    let all = seen.all().map(|start| &start.observed);
     let worst = all.max_by(|a, b| a.lost().iter().sum::<f64>().total_cmp(&b.lost().iter().sum::<f64>()))?;
     let lost: f64 = worst.lost().iter().sum();
     let ways = mass::WAYS.iter().map(|(way, _)| way).zip(worst.lost()).filter(|(_, share)| *share > 0.0005);

@@ -97,7 +97,7 @@ pub mod tests {
     /// Verdict of a check where the first surge shows certain numbers.
     pub fn simulated_verdict(design: &Design, id: &str, observed: &Observed, seen: FirstSurge) -> CheckVerdict {
         let guideline = guideline(design);
-        let packings = Seen { characteristic: vec![observed], factored: Vec::new() };
+        let packings = Seen { characteristic: vec![observed], ..Seen::default() };
         let mut outcomes = check_all(design, &Demands::meet(&guideline, &packings, &design.factors));
         leave_open_not_covered(Known { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict
