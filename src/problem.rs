@@ -123,7 +123,8 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .filter(|(_, candidate)| {
             !word.contains(|letter: char| letter.is_ascii_digit()) || digits(word) == digits(candidate)
         })
-        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 8)
+        // Not every letter may be another.
+        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 8 && *distance < candidate.chars().count())
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }

@@ -1,8 +1,32 @@
 //! Anchors of the main ropes, all alike or one by one, and what the entries of a design say of them.
 
-use crate::design::Bank;
 use crate::design::entries::Entries;
 use crate::design::show::at;
+
+/// A bank of the channel, looking downstream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bank {
+    Right,
+    Left,
+}
+
+impl Bank {
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Left => "left",
+        }
+    }
+}
+
+/// What an anchor holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnchorOf {
+    /// A main rope, counted from 0 at the bottom, at one of its ends.
+    Main { rope: usize, bank: Bank },
+    /// The head of a post, counted from 0 at the left, with an anchor so far to the right of it (m).
+    Retaining { post: usize, side: f64 },
+}
 
 /// An anchor at the end of a main rope; of a bundle, of each rope.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::yield_curve::YieldCurve;
 
-use crate::design::DissipatorDesign;
+use crate::design::dissipator::DissipatorDesign;
 use crate::design::entries::Entries;
 
 /// Where dissipators stand: those of the main ropes, and those of the ropes that retain posts.

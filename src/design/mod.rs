@@ -7,6 +7,7 @@ pub(crate) mod boulder_rules;
 pub(crate) mod channel_entries;
 pub(crate) mod channel_rules;
 pub(crate) mod curve_file;
+pub mod dissipator;
 pub(crate) mod dissipator_entries;
 pub(crate) mod dissipator_rules;
 pub(crate) mod document;
@@ -48,13 +49,12 @@ pub(crate) mod yaml_faults;
 
 use std::sync::Arc;
 
-pub use self::anchors::{AnchorDesign, AnchorDesigns, AnchorResistance};
+pub use self::anchors::{AnchorDesign, AnchorDesigns, AnchorOf, AnchorResistance, Bank};
+pub use self::dissipator::DissipatorDesign;
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
 pub use self::net_rings::NetRings;
 pub use self::posts::{PostStrength, Posts, RetainingRopes, SteelSection};
-pub use self::rope::Rope;
-
-use crate::yield_curve::YieldCurve;
+pub use self::rope::{Level, Rope};
 
 use crate::profile::Profile;
 use crate::relief::Relief;
@@ -331,15 +331,6 @@ pub struct MainRopes {
     pub element_length: f64,
 }
 
-/// Equal ropes that run side by side at one height, each with dissipators and anchors of its own.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Level {
-    /// Along the barrier (m).
-    pub height: f64,
-    pub ropes: u16,
-    pub rope: Rope,
-}
-
 impl MainRopes {
     /// Heights along the barrier, from the bottom (m).
     pub fn heights(&self) -> Vec<f64> {
@@ -371,54 +362,6 @@ pub enum LateralTo {
     RopeEnds,
     /// At the anchors, past the dissipators.
     Anchors,
-}
-
-/// Energy dissipators, one at each end of every main rope, also of those that run side by side.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DissipatorDesign {
-    /// Plateau force (N), or the largest of the curve.
-    pub plateau: f64,
-    /// How the force goes with the stroke.
-    pub curve: YieldCurve,
-    /// m
-    pub stroke: f64,
-    /// Elastic stiffness before it yields and when it is unloaded (N/m).
-    pub stiffness: f64,
-    /// Least force over that of the curve, where it is known.
-    pub lower_bound: Option<f64>,
-}
-
-impl DissipatorDesign {
-    /// The same with the least forces of its tests; nothing where they are not less.
-    pub fn weakest(&self) -> Option<Self> {
-        let least = self.lower_bound.filter(|least| *least < 1.0)?;
-        Some(Self { plateau: least * self.plateau, lower_bound: None, ..self.clone() })
-    }
-}
-
-/// A bank of the channel, looking downstream.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bank {
-    Right,
-    Left,
-}
-
-impl Bank {
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Left => "left",
-        }
-    }
-}
-
-/// What an anchor holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnchorOf {
-    /// A main rope, counted from 0 at the bottom, at one of its ends.
-    Main { rope: usize, bank: Bank },
-    /// The head of a post, counted from 0 at the left, with an anchor so far to the right of it (m).
-    Retaining { post: usize, side: f64 },
 }
 
 /// What holds the lowest main rope.

@@ -1,6 +1,6 @@
 //! Posts that carry the uppermost main ropes between the banks, and what the entries of a design say of them.
 
-use crate::design::DissipatorDesign;
+use crate::design::dissipator::DissipatorDesign;
 use crate::design::dissipator_entries::{OF_RETAINING_ROPES, dissipators};
 use crate::design::entries::Entries;
 use crate::design::rope::Rope;

@@ -20,3 +20,12 @@ impl Rope {
         self.modulus * std::f64::consts::FRAC_PI_4 * self.diameter.powi(2)
     }
 }
+
+/// Equal ropes that run side by side at one height, each with dissipators and anchors of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Along the barrier (m).
+    pub height: f64,
+    pub ropes: u16,
+    pub rope: Rope,
+}

@@ -1,9 +1,8 @@
 //! What the entries of a design say of its ropes, and where.
 
-use crate::design::Level;
 use crate::design::entries::{Entries, Entry, Origin, Value};
 use crate::design::posts::RETAINING;
-use crate::design::rope::Rope;
+use crate::design::rope::{Level, Rope};
 use crate::design::rope_table::{Listed, plain};
 use crate::design::show::at;
 use crate::problem::Problem;

@@ -1,0 +1,26 @@
+//! Dissipators of ropes.
+
+use crate::yield_curve::YieldCurve;
+
+/// Energy dissipators, one at each end of every main rope, also of those that run side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DissipatorDesign {
+    /// Plateau force (N), or the largest of the curve.
+    pub plateau: f64,
+    /// How the force goes with the stroke.
+    pub curve: YieldCurve,
+    /// m
+    pub stroke: f64,
+    /// Elastic stiffness before it yields and when it is unloaded (N/m).
+    pub stiffness: f64,
+    /// Least force over that of the curve, where it is known.
+    pub lower_bound: Option<f64>,
+}
+
+impl DissipatorDesign {
+    /// The same with the least forces of its tests; nothing where they are not less.
+    pub fn weakest(&self) -> Option<Self> {
+        let least = self.lower_bound.filter(|least| *least < 1.0)?;
+        Some(Self { plateau: least * self.plateau, lower_bound: None, ..self.clone() })
+    }
+}
