@@ -2,7 +2,8 @@
 
 use crate::design::channel_entries::{height_of_barrier, section, survey};
 use crate::design::entries::Entries;
-use crate::design::posts::{OF_A_SECTION, RESISTANCES, RETAINING, post_key};
+use crate::design::posts::{OF_A_SECTION, RESISTANCES, post_key};
+use crate::design::rope_entries::RETAINING;
 use crate::design::rope_rules::is_described;
 use crate::design::show::{at, length};
 use crate::problem::Problem;

@@ -4,11 +4,8 @@ use crate::design::dissipator::DissipatorDesign;
 use crate::design::dissipator_entries::{OF_RETAINING_ROPES, dissipators};
 use crate::design::entries::Entries;
 use crate::design::rope::Rope;
-use crate::design::rope_entries::rope;
+use crate::design::rope_entries::{RETAINING, rope};
 use crate::design::show::at;
-
-/// Part of a net that describes the ropes of posts.
-pub const RETAINING: &str = "posts.retaining_ropes";
 
 /// Equal posts on hinged feet, each held upstream by ropes.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,14 @@
 //! What the entries of a design say of its ropes, and where.
 
 use crate::design::entries::{Entries, Entry, Origin, Value};
-use crate::design::posts::RETAINING;
 use crate::design::rope::{Level, Rope};
 use crate::design::rope_table::{Listed, plain};
 use crate::design::show::at;
 use crate::problem::Problem;
 use crate::units::Dimension;
+
+/// Part of a net that describes the ropes of posts.
+pub const RETAINING: &str = "posts.retaining_ropes";
 
 /// Levels of main ropes, from the bottom.
 pub const LEVELS: &str = "main_ropes.levels";

@@ -306,7 +306,7 @@ mod tests {
         assert_relative_eq!(2.0 * state.stroke, arcs - 24.0 * (1.0 + 100e3 / 8e6), max_relative = 1e-6);
         // Without posts it sags more and pays out more.
         let free = RopeInput { span: 24.0, others: Vec::new(), ..rope };
-        assert!(free.under(6e3).stroke > 2.0 * state.stroke);
+        assert!(free.under(6e3).stroke > 1.5 * state.stroke);
     }
 
     #[test]

@@ -212,6 +212,12 @@ mod tests {
         let mut barrier = Channels::default()
             .with(&of_ropes::BROKEN, vec![vec![0.0, 1.0, 2.0]])
             .with(&of_ropes::TOP_HEIGHT, vec![vec![2.0, 1.8, 1.5]]);
+        // Of two anchors to a free rope, in a channel whose slope turns the vectors.
+        let pulls = [[3.0, 0.0, 4.0], [0.0, 2.0, 0.0], [0.0, -2.0, 0.0], [1.0, 2.0, 2.0]];
+        for (axis, channel) in of_anchors::EACH.iter().enumerate() {
+            let rows = pulls.map(|pull| vec![0.0, pull[axis], 0.5 * pull[axis]]);
+            barrier = barrier.with(channel, rows.to_vec());
+        }
         for (channel, peaks) in of_each_rope {
             barrier = barrier.with(channel, ropes(peaks));
         }
@@ -272,6 +278,13 @@ mod tests {
         for (quantity, values) in by_rope {
             assert_eq!(seen.each(quantity), values, "{}", quantity.id);
         }
+        for (found, by_hand) in seen.each(&anchor_load::EACH).iter().zip([5.0, 2.0, 2.0, 3.0]) {
+            assert_relative_eq!(*found, by_hand, max_relative = 1e-12);
+        }
+        // On 25°: 3 cos 25° + 4 sin 25° down the valley, 4 cos 25° − 3 sin 25° up.
+        assert_relative_eq!(seen.each(&anchor_load::ALONG)[0], 4.409_4, max_relative = 1e-4);
+        assert_relative_eq!(seen.each(&anchor_load::UP)[0], 2.357_4, max_relative = 1e-4);
+        assert_eq!(seen.each(&anchor_load::ACROSS), [0.0, 2.0, -2.0, 2.0]);
         assert_eq!((seen.force.as_slice(), seen.lost()), (&[30.0, 90.0, 60.0][..], [0.04, 0.03, 0.02, 0.01]));
         assert_relative_eq!(seen.one(&height::RESIDUAL), 0.75);
         // 10 % went past, 10 % never came: 80 of the 90 % that came are held.

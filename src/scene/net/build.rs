@@ -232,7 +232,7 @@ impl Builder<'_> {
                 let place = self.place(self.across(column), self.grid.row_heights[row]);
                 self.add_node(place, !free)
             });
-            let first_segment = self.barrier.segments.len() as u32;
+            let mut first_segment = self.barrier.segments.len() as u32;
             let nodes = if self.model == BarrierModel::Cylinders && free {
                 self.add_ringed_rope(rope, row, ends)
             } else {
@@ -240,6 +240,7 @@ impl Builder<'_> {
                 if usize::from(rope) + 1 == self.grid.rope_rows.len() {
                     nodes = self.add_posts(nodes);
                 }
+                first_segment = self.barrier.segments.len() as u32;
                 for pair in nodes.windows(2) {
                     self.add_line([pair[0], pair[1]], SegmentKind::Main(rope), &self.main_rope(rope).clone());
                 }
