@@ -3,15 +3,14 @@
 pub(crate) mod face;
 pub(crate) mod posts;
 pub(crate) mod rope_load;
+pub(crate) mod ropes;
 
 pub use self::face::height_over_bed;
 use self::face::lean;
 pub use self::posts::PostLoad;
 pub use self::rope_load::RopeLoad;
-use crate::design::{
-    AnchorOf, Arrival, Bank, BarrierDesign, Bottom, DamBreak, Design, DissipatorDesign, FlexibleNet, LateralTo, Level,
-    RunUp,
-};
+use self::ropes::Cases;
+use crate::design::{AnchorOf, Arrival, BarrierDesign, Bottom, DamBreak, Design, LateralTo, RunUp};
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
@@ -20,10 +19,10 @@ use crate::loads::fill::{Reservoir, Retention};
 use crate::loads::impact::hertz;
 use crate::loads::input::GuidelineInput;
 use crate::loads::ring_net::{RingLoad, RingNet};
-use crate::loads::rope::{RopeInput, Yielding};
+use crate::loads::rope::Yielding;
 use crate::loads::run_up;
 use crate::loads::wall::WallInput;
-use crate::section::{Section, Survey};
+use crate::section::Section;
 use crate::units::GRAVITY;
 
 /// Guideline loads and what follows for the ropes.
@@ -115,7 +114,9 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
     let hit = extras.point.map_or(width, |point| width.min(section.width(point.height)));
     let ropes = match &design.barrier {
         BarrierDesign::RigidWall(_) => Vec::new(),
-        BarrierDesign::FlexibleNet(net) => rope_loads(net, design, &flows, &stages),
+        BarrierDesign::FlexibleNet(net) => {
+            ropes::loads(net, design, &Cases { flows: &flows, stages: &stages, point: extras.point })
+        }
     };
     let bed_force = match &design.barrier {
         BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed => {
@@ -146,7 +147,7 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
             BarrierDesign::FlexibleNet(net) => net.anchors(),
             BarrierDesign::RigidWall(_) => Vec::new(),
         },
-        dissipator: dissipator(design),
+        dissipator: ropes::dissipator(design),
         retaining: posts::retaining(design),
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
         level: level.unwrap_or_else(|least| least),
@@ -448,110 +449,6 @@ fn gain_of(design: &Design, distance: f64) -> f64 {
     }
 }
 
-/// The dissipators, if there are any.
-fn dissipator(design: &Design) -> Option<Yielding> {
-    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
-    net.dissipators.as_ref().map(yielding)
-}
-
-fn yielding(given: &DissipatorDesign) -> Yielding {
-    Yielding { largest: given.plateau, stroke: given.stroke, curve: given.curve.clone() }
-}
-
-/// Each rope under the case that loads its tributary height most. The lowest rope also takes what an open gap below it
-/// would let through; the topmost carries the weight of the net.
-fn rope_loads(net: &FlexibleNet, design: &Design, flows: &[GuidelineInput], stages: &[LoadCase]) -> Vec<RopeLoad> {
-    let section = design.channel.section();
-    let top = height_over_bed(design);
-    let above_bed = |along: f64| top - (net.height - along) * libm::cos(lean(design));
-    let heights: Vec<f64> = net.main_ropes.levels.iter().map(|level| above_bed(level.height)).collect();
-    let last = heights.len() - 1;
-    let weight = design.loads.self_weight.map_or(0.0, |weight| weight * net.height);
-    (0..heights.len())
-        .map(|index| {
-            let low = if index == 0 { 0.0 } else { 0.5 * (heights[index - 1] + heights[index]) };
-            let high = if index == last { f64::INFINITY } else { 0.5 * (heights[index] + heights[index + 1]) };
-            let strip = [low, high];
-            // The bed holds the lowest rope from bank to bank, or it hangs over its opening.
-            let held = index == 0 && net.bottom == Bottom::Fixed;
-            let ends = if held { section.bed_ends() } else { section.banks(heights[index]) };
-            let stops = if index == last { posts::stops(design, ends) } else { ends.to_vec() };
-            let Level { ropes, rope, .. } = net.main_ropes.levels[index];
-            let mut others: Vec<f64> = stops.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            let longest = (0..others.len()).max_by(|a, b| others[*a].total_cmp(&others[*b])).unwrap_or(0);
-            let span = others.remove(longest);
-            let behind = [Bank::Right, Bank::Left].map(|bank| net.anchor_designs.of(index, bank).set_back);
-            let span = RopeInput {
-                span,
-                others,
-                behind: behind[0] + behind[1],
-                axial_stiffness: rope.axial_stiffness(),
-                dissipator: dissipator(design),
-            };
-            let spread_of = |case: &LoadCase| match &section {
-                Section::Rectangle { .. } => case.strip_force(low, high),
-                Section::Surveyed(survey) => {
-                    let loaded = high.min(case.diagram.top);
-                    let per_width = |ground: f64| case.strip_force(low.max(ground), high);
-                    let bay = |bay: usize| even_load(survey, &stops, bay, loaded, per_width);
-                    (0..stops.len() - 1).map(bay).fold(0.0, larger_or_nan)
-                }
-            };
-            let on_rope = |case: &LoadCase| {
-                let along_bed = spread_of(case) + point_on_rope(case, &heights, index, span.span);
-                // Normal to the net's plane, which leans upstream from plumb by its tilt; the weight hangs plumb.
-                let spread = along_bed / libm::cos(lean(design));
-                let hung = if index == last { weight } else { 0.0 };
-                (spread * spread + hung * hung - 2.0 * spread * hung * libm::sin(net.tilt)).sqrt()
-            };
-            // The surge whose moving flow starts or ends with the strip may lie between the stages.
-            let surge = |flow: &GuidelineInput, deposit: f64| {
-                let room = (flow.fill_height - flow.moving_depth()).max(0.0);
-                LoadCase { point: extras(design).point, ..later_surge::case(flow, deposit.clamp(0.0, room)) }
-            };
-            let own: Vec<LoadCase> = flows
-                .iter()
-                .flat_map(|flow| [low, high.min(top) - flow.depth].map(|deposit| surge(flow, deposit)))
-                .collect();
-            let governing =
-                stages.iter().chain(&own).map(|case| (on_rope(case), case)).max_by(|a, b| a.0.total_cmp(&b.0));
-            let load = design.factors.load * governing.map_or(0.0, |(load, _)| load);
-            let governing = governing.map(|(_, case)| case);
-            let spread = governing.map_or(0.0, |case| point_on_rope(case, &heights, index, span.span));
-            let spread = spread / libm::cos(lean(design));
-            let point = 0.5 * design.factors.load * spread * span.span;
-            if held {
-                // It neither sags nor pulls at anchors: the bed takes its load where it is.
-                let (span, of_one) = (span.span, load);
-                return RopeLoad { strip, ropes, span, load, of_one, point, ..RopeLoad::default() };
-            }
-            // A boulder hits one of them.
-            let shared = 1.0 / f64::from(ropes);
-            let of_one = load * shared + design.factors.load * spread * (1.0 - shared);
-            let state = span.under(of_one);
-            let weaker = net.dissipators.as_ref().and_then(DissipatorDesign::weakest);
-            let weak =
-                weaker.map(|given| RopeInput { dissipator: Some(yielding(&given)), ..span.clone() }.under(of_one));
-            let across = 0.5 * of_one * span.span;
-            let along = (state.tension.powi(2) - across.powi(2)).max(0.0).sqrt();
-            RopeLoad {
-                strip,
-                ropes,
-                span: span.span,
-                others: span.others,
-                behind: span.behind,
-                load,
-                of_one,
-                point,
-                case: governing.cloned(),
-                state,
-                weak,
-                anchor: [along, across],
-            }
-        })
-        .collect()
-}
-
 /// The bay between two main ropes in which the rings of a ring net bear most; nothing for other barriers.
 fn ring_load(design: &Design, stages: &[LoadCase]) -> Option<RingLoad> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
@@ -567,85 +464,11 @@ fn ring_load(design: &Design, stages: &[LoadCase]) -> Option<RingLoad> {
     bays.map(load).max_by(|a, b| a.leg.total_cmp(&b.leg))
 }
 
-/// Slices of a span over which the load of a rope is summed.
-const SLICES: f64 = 100.0;
-
-/// The ground between two places across the channel, from point to point.
-fn pieces(survey: &Survey, [from, to]: [f64; 2]) -> Vec<[[f64; 2]; 2]> {
-    let cut = |pair: &[[f64; 2]]| {
-        let [start, end] = [pair[0][0].max(from), pair[1][0].min(to)];
-        let at = |y: f64| {
-            let run = pair[1][0] - pair[0][0];
-            let share = if run > 0.0 { (y - pair[0][0]) / run } else { 0.0 };
-            [y, pair[0][1] + share * (pair[1][1] - pair[0][1])]
-        };
-        let whole = start == pair[0][0] && end == pair[1][0];
-        match whole {
-            true => Some([pair[0], pair[1]]),
-            false => (start < end).then(|| [at(start), at(end)]),
-        }
-    };
-    survey.points().windows(2).filter_map(cut).collect()
-}
-
-/// The even load over a span that bends a beam and pushes on its supports no less than what a section hands to it (N/m): `per_width` gives the
-/// force on a metre of width whose ground is at a height, up to `top`, above which there is none. What presses beside the first and the last
-/// span, between banks and posts, goes to their ends.
-fn even_load(survey: &Survey, stops: &[f64], bay: usize, top: f64, per_width: impl Fn(f64) -> f64) -> f64 {
-    let [from, to] = [stops[bay], stops[bay + 1]];
-    let within =
-        [if bay == 0 { f64::NEG_INFINITY } else { from }, if bay + 2 == stops.len() { f64::INFINITY } else { to }];
-    let span = to - from;
-    let mut loads: Vec<[f64; 2]> = Vec::new();
-    for pair in pieces(survey, within) {
-        // As far as it is lower than the load.
-        let below = |height: f64| ((top - pair[0][1]) / (height - pair[0][1])).clamp(0.0, 1.0);
-        let shares = match (pair[0][1] < top, pair[1][1] < top) {
-            (true, true) => [0.0, 1.0],
-            (true, false) => [0.0, below(pair[1][1])],
-            (false, true) => [below(pair[1][1]), 1.0],
-            (false, false) => continue,
-        };
-        let point = |share: f64| [0, 1].map(|axis| pair[0][axis] + share * (pair[1][axis] - pair[0][axis]));
-        let [start, end] = shares.map(point);
-        let count = (SLICES * (end[0] - start[0]) / span).ceil();
-        for slice in 0..count as usize {
-            let share = (slice as f64 + 0.5) / count;
-            let [y, ground] = [0, 1].map(|axis| start[axis] + share * (end[axis] - start[axis]));
-            loads.push([((y - from) / span).clamp(0.0, 1.0), per_width(ground) * (end[0] - start[0]) / count]);
-        }
-    }
-    let total: f64 = loads.iter().map(|[_, force]| force).sum();
-    let at_the_end: f64 = loads.iter().map(|[place, force]| place * force).sum();
-    let at_the_start = total - at_the_end;
-    // Largest moment of the beam: where the shear changes its sign.
-    let (mut shear, mut moment, mut largest, mut before) = (at_the_start, 0.0, 0.0_f64, 0.0);
-    for [place, force] in &loads {
-        moment += shear * (place - before) * span;
-        largest = largest.max(moment);
-        (shear, before) = (shear - force, *place);
-    }
-    let bends = 8.0 * largest / (span * span);
-    let pushes = 2.0 * larger_or_nan(at_the_start, at_the_end) / span;
-    larger_or_nan(bends, pushes)
-}
-
-/// A point load as the uniform load with the same moment at midspan, 2 P/L (N/m), shared by lever between the ropes above
-/// and below it.
-fn point_on_rope(case: &LoadCase, heights: &[f64], index: usize, span: f64) -> f64 {
-    let Some(point) = case.point else { return 0.0 };
-    let height = point.height.clamp(heights[0], heights[heights.len() - 1]);
-    let share = |here: f64, other: f64| (1.0 - (height - here).abs() / (other - here).abs()).max(0.0);
-    let neighbour = if height < heights[index] { index.checked_sub(1) } else { Some(index + 1) };
-    let other = neighbour.and_then(|neighbour| heights.get(neighbour));
-    let share = other.map_or(if height == heights[index] { 1.0 } else { 0.0 }, |&other| share(heights[index], other));
-    2.0 * point.force * share / span
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::design::read::read_design;
+    use crate::loads::rope::RopeInput;
     use approx::assert_relative_eq;
 
     /// On the level nothing speeds up, so the front keeps Ritter's 2 √(g h) whatever the way; on a slope without friction it gains
@@ -673,26 +496,6 @@ mod tests {
         // a = 9.81 (½ − 0.3 · 0.8660): √(67.97 + 2 · 2.3563 · 9).
         design.channel.base_friction = 0.3;
         assert_relative_eq!(front_velocity(&design, &block(9.0)), 10.506, max_relative = 1e-3);
-    }
-
-    #[test]
-    fn a_point_load_is_shared_by_the_ropes_beside_it() {
-        let point = PointLoad { force: 100.0, height: 1.25 };
-        let input = crate::loads::cases::tests::input();
-        let case = crate::loads::cases::point_load::case(&input, point);
-        let heights = [0.0, 1.0, 2.0];
-        let shares: Vec<f64> = (0..3).map(|rope| point_on_rope(&case, &heights, rope, 10.0)).collect();
-        assert_relative_eq!(shares[0], 0.0);
-        assert_relative_eq!(shares[1], 15.0);
-        assert_relative_eq!(shares[2], 5.0);
-        // Three quarters on the rope at 1 m, a quarter on the one at 3 m; what hits the top rope is all its own.
-        let uneven = |height: f64| {
-            let case = crate::loads::cases::point_load::case(&input, PointLoad { force: 100.0, height });
-            [0, 1, 2].map(|rope| point_on_rope(&case, &[0.0, 1.0, 3.0], rope, 10.0))
-        };
-        assert_eq!(uneven(1.5), [0.0, 15.0, 5.0]);
-        assert_eq!(uneven(3.0), [0.0, 0.0, 20.0]);
-        assert_eq!(uneven(0.25), [15.0, 5.0, 0.0]);
     }
 
     /// On a bed of 45° with a friction of 20° a deposit of V presses with K = 2 V (tan 45° − tan 20°)/(b H²).
@@ -791,7 +594,7 @@ mod tests {
             others: Vec::new(),
             behind: 0.0,
             axial_stiffness: net.main_ropes.levels[2].rope.axial_stiffness(),
-            dissipator: dissipator(&single),
+            dissipator: ropes::dissipator(&single),
         };
         assert_eq!(two.state, rope.under(0.5 * two.load));
         assert!(two.state.sag < one.state.sag && two.state.stroke < one.state.stroke);

@@ -319,14 +319,24 @@ fn of_net(design: &Design, net: &FlexibleNet) -> Vec<Rule> {
             ALBABA,
             "a mesh wider than D90 lets the flow through: with D90 97 % are held",
         ),
-        most(
-            "Free span",
-            width,
-            15.0,
-            "m",
-            "Trumer, manufacturer's practice",
-            "wider spans want posts, or ropes whose sag has been looked at",
-        ),
+        match net.posts {
+            None => most(
+                "Free span",
+                width,
+                15.0,
+                "m",
+                "Trumer, manufacturer's practice",
+                "wider spans want posts, or ropes whose sag has been looked at",
+            ),
+            Some(_) => most(
+                "Span with posts",
+                width,
+                25.0,
+                "m",
+                "manufacturers' practice",
+                "the ropes below the uppermost one span from bank to bank, past the posts",
+            ),
+        },
         most("Width", width, 30.0, "m", RANGE, SPECIAL),
         most("Height", net.height, 6.0, "m", RANGE, SPECIAL),
         least(

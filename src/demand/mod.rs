@@ -36,7 +36,7 @@ impl Demands {
         let meeting = Meeting { guideline, factors, seen, governing, factor };
         let weak = (!seen.weak.is_empty()).then(|| Meeting { governing: &seen.weak, factor: 1.0, ..meeting });
         let demanded = QUANTITIES.iter().filter(|quantity| quantity.demanded.is_some());
-        let demands = |quantity: &&Quantity| {
+        let demands = |quantity: &Quantity| {
             let mut demands = meeting.demands(quantity);
             if let Some(weak) = &weak {
                 let least = matches!(quantity.demanded, Some(Demanded::Kept));
@@ -46,7 +46,7 @@ impl Demands {
             }
             (quantity.id, demands)
         };
-        Self(demanded.map(|quantity| demands(&quantity)).collect())
+        Self(demanded.map(|quantity| demands(quantity)).collect())
     }
 
     /// The demand of a quantity of the barrier as a whole.

@@ -1,6 +1,6 @@
 //! Contradictions between what a design says of its posts and of the rest of its barrier.
 
-use crate::design::channel_entries::{height_of_barrier, section, survey};
+use crate::design::channel_entries::{height_of_barrier, profile, section, survey};
 use crate::design::entries::Entries;
 use crate::design::posts::{OF_A_SECTION, RESISTANCES, post_key};
 use crate::design::rope_entries::RETAINING;
@@ -74,6 +74,50 @@ pub fn posts_stand_on_low_ground(e: &Entries) -> Option<Problem> {
     let found = format!("a post at {} whose ground is {} above the bed", length(*short), length(ground(*short)));
     let allowed = format!("posts of {} or more", length(LEAST_SHARE * top));
     Some(Problem::new(post_key("at"), found, allowed).hint("a bank so high carries the rope itself"))
+}
+
+/// Places along a retaining rope at which the ground is looked at, and by how much it may come above the rope (m): rounding.
+const LOOKS: u32 = 40;
+const ROUNDING: f64 = 1e-6;
+
+/// A rope from a head to its anchor does not cut through a bank or a steeper reach of the bed.
+pub fn retaining_ropes_run_clear_of_the_ground(e: &Entries) -> Option<Problem> {
+    let (places, survey, top) = (e.numbers(&post_key("at"))?, survey(e)?, height_of_barrier(e)?);
+    let slope = e.number("channel.slope")?;
+    let rope = |name: &str| e.number(&at(&format!("{RETAINING}.{name}")));
+    let (set_back, spread) = (rope("set_back")?, rope("spread")?);
+    let lean = slope + e.number(&at("tilt"))?;
+    let profile = profile(e);
+    // Normal to the bed at the barrier.
+    let ground = |along: f64, right: f64| {
+        let own = survey.ground(survey.surveyed(0.0) - right);
+        let Some(profile) = &profile else { return own };
+        let bed = profile.at(along);
+        let (sine, cosine) = libm::sincos(slope);
+        bed.x * sine + bed.z * cosine + own
+    };
+    for place in places {
+        let tall = (top - ground(0.0, *place)) / libm::cos(lean);
+        let head = [-libm::sin(lean) * tall, *place, top];
+        for side in [spread, -spread] {
+            let (along, right) = (-set_back, place + side);
+            let anchor = [along, right, ground(along, right)];
+            let through = |look: u32| {
+                let share = f64::from(look) / f64::from(LOOKS);
+                let [x, y, z] = [0, 1, 2].map(|axis| head[axis] + share * (anchor[axis] - head[axis]));
+                ground(x, y) > z + ROUNDING
+            };
+            if (1..LOOKS).any(through) {
+                let found =
+                    format!("a rope from the head of the post at {} that runs through the ground", length(*place));
+                return Some(
+                    Problem::new(at(RETAINING), found, "ropes that are clear of the ground up to their anchors")
+                        .hint("a smaller spread keeps them off the banks, a smaller set_back off a steeper bed"),
+                );
+            }
+        }
+    }
+    None
 }
 
 /// The strength of a post is told one way, and wholly.

@@ -113,6 +113,7 @@ pub const RULES: &[Rule] = &[
     post_rules::posts_stand_one_beside_the_other,
     post_rules::posts_stand_between_the_banks,
     post_rules::posts_stand_on_low_ground,
+    post_rules::retaining_ropes_run_clear_of_the_ground,
     post_rules::posts_have_one_strength,
     post_rules::posts_belong_to_models_of_ropes,
 ];
