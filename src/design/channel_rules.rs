@@ -221,7 +221,7 @@ const SHORTEST_ROPE: f64 = 2.0;
 
 pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
     let (survey, lattice) = (survey(e)?, Lattice::of(e)?);
-    let least = SHORTEST_ROPE * lattice.diagonal;
+    let least = SHORTEST_ROPE * lattice.across;
     let opening = e.number(&at("bottom.opening"));
     let bed = survey.bed();
     let width = match opening {
@@ -261,7 +261,7 @@ pub fn second_rope_above_the_bed(e: &Entries) -> Option<Problem> {
     let (survey, heights, lattice) = (survey(e)?, rope_heights(e)?, Lattice::of(e)?);
     let bed = survey.bed().iter().map(|point| point[1]).fold(0.0, f64::max);
     let second = over_the_bed(e, *heights.get(1)?)?;
-    let least = bed + ABOVE_THE_BED * lattice.diagonal;
+    let least = bed + ABOVE_THE_BED * lattice.along;
     (e.number(&at("bottom.opening")).is_none() && bed > 0.0 && second < least).then(|| {
         let found = format!("main rope 2, {} above the lowest point, over a bed that rises by {}", length(second), length(bed));
         let allowed = format!("at least {} (normal to the bed)", length(least));

@@ -208,8 +208,10 @@ pub struct FlexibleNet {
     pub height: f64,
     /// Angle against plumb (rad), positive towards the flow.
     pub tilt: f64,
-    /// Side of the square mesh, which stands on its corner (m); in a ring net the contacts of the rings lie as its knots do.
+    /// Side of the mesh, which stands on its corner (m); in a ring net the contacts of the rings lie as the knots of a square one do.
     pub mesh_opening: f64,
+    /// Angle between its sides at the upper and the lower corner (rad); nothing where it is a square.
+    pub mesh_angle: Option<f64>,
     /// Rope of the net; in a ring net the one that is like a leg of a ring.
     pub net_rope: Rope,
     /// The rings of a ring net.
@@ -276,7 +278,12 @@ impl FlexibleNet {
         [&self.net_rope, &self.lateral_rope].into_iter().chain(main).chain(of_posts)
     }
 
-    /// Diameter of the largest stone that passes the net by itself (m): the mesh, or a whole ring.
+    /// Diagonals of the mesh across the barrier and along it (m).
+    pub fn diagonals(&self) -> [f64; 2] {
+        diagonals(self.mesh_opening, self.mesh_angle)
+    }
+
+    /// Diameter of the largest stone that passes the net by itself (m): the side of the mesh, which may be drawn into a square, or a whole ring.
     pub fn opening(&self) -> f64 {
         self.rings.map_or(self.mesh_opening, |rings| rings.diameter)
     }
@@ -312,6 +319,17 @@ impl FlexibleNet {
     /// Number of main ropes, from the bottom, that the bed holds along their length.
     pub fn ropes_held_by_bed(&self) -> usize {
         usize::from(self.bottom == Bottom::Fixed)
+    }
+}
+
+/// Diagonals across and along a mesh of this side (m), whose sides meet at this angle above and below (rad); a square where none is told.
+pub fn diagonals(side: f64, angle: Option<f64>) -> [f64; 2] {
+    match angle {
+        None => [side * std::f64::consts::SQRT_2; 2],
+        Some(angle) => {
+            let (sine, cosine) = libm::sincos(0.5 * angle);
+            [2.0 * side * sine, 2.0 * side * cosine]
+        }
     }
 }
 

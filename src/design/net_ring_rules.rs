@@ -24,7 +24,7 @@ pub fn net_is_of_one_kind(e: &Entries) -> Option<Problem> {
     };
     Some(
         Problem::new(NET, found, "mesh_opening and net_rope, or net.rings")
-            .hint("mesh_opening and net_rope describe square meshes of rope; net: {rings: ...} a ring net"),
+            .hint("mesh_opening and net_rope describe meshes of rope; net: {rings: ...} a ring net"),
     )
 }
 
@@ -105,6 +105,15 @@ pub fn rings_fit_between_ropes(e: &Entries) -> Option<Problem> {
         let found = format!("{count} ring(s) of {ring} between ropes {bay} apart, stretched by {more:.0} %");
         Problem::new(at("main_ropes"), found, "ropes about a whole number of ring diameters apart, at most 10 % more")
             .hint("move the ropes, or choose other rings")
+    })
+}
+
+/// The angle of a mesh is one of ropes.
+pub fn rings_have_no_angle(e: &Entries) -> Option<Problem> {
+    let path = at("mesh_angle");
+    (e.mentions(&path) && e.mentions(&at("net"))).then(|| {
+        Problem::new(path, "an angle of the mesh beside rings", "rings without it")
+            .hint("each ring meets four others, in squares")
     })
 }
 

@@ -1,6 +1,7 @@
 //! Contradictions between values of a flexible net; listed in [`super::rules`].
 
 use crate::design::channel_entries::{height_of_barrier, section};
+use crate::design::diagonals;
 use crate::design::entries::Entries;
 use crate::design::net_rings::ring_key;
 use crate::design::rope_entries::{LEVELS, levels};
@@ -32,8 +33,9 @@ pub fn bolts_have_their_distance(e: &Entries) -> Option<Problem> {
 pub struct Lattice {
     /// The key that tells it.
     pub path: String,
-    /// Diagonal of a mesh, or diameter of a ring (m).
-    pub diagonal: f64,
+    /// Diagonals of a mesh across and along the barrier, or diameter of a ring (m).
+    pub across: f64,
+    pub along: f64,
     /// Side of the mesh, or diameter of the ring (m).
     size: f64,
     rings: bool,
@@ -43,10 +45,17 @@ impl Lattice {
     /// Nothing where it is not told.
     pub fn of(e: &Entries) -> Option<Self> {
         if let Some(diameter) = e.number(&ring_key("diameter")) {
-            return Some(Self { path: ring_key("diameter"), diagonal: diameter, size: diameter, rings: true });
+            return Some(Self {
+                path: ring_key("diameter"),
+                across: diameter,
+                along: diameter,
+                size: diameter,
+                rings: true,
+            });
         }
         let mesh = e.number(&at("mesh_opening"))?;
-        Some(Self { path: at("mesh_opening"), diagonal: mesh * std::f64::consts::SQRT_2, size: mesh, rings: false })
+        let [across, along] = diagonals(mesh, e.number(&at("mesh_angle")));
+        Some(Self { path: at("mesh_opening"), across, along, size: mesh, rings: false })
     }
 
     fn shown(&self) -> String {
@@ -61,7 +70,7 @@ impl Lattice {
 
 pub fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
     let (lattice, height) = (Lattice::of(e)?, e.number(&at("height"))?);
-    (lattice.diagonal > height).then(|| {
+    (lattice.along > height).then(|| {
         let found = format!("{} in a barrier {} high", lattice.shown(), length(height));
         let allowed = if lattice.rings {
             "rings that fit the barrier's height"
@@ -122,7 +131,7 @@ pub fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
 
 pub fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
     let (lattice, heights) = (Lattice::of(e)?, rope_heights(e)?);
-    let (diagonal, wide) = (lattice.diagonal, lattice.wide());
+    let (diagonal, wide) = (lattice.along, lattice.wide());
     let bay = heights.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     (bay > 0.0 && bay < 0.6 * diagonal).then(|| {
         let found = format!("ropes {} apart with a {wide} of {}", length(bay), length(diagonal));
@@ -132,7 +141,7 @@ pub fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
 
 pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
     let (lattice, width) = (Lattice::of(e)?, section(e)?.width(height_of_barrier(e)?));
-    (3.0 * lattice.diagonal > width).then(|| {
+    (3.0 * lattice.across > width).then(|| {
         let found = format!("{} across a channel of {}", lattice.shown(), length(width));
         let allowed = format!("at least three {}s across the channel", lattice.wide());
         Problem::new(lattice.path, found, allowed)
@@ -141,7 +150,7 @@ pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
 
 pub fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
     let (spacing, lattice) = (e.number(&at("main_ropes.rings.spacing"))?, Lattice::of(e)?);
-    let (diagonal, wide) = (lattice.diagonal, lattice.wide());
+    let (diagonal, wide) = (lattice.across, lattice.wide());
     ((spacing / diagonal - 1.0).abs() > 0.1).then(|| {
         let (found, allowed) = if lattice.rings {
             (
@@ -245,7 +254,7 @@ const MOST_KNOTS: f64 = 50_000.0;
 
 pub fn knots_are_bearable(e: &Entries) -> Option<Problem> {
     let (lattice, height) = (Lattice::of(e)?, e.number(&at("height"))?);
-    let of_one = 0.5 * lattice.diagonal * lattice.diagonal;
+    let of_one = 0.5 * lattice.across * lattice.along;
     let knots = section(e)?.mean_width(height_of_barrier(e)?) * height / of_one;
     (knots > MOST_KNOTS).then(|| {
         let what = if lattice.rings { "contacts" } else { "knots" };

@@ -249,6 +249,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             Some(rings) => rings.mesh(),
             None => value("mesh_opening")?,
         },
+        mesh_angle: value("mesh_angle"),
         net_rope: match &rings {
             Some(rings) => rings.as_rope(),
             None => rope(e, &["net_rope"])?,

@@ -80,6 +80,7 @@ pub const RULES: &[Rule] = &[
     net_ring_rules::chain_test_has_its_two_points,
     net_ring_rules::chain_is_no_stronger_than_its_wires,
     net_ring_rules::rings_are_thinner_than_they_are_wide,
+    net_ring_rules::rings_have_no_angle,
     net_ring_rules::ring_nets_have_no_sides,
     net_ring_rules::rings_fit_between_ropes,
     net_rules::mesh_within_the_barrier,

@@ -493,7 +493,12 @@ const FLEXIBLE_NET: &[Key] = &[
     Key::optional(
         "mesh_opening",
         Kind::LengthOrGrains { low: 0.005, high: 3.0 },
-        "side of the square mesh; give this with net_rope, or net.rings",
+        "side of the mesh; give this with net_rope, or net.rings",
+    ),
+    Key::optional(
+        "mesh_angle",
+        quantity(D::Angle, 30.0 * DEGREE, 120.0 * DEGREE),
+        "angle between the sides of a mesh at its upper and lower corner: less than 90 deg is a diamond taller than wide; by default 90 deg, a square on its corner",
     ),
     Key::optional("net_rope", Kind::Section(ROPE), "rope of the net"),
     Key::optional("net", Kind::OneOf(NETS), "a net that is no square mesh of ropes"),

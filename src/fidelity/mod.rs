@@ -104,7 +104,7 @@ fn stiffest_pairs(design: &Design) -> Pairs {
 /// side. A grain of the mean size presses on it as well.
 fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let area = |rope: &Rope| std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
-    let diagonal = net.mesh_opening * std::f64::consts::SQRT_2;
+    let [diagonal, _] = net.diagonals();
     let knot = |rope: &Rope, length: f64, parts: f64, sides: f64| {
         let mass = 0.5 * parts * ROPE_DENSITY * area(rope) * length;
         let stiffness = rope.modulus * area(rope) / length;

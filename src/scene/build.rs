@@ -481,7 +481,10 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         to_come: 0.0,
         boulders: [0, 0],
         mesh: match &design.barrier {
-            BarrierDesign::FlexibleNet(net) => net.mesh_opening * std::f64::consts::SQRT_2,
+            BarrierDesign::FlexibleNet(net) => {
+                let [across, along] = net.diagonals();
+                across.max(along)
+            }
             BarrierDesign::RigidWall(_) => 0.0,
         },
         side_walls: design.channel.wall_height,

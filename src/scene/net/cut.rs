@@ -64,14 +64,20 @@ impl Builder<'_> {
         }
     }
 
-    /// Half a diagonal of the mesh (m).
+    /// Half a diagonal of the mesh across the channel (m).
     fn half_diagonal(&self) -> f64 {
         self.across(1) - self.across(0)
     }
 
+    /// The same, or half the diagonal along the barrier where that of a diamond is shorter.
+    fn half_shorter(&self) -> f64 {
+        let [across, along] = self.design.diagonals();
+        self.half_diagonal() * (along / across).min(1.0)
+    }
+
     /// Adds the knots inside the outline and the sides between them; returns the sides that end on its edges.
     fn add_cut_mesh(&mut self, outline: &Outline) -> Ends {
-        let half = self.half_diagonal();
+        let (half, clear_by) = (self.half_diagonal(), CLEAR * self.half_shorter());
         let rows = self.grid.row_heights.len();
         let point = |builder: &Self, (column, row): (usize, usize)| -> Point {
             [builder.across(column), builder.grid.row_heights[row]]
@@ -83,8 +89,8 @@ impl Builder<'_> {
                 let on_the_rope =
                     outline.distance(place, |edge| edge == Edge::Bottom) <= ON_THE_ROPE * half && row == 0;
                 let clear =
-                    outline.is_inside(place) && outline.distance(place, |edge| edge == Edge::Bottom) >= CLEAR * half;
-                let beside = outline.distance(place, |edge| edge != Edge::Bottom) >= CLEAR * half;
+                    outline.is_inside(place) && outline.distance(place, |edge| edge == Edge::Bottom) >= clear_by;
+                let beside = outline.distance(place, |edge| edge != Edge::Bottom) >= clear_by;
                 if (clear || on_the_rope) && beside {
                     let held = row == 0 && self.design.bottom == Bottom::Fixed;
                     let node = self.add_node(self.place(place[0], place[1]), held);
@@ -125,7 +131,7 @@ impl Builder<'_> {
 
     /// Adds nodes along an edge for the sides that end there, no two too close to each other or to a `stop`; returns them with their way.
     fn add_ends(&mut self, edge: Edge, outline: &Outline, ends: &Ends, stops: &[f64], held: bool) -> Vec<(f64, u32)> {
-        let apart = APART * self.half_diagonal();
+        let apart = APART * self.half_shorter();
         let mut list = ends.get(&key(edge)).cloned().unwrap_or_default();
         for end in &mut list {
             end.way = clear_of(end.way, stops, apart);
@@ -165,7 +171,7 @@ impl Builder<'_> {
         let mut nodes = self.add_ends(Edge::Bottom, outline, ends, &stops, fixed);
         // The ground between, where the bed bends.
         let mut way = 0.0;
-        let apart = APART * self.half_diagonal();
+        let apart = APART * self.half_shorter();
         for pair in outline.bottom.windows(2) {
             way += libm::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
             let clear = stops.iter().chain(nodes.iter().map(|(way, _)| way)).all(|stop| (stop - way).abs() >= apart);
