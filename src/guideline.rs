@@ -58,6 +58,8 @@ pub struct Guideline {
     /// The dissipators of the main ropes, and of the ropes that retain posts, if there are any.
     pub dissipator: Option<Yielding>,
     pub retaining: Option<Yielding>,
+    /// Least force of each of them over its curve.
+    pub least_shares: [f64; 2],
     /// Whether a dissipator caps the load of its anchor: not where lateral ropes are tied to the anchors, past it.
     pub anchors_capped: bool,
     /// Level that the event reaches in front of the barrier, run-up and deposit, normal to the bed (m), and whether it is known; where it is
@@ -69,6 +71,15 @@ pub struct Guideline {
 }
 
 impl Guideline {
+    /// The same with dissipators that pull with the least force of their tests, as far as that caps what is simulated.
+    pub fn with_weakest_dissipators(&self) -> Self {
+        let least = |given: &Option<Yielding>, share: f64| {
+            given.clone().map(|given| Yielding { largest: share * given.largest, ..given })
+        };
+        let [own, of_posts] = self.least_shares;
+        Self { dissipator: least(&self.dissipator, own), retaining: least(&self.retaining, of_posts), ..self.clone() }
+    }
+
     /// Force of the first surge on the empty barrier, without partial factors and wood (N): what a simulation of one surge is to be compared
     /// with.
     pub fn first_surge(&self) -> f64 {
@@ -149,12 +160,20 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         },
         dissipator: ropes::dissipator(design),
         retaining: posts::retaining(design),
+        least_shares: least_shares(design),
         anchors_capped: matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.lateral_to == LateralTo::RopeEnds),
         level: level.unwrap_or_else(|least| least),
         level_is_known: level.is_ok(),
         retention: held(design),
         section,
     }
+}
+
+/// Least force of the dissipators of main ropes, and of those of retaining ropes, over their curve.
+fn least_shares(design: &Design) -> [f64; 2] {
+    let BarrierDesign::FlexibleNet(net) = &design.barrier else { return [1.0; 2] };
+    let of_posts = net.posts.as_ref().and_then(|posts| posts.retaining.dissipators.as_ref());
+    [net.dissipators.as_ref(), of_posts].map(|given| given.and_then(|given| given.lower_bound).unwrap_or(1.0))
 }
 
 /// The flow of each surge, or of each of the hardest rows of a hydrograph: the first as it is asked, later ones with their own depth and velocity, changed as those of the first are from the

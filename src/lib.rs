@@ -20,10 +20,11 @@
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
 //! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`]; the lattice of the contacts is in `scene::net::grid` and `scene::net::cut`, and what asks of `net.rings` elsewhere (`guideline`, [`fidelity`], [`report::site`], [`report::statements`]) asks of the new kind too |
 //! | a key of posts or anchors | `design::posts`, `design::anchors` and their rules; how they stand in `scene::net::posts`, by the equations in `guideline::posts` and `loads::posts`, their checks in [`checks::posts`] and [`checks::anchors`], their tables in [`report::posts`] and [`report::anchors`] |
-//! | a kit that ships | a file in `designs/kits` |
+//! | a rule of buckling | `Column` and `Strut` in `loads::posts`, told in [`report::posts`] |
+//! | a kit that ships, or another way to give a thing that kits give | a file in `designs/kits`; a line in `WAYS` of `design::kit` |
 //! | a rope that can be named | a line in `design/ropes.csv` |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
-//! | a structural element | a file in [`dem::elements`], its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands` and `Barrier::springs` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
+//! | a structural element | a file in [`dem::elements`], a variant of `SegmentKind` with its matches (recorders, `report::vtk`, `report::replay`, `report::pictures`), its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands`, `Barrier::springs` and `Barrier::connect` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
 //! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its working with [`loads::cases::working`] |
 //! | another impact model | an entry of [`loads::other_models::MODELS`] |
@@ -31,7 +32,7 @@
 //! | a shape of surface | a file in [`dem::tables`] beside `surfaces` and `terrain`, and its lines in [`dem::tables::fixed`], which tells all others what a grain touches; where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
-//! | a load case that is simulated, or where a partial factor stands | [`load_cases`] |
+//! | a load case that is simulated, or where a partial factor stands | [`load_cases`]; its runs in `pipeline::run_on`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
 //! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |

@@ -110,7 +110,8 @@ fn of_a_net(net: &FlexibleNet, factors: &Factors) -> Vec<Combination> {
         by_equations: "divides the characteristic resistance",
         by_simulation: "the same",
     });
-    if net.dissipators.is_some() {
+    let of_posts = net.posts.as_ref().and_then(|posts| posts.retaining.dissipators.as_ref());
+    if net.dissipators.is_some() || of_posts.is_some() {
         let given = "where a dissipator yields, (factor − 1) × plateau, or × the largest force of its curve, is added to the load of its rope and anchor";
         let taken = "the same; not given, so taken as the factor on loads";
         rows.push(Combination {
@@ -120,14 +121,16 @@ fn of_a_net(net: &FlexibleNet, factors: &Factors) -> Vec<Combination> {
             by_simulation: if factors.overstrength_given { "the same" } else { taken },
         });
     }
-    let own = [net.dissipators.as_ref(), net.posts.as_ref().and_then(|posts| posts.retaining.dissipators.as_ref())];
-    let lower = own.into_iter().flatten().filter_map(|dissipators| dissipators.lower_bound);
-    if let Some(least) = lower.reduce(f64::min) {
+    let least = [
+        ("Least force of the dissipators of main ropes", net.dissipators.as_ref()),
+        ("Least force of the dissipators of retaining ropes", of_posts),
+    ];
+    for (what, factor) in least.into_iter().filter_map(|(what, given)| Some((what, given?.lower_bound?))) {
         rows.push(Combination {
-            what: "Least force of dissipators",
-            factor: least,
+            what,
+            factor,
             by_equations: "multiplies plateau or curve for strokes, and for tensions where a stroke is used up by it",
-            by_simulation: "simulated with these dissipators as well, under the factored flow: the larger loads and strokes, the smaller share held and height",
+            by_simulation: "simulated with the least forces as well, under the factored flow: the larger loads and strokes, the smaller share held and height",
         });
     }
     if net.posts.is_some() {

@@ -362,11 +362,11 @@ fn struck(mut stand: Stand, step: f64, hit: &Hit) -> Found {
 }
 
 fn largest(of: impl Iterator<Item = f64>) -> f64 {
-    of.fold(0.0, f64::max)
+    of.fold(0.0, dem::larger_or_nan)
 }
 
 fn least(of: &[f64]) -> f64 {
-    of.iter().copied().fold(f64::INFINITY, f64::min)
+    -of.iter().map(|value| -value).fold(f64::NEG_INFINITY, dem::larger_or_nan)
 }
 
 fn main() {

@@ -14,7 +14,7 @@ if [ ! -x "$kratos/bin/python" ]; then
     python3 -m venv "$kratos"
     "$kratos/bin/pip" install --quiet KratosMultiphysics==$version KratosStructuralMechanicsApplication==$version KratosCableNetApplication==$version
 fi
-ours=$(cargo bench --bench nets --no-run --message-format=json 2>/dev/null | sed -n 's/.*"executable":"\([^"]*nets[^"]*\)".*/\1/p' | tail -1)
+ours=$(cargo bench --bench nets --no-run --message-format=json | sed -n 's/.*"executable":"\([^"]*nets[^"]*\)".*/\1/p' | tail -1)
 "$ours" benches/peers/nets.json > "$target/nets_ours.jsonl"
 # Kratos greets on the same output; rows begin with a brace.
 "$kratos/bin/python" benches/peers/nets.py benches/peers/nets.json | grep '^{' > "$target/nets_kratos.jsonl"

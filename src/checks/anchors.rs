@@ -1,6 +1,7 @@
 //! Load of the anchors against their design resistance.
 
 use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
+use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{Demand, Demands};
 use crate::design::{AnchorOf, Bank, BarrierDesign, Design, FlexibleNet, LateralTo};
 use crate::quantities::quantity::Unit;
@@ -28,6 +29,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         let capacity = resistance(design, net, index, bank.unwrap_or(Bank::Right));
         let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation).of_rope(index);
         let outcome = Outcome { beside, ..outcome };
+        let outcome = if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome };
         match net.lateral_to {
             LateralTo::RopeEnds if net.dissipators.is_some() => outcome,
             LateralTo::RopeEnds => outcome.only_by_simulation(
@@ -113,18 +115,23 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands) -> Opt
     };
     let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation);
     let outcome = outcome.whatever_the_pressures();
-    let mut outcome = match tied {
+    let outcome = match tied {
         true => outcome
             .only_by_simulation("the lateral ropes are tied to the anchors, and the equations do not know their load"),
         false => outcome,
     };
+    Some(open_without_overstrength(design, outcome))
+}
+
+/// Leaves a check against the force of a yielding dissipator open where nobody says how large that may be.
+pub fn open_without_overstrength(design: &Design, mut outcome: Outcome) -> Outcome {
     let known = design.factors.overstrength_given || design.factors.load >= USUAL_OVERSTRENGTH;
     if !known && matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
         outcome.leave_open(Opening::NotGiven(
             "how far above its plateau or curve a dissipator may pull is not given (give factors.dissipator_overstrength from its tests; 1 if what is given is the upper bound)".into(),
         ));
     }
-    Some(outcome)
+    outcome
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Outcome, Resistance};
-use crate::demand::{CAP_TOLERANCE, Demands, USED_UP};
+use crate::checks::outcome::{CheckName, CheckVerdict, Growth, Kind, Outcome, Resistance};
+use crate::checks::ropes::OVER_POSTS;
+use crate::demand::{CAP_TOLERANCE, Demand, Demands, USED_UP};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
-use crate::quantities::dissipator;
 use crate::quantities::quantity::Unit;
+use crate::quantities::{dissipator, rope_tension};
 use crate::sources::{PLATEAU_DATA, STROKE_DATA};
 
 fn dissipators(design: &Design) -> Option<(&FlexibleNet, &DissipatorDesign)> {
@@ -24,9 +25,22 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let name = CheckName::of(&dissipator::STROKE, index, id, STROKE_DATA).each_of(ropes);
             let stroke = Resistance { characteristic: given.stroke, factor: 1.0 };
             let outcome = Outcome::at_most(name, *demand, stroke, design.limits.dissipator_utilisation);
-            Outcome { kind: Kind::Stroke, ..outcome.of_rope(index) }
+            let tension = demands.each(&rope_tension::PEAK).get(index).copied().unwrap_or_default();
+            let growth = growth_of(given, demand, &tension).unwrap_or(outcome.growth);
+            let outcome = Outcome { kind: Kind::Stroke, growth, ..outcome.of_rope(index) };
+            if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome }
         })
         .collect()
+}
+
+/// How the stroke of dissipators grows that neither the equations nor the simulation let yield; nothing where one of them does.
+pub fn growth_of(given: &DissipatorDesign, stroke: &Demand, tension: &Demand) -> Option<Growth> {
+    let idle = |stroke: Option<f64>| stroke.is_none_or(|stroke| stroke <= 0.0);
+    if !(idle(stroke.guideline) && idle(stroke.simulation)) {
+        return None;
+    }
+    let yields_at = given.lower_bound.unwrap_or(1.0) * given.plateau * given.curve.least();
+    Some(Growth::Idle { tension: tension.simulation?, yields_at, stroke: given.stroke })
 }
 
 /// With stroke left, a dissipator pulls with its plateau force at the most. At the plateau it works as it should, so there

@@ -1,7 +1,7 @@
 //! Inputs that are allowed but outside what such barriers usually have: mostly a wrong unit or a slip of the decimal point. They are
 //! told to the reviewer and change no verdict.
 
-use crate::design::{Arrival, BarrierDesign, Design, FlexibleNet, NetRings, RigidWall, Rope};
+use crate::design::{Arrival, BarrierDesign, Design, FlexibleNet, NetRings, PostStrength, Posts, RigidWall, Rope};
 
 /// An input and the range in which it usually lies, both in `unit`.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +88,22 @@ fn of_wall(wall: &RigidWall, width: f64) -> Vec<Usual> {
     resistance.into_iter().chain(stability).collect()
 }
 
+/// Of posts in use, from pipes of some centimetres to the heaviest rolled sections.
+fn of_posts(posts: &Posts) -> Vec<Usual> {
+    let path = |name: &str| format!("barrier.flexible_net.posts.{name}");
+    let retaining = &posts.retaining;
+    let mut all = vec![
+        usual(path("width"), posts.width, "m", [0.05, 0.5]),
+        usual(path("retaining_ropes.anchor_resistance"), retaining.anchor_resistance, "N", [0.0, 3e6]),
+    ];
+    if let PostStrength::Section(section) = posts.strength {
+        all.push(usual(path("radius_of_gyration"), section.radius_of_gyration, "m", [0.01, posts.width]));
+        all.push(usual(path("yield_strength"), section.yield_strength, "Pa", [2e8, 7e8]));
+    }
+    all.extend(of_rope("posts.retaining_ropes", &retaining.rope));
+    all
+}
+
 /// Of anchors, bolts and dissipators in use; the resistance of the ground is seldom more.
 fn of_net(net: &FlexibleNet) -> Vec<Usual> {
     let of_net = net.rings.is_none().then_some(("net_rope", &net.net_rope));
@@ -95,12 +111,10 @@ fn of_net(net: &FlexibleNet) -> Vec<Usual> {
     let ropes = of_net.into_iter().chain(main).chain([("lateral_ropes", &net.lateral_rope)]);
     let mut all: Vec<Usual> = ropes.flat_map(|(name, rope)| of_rope(name, rope)).collect();
     all.extend(net.rings.iter().flat_map(of_rings));
-    all.push(usual(
-        "barrier.flexible_net.anchors.resistance",
-        net.anchor_designs.all.resistance.value(),
-        "N",
-        [0.0, 3e6],
-    ));
+    let resistance = net.anchor_designs.all.resistance;
+    let path = format!("barrier.flexible_net.anchors.{}", resistance.key());
+    all.push(usual(path, resistance.value(), "N", [0.0, 3e6]));
+    all.extend(net.posts.iter().flat_map(of_posts));
     let bolt = net.bed_bolts.and_then(|bolts| bolts.resistance);
     all.extend(bolt.map(|it| usual("barrier.flexible_net.anchors.bed_bolt_resistance", it, "N", [0.0, 1e6])));
     if let Some(dissipator) = &net.dissipators {

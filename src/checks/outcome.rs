@@ -3,6 +3,7 @@
 
 use crate::checks::between_bolts::{end_bolt_under_more, tension_under_more};
 use crate::demand::Demand;
+use crate::loads::posts::Strut;
 use crate::loads::wall::WallInput;
 use crate::quantities::quantity::{Quantity, Unit};
 
@@ -75,6 +76,29 @@ pub enum Growth {
     EndBolt { axial: f64, lateral: f64 },
     /// As the pressure under a wall that stands by its weight.
     UnderAWall(UnderAWall),
+    /// As the stroke of a dissipator that has not begun to yield: none up to where its rope is pulled with its force, and then all of it.
+    Idle { tension: f64, yields_at: f64, stroke: f64 },
+    /// As the compression of a post whose moment grows with its compression.
+    OfAPost(OfAPost),
+}
+
+/// Compression (N) and moment (N m) of a post, by the equations and by the simulation, and what it withstands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfAPost {
+    pub strut: Strut,
+    pub guideline: Option<[f64; 2]>,
+    pub simulation: Option<[f64; 2]>,
+}
+
+impl OfAPost {
+    /// The compression that uses up as much (N) by one route with so many times its load.
+    pub fn compression(&self, route: Route, more: f64) -> Option<f64> {
+        let [compression, moment] = match route {
+            Route::Guideline => self.guideline,
+            Route::Simulation => self.simulation,
+        }?;
+        Some(self.strut.with_moment(more * compression, more * moment))
+    }
 }
 
 impl Default for Growth {
@@ -318,6 +342,13 @@ impl Outcome {
                 Some(end_bolt_under_more(demand - lateral, more, axial) + lateral * more)
             }
             Growth::UnderAWall(wall) => wall.pressure(route, more),
+            Growth::OfAPost(post) => post.compression(route, more),
+            Growth::Idle { tension, yields_at, stroke } if route == Route::Simulation => {
+                // Asked so that a tension that is not a number yields.
+                let stays = more * tension < yields_at;
+                Some(if stays { demand * more } else { stroke })
+            }
+            Growth::Idle { .. } => Some(demand * more),
         }
     }
 

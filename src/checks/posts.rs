@@ -1,6 +1,8 @@
 //! Posts: compression with bending, the foundations of their feet, the ropes that retain them with their dissipators and anchors.
 
-use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
+use crate::checks::anchors::open_without_overstrength;
+use crate::checks::dissipators::growth_of;
+use crate::checks::outcome::{CheckName, Growth, Kind, OfAPost, Opening, Outcome, Resistance};
 use crate::checks::ropes;
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, PostStrength, Posts};
@@ -8,7 +10,9 @@ use crate::guideline::height_over_bed;
 use crate::guideline::posts::input;
 use crate::loads::posts::{Column, Strut};
 use crate::quantities::posts;
+use crate::quantities::quantity::Unit;
 use crate::sources::{ANCHOR_FACTOR, POST_STRENGTH, ROPE_FACTOR, STROKE_DATA};
+use crate::units::GRAVITY;
 
 fn of(design: &Design) -> Option<&Posts> {
     match &design.barrier {
@@ -19,14 +23,21 @@ fn of(design: &Design) -> Option<&Posts> {
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let Some(given) = of(design) else { return Vec::new() };
+    let uppermost = match &design.barrier {
+        BarrierDesign::FlexibleNet(net) => net.main_ropes.levels.len() - 1,
+        BarrierDesign::RigidWall(_) => 0,
+    };
     (0..given.at.len())
         .flat_map(|number| {
             let compression = compressed(design, given, number, demands);
             [compression, foot(design, given, number, demands), rope(design, given, number, demands)]
                 .into_iter()
+                .chain(uplift(design, given, number, demands))
                 .chain(stroke(design, given, number, demands))
                 .chain([anchor(design, given, number, demands)])
+                .map(|outcome| outcome.of_rope(uppermost))
         })
+        .chain(against_plateau(design, given))
         .collect()
 }
 
@@ -65,31 +76,59 @@ fn compressed(design: &Design, given: &Posts, number: usize, demands: &Demands) 
         let give = "posts.radius_of_gyration, section_modulus and yield_strength, or resistance and bending_resistance";
         return Outcome::without_resistance(name, pressed, give);
     };
-    let both = |compression: Option<f64>, moment: Option<f64>| {
-        compression.map(|compression| strut.with_moment(compression, moment.unwrap_or(f64::NAN)))
-    };
+    // What comes at once bends a post by up to twice as much as what rests on it.
+    let sudden = |moment: Option<f64>| moment.map(|moment| SUDDEN * moment);
+    let parts = |compression: Option<f64>, moment: Option<f64>| compression.map(|it| [it, moment.unwrap_or(f64::NAN)]);
+    let of_guideline = parts(pressed.guideline, bent.guideline);
+    let of_simulation = parts(pressed.simulation, sudden(bent.simulation));
+    let both = |parts: Option<[f64; 2]>| parts.map(|[compression, moment]| strut.with_moment(compression, moment));
     let with_moment = Demand {
-        guideline: both(pressed.guideline, bent.guideline),
-        simulation: both(pressed.simulation, bent.simulation),
-        characteristic: both(pressed.characteristic, bent.characteristic),
+        guideline: both(of_guideline),
+        simulation: both(of_simulation),
+        characteristic: both(parts(pressed.characteristic, sudden(bent.characteristic))),
         cap: None,
     };
     let factor = design.factors.post;
     let resistance = Resistance { characteristic: factor * strut.compression, factor };
     let mut outcome = Outcome::at_most(name, with_moment, resistance, 1.0).only_by_simulation(NOT_BY_EQUATIONS);
-    let pull = [pressed.guideline, pressed.simulation].into_iter().flatten().find(|compression| *compression < 0.0);
-    if let Some(pull) = pull.filter(|_| outcome.holds()) {
-        outcome.leave_open(Opening::NotGiven(format!(
-            "the post is pulled with {:.1} kN, and what holds it down is not given",
-            -pull / 1e3
-        )));
+    if given.retaining.count() == 1 && outcome.holds() {
+        outcome.leave_open(Opening::NotGiven(
+            "nothing but friction of the rope holds the head of a post with a single retaining rope across the channel (give posts.retaining_ropes.spread)".into(),
+        ));
     }
-    outcome
+    let growth = Growth::OfAPost(OfAPost { strut, guideline: of_guideline, simulation: of_simulation });
+    Outcome { growth, ..outcome }
 }
 
+/// By which a load that comes at once bends more than the same load at rest, at the most.
+const SUDDEN: f64 = 2.0;
+
+/// A post that is pulled: its own weight holds it, and nothing else that is given.
+fn uplift(design: &Design, given: &Posts, number: usize, demands: &Demands) -> Option<Outcome> {
+    let demand = demand(demands.each(&posts::UPLIFT), number);
+    let length = input(design, given, given.at[number], height_over_bed(design)).length;
+    let weight = STEEL * GRAVITY * given.area * length;
+    // Asked so that what is not a number is told.
+    let held = demand.largest().is_some_and(|largest| largest <= weight);
+    if held {
+        return None;
+    }
+    let name = CheckName::of(&posts::UPLIFT, number, format!("post_{}_uplift", number + 1), ANCHOR_FACTOR);
+    Some(match given.uplift_resistance {
+        Some(characteristic) => {
+            let resistance = Resistance { characteristic, factor: design.factors.anchor };
+            Outcome::at_most(name, demand, resistance, design.limits.anchor_utilisation)
+                .only_by_simulation(NOT_BY_EQUATIONS)
+        }
+        None => Outcome::without_resistance(name, demand, "posts.uplift_resistance"),
+    })
+}
+
+/// Density of steel (kg/m³).
+const STEEL: f64 = 7850.0;
+
 /// Why the equations alone let no post and no foundation pass.
-const NOT_BY_EQUATIONS: &str =
-    "the net pulls the head of a post down and grains jam at a post, and the equations do not know by how much";
+const NOT_BY_EQUATIONS: &str = "the net hands load to the heads of posts, grains jam at the posts and press on their ropes, and the equations do not know by how much";
 
 fn demand(all: &[Demand], number: usize) -> Demand {
     // What nobody tells is not a number, so that nothing is judged by it.
@@ -115,17 +154,20 @@ fn rope(design: &Design, given: &Posts, number: usize, demands: &Demands) -> Out
     let (demand, rope) = (demand(demands.each(&posts::RETAINING), number), &given.retaining.rope);
     let id = format!("post_{}_retaining_tension", number + 1);
     let name = CheckName::of(&posts::RETAINING, number, id, ROPE_FACTOR);
-    ropes::check(design, rope, name, demand)
+    ropes::check(design, rope, name, demand).only_by_simulation(NOT_BY_EQUATIONS)
 }
 
 fn stroke(design: &Design, given: &Posts, number: usize, demands: &Demands) -> Option<Outcome> {
-    let stroke = given.retaining.dissipators.as_ref()?.stroke;
+    let dissipators = given.retaining.dissipators.as_ref()?;
+    let tension = demand(demands.each(&posts::RETAINING), number);
     let demand = demand(demands.each(&posts::STROKE), number);
     let id = format!("post_{}_retaining_stroke", number + 1);
     let name = CheckName::of(&posts::STROKE, number, id, STROKE_DATA);
-    let stroke = Resistance { characteristic: stroke, factor: 1.0 };
+    let stroke = Resistance { characteristic: dissipators.stroke, factor: 1.0 };
     let outcome = Outcome::at_most(name, demand, stroke, design.limits.dissipator_utilisation);
-    Some(Outcome { kind: Kind::Stroke, ..outcome })
+    let outcome = outcome.only_by_simulation(NOT_BY_EQUATIONS);
+    let growth = growth_of(dissipators, &demand, &tension).unwrap_or(outcome.growth);
+    Some(Outcome { kind: Kind::Stroke, growth, ..outcome })
 }
 
 /// An anchor bears its one rope.
@@ -133,15 +175,29 @@ fn anchor(design: &Design, given: &Posts, number: usize, demands: &Demands) -> O
     let demand = demand(demands.each(&posts::RETAINING), number);
     let title = format!("Load of the anchors of post {}", number + 1);
     let id = format!("post_{}_anchor_load", number + 1);
-    let name = CheckName::new(id, title, crate::quantities::quantity::Unit::Newton, ANCHOR_FACTOR);
+    let name = CheckName::new(id, title, Unit::Newton, ANCHOR_FACTOR);
     let resistance = Resistance { characteristic: given.retaining.anchor_resistance, factor: design.factors.anchor };
-    Outcome::at_most(name, demand, resistance, design.limits.anchor_utilisation)
+    Outcome::at_most(name, demand, resistance, design.limits.anchor_utilisation).only_by_simulation(NOT_BY_EQUATIONS)
+}
+
+/// A dissipator at work pulls its rope and its anchor with its plateau, overstrength included, whatever the design flow shows.
+fn against_plateau(design: &Design, given: &Posts) -> Vec<Outcome> {
+    let Some(dissipators) = &given.retaining.dissipators else { return Vec::new() };
+    let own = Demand { guideline: Some(design.factors.overstrength * dissipators.plateau), ..Demand::default() };
+    let name = |id: &str, title: &str, source| CheckName::new(id, title, Unit::Newton, source);
+    let title = "Retaining ropes against the force of a yielding dissipator";
+    let rope = ropes::check(design, &given.retaining.rope, name("retaining_plateau", title, ROPE_FACTOR), own);
+    let title = "Anchors of retaining ropes against the force of a yielding dissipator";
+    let resistance = Resistance { characteristic: given.retaining.anchor_resistance, factor: design.factors.anchor };
+    let name = name("retaining_anchor_plateau", title, ANCHOR_FACTOR);
+    let anchor = Outcome::at_most(name, own, resistance, design.limits.anchor_utilisation);
+    [rope, anchor].map(|outcome| open_without_overstrength(design, outcome.whatever_the_pressures())).to_vec()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::outcome::CheckVerdict;
+    use crate::checks::outcome::{CheckVerdict, Route};
     use crate::design::read::read_design;
 
     const TEXT: &str = include_str!("../../designs/net_with_posts.yaml");
@@ -151,11 +207,13 @@ mod tests {
         let design = read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
         let demand = Demand { simulation: Some(compression), ..Demand::default() };
         let zero = Demand { simulation: Some(0.0), ..Demand::default() };
+        let uplift = Demand { simulation: Some((-compression).max(0.0)), ..Demand::default() };
         let demands = Demands::default()
             .with(&posts::COMPRESSION, &[demand; 2])
             .with(&posts::MOMENT, &[zero; 2])
+            .with(&posts::UPLIFT, &[uplift; 2])
             .with(&posts::FOOT, &[demand; 2])
-            .with(&posts::RETAINING, &[zero; 2])
+            .with(&posts::RETAINING, &[demand; 2])
             .with(&posts::STROKE, &[zero; 2]);
         check(&design, &demands)
     }
@@ -171,13 +229,39 @@ mod tests {
         let capacity = outcomes[0].capacity.expect("a capacity");
         assert_eq!(verdict(&judged(|text| text, 1.01 * capacity), "post_2_compression"), CheckVerdict::Fail);
         assert_eq!(verdict(&judged(|text| text, f64::NAN), "post_1_compression"), CheckVerdict::Fail);
-        assert_eq!(verdict(&judged(|text| text, -1e3), "post_1_compression"), CheckVerdict::Open);
+        // 1.8 m of 61.2 cm² weigh 0.85 kN: more pull is open until a resistance to it is given.
+        assert!(judged(|text| text, -500.0).iter().all(|outcome| outcome.id != "post_1_uplift"));
+        assert_eq!(verdict(&judged(|text| text, -2e3), "post_1_uplift"), CheckVerdict::Open);
+        let given = |text: String| {
+            text.replace("foot_resistance: 400 kN", "foot_resistance: 400 kN\n      uplift_resistance: 10 kN")
+        };
+        assert_eq!(verdict(&judged(given, -2e3), "post_1_uplift"), CheckVerdict::Pass);
         // A longer post buckles earlier.
         let longer = judged(
             |text| text.replace("height: 2 m", "height: 3.2 m").replace("wall_height: 3 m", "wall_height: 4 m"),
             1e3,
         );
         assert!(longer[0].capacity.expect("a capacity") < capacity);
+    }
+
+    /// 235 kN / 1.5 of a rope, 150 kN / 1.1 of an anchor, and what a dissipator of 80 kN with its overstrength of 1.15 pulls with.
+    #[test]
+    fn ropes_and_anchors_hold_what_they_bear_and_their_dissipators() {
+        let of = |tension: f64| {
+            let outcomes = judged(|text| text, tension);
+            ["post_2_retaining_tension", "post_2_anchor_load"].map(|id| verdict(&outcomes, id))
+        };
+        assert_eq!(of(100e3), [CheckVerdict::Pass, CheckVerdict::Pass]);
+        assert_eq!(of(140e3), [CheckVerdict::Pass, CheckVerdict::Fail]);
+        assert_eq!(of(160e3), [CheckVerdict::Fail, CheckVerdict::Fail]);
+        let plateau = |text: String| text.replace("anchor_resistance: 150 kN", "anchor_resistance: 90 kN");
+        assert_eq!(verdict(&judged(|text| text, 1e3), "retaining_anchor_plateau"), CheckVerdict::Pass);
+        assert_eq!(verdict(&judged(plateau, 1e3), "retaining_anchor_plateau"), CheckVerdict::Fail);
+        // Below its force a dissipator does not yield; with three times the load of 30 kN it does, and all of its stroke goes.
+        let outcomes = judged(|text| text, 30e3);
+        let stroke = outcomes.iter().find(|outcome| outcome.id == "post_1_retaining_stroke").expect("a check");
+        assert_eq!((stroke.verdict, stroke.demand_under(Route::Simulation, 2.0)), (CheckVerdict::Pass, Some(0.0)));
+        assert_eq!(stroke.demand_under(Route::Simulation, 3.0), Some(0.6));
     }
 
     #[test]

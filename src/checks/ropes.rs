@@ -2,7 +2,7 @@
 
 use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
-use crate::design::{BarrierDesign, Design, FlexibleNet, NetRings, Rope};
+use crate::design::{BarrierDesign, Design, FlexibleNet, Level, NetRings, Rope};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{other_ropes, rope_tension};
 use crate::sources::{RING_FACTOR, ROPE_FACTOR};
@@ -16,10 +16,14 @@ pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let name = CheckName::of(&rope_tension::PEAK, index, format!("rope_{}_tension", index + 1), ROPE_FACTOR);
             let level = net.main_ropes.levels.get(index)?;
             let outcome = check(design, &level.rope, name.each_of(level.ropes), *demand).of_rope(index);
-            Some(Outcome { kind: Kind::MainRope, ..outcome })
+            let outcome = Outcome { kind: Kind::MainRope, ..outcome };
+            Some(if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome })
         })
         .collect()
 }
+
+/// Why the equations alone do not judge the rope over posts.
+pub const OVER_POSTS: &str = "the ropes below sag more than the one over the posts, the net hands their load to it, and the equations do not know how much";
 
 pub fn check_net(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return Vec::new() };
@@ -148,14 +152,19 @@ pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
         Unit::Newton,
         ROPE_FACTOR,
     );
-    // Each rope has dissipators of its own: the weakest of those that have some.
-    let free = net.main_ropes.levels.iter().skip(net.ropes_held_by_bed());
-    let holds = |rope: &Rope| {
-        let Resistance { characteristic, factor } = resistance(design, rope);
-        characteristic / factor
+    // Each rope has dissipators of its own: the most loaded of those that have some. Over posts friction on their heads adds to it.
+    let over_heads = net
+        .posts
+        .as_ref()
+        .map_or(1.0, |_| crate::guideline::guideline(design).ropes.last().map_or(f64::NAN, |rope| rope.over_heads));
+    let free = net.main_ropes.levels.iter().enumerate().skip(net.ropes_held_by_bed());
+    let of = |(index, level): (usize, &Level)| {
+        let more = if net.runs_over_posts(index) { over_heads } else { 1.0 };
+        let demand = Demand { guideline: own.guideline.map(|pull| more * pull), ..own };
+        check(design, &level.rope, name.clone(), demand).whatever_the_pressures()
     };
-    let weakest = free.map(|level| &level.rope).min_by(|a, b| holds(a).total_cmp(&holds(b)));
-    weakest.map(|rope| check(design, rope, name, own).whatever_the_pressures()).into_iter().collect()
+    let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(f64::NAN);
+    free.map(of).max_by(|a, b| used(a).total_cmp(&used(b))).into_iter().collect()
 }
 
 #[cfg(test)]

@@ -134,11 +134,9 @@ impl Meeting<'_> {
         !stays
     }
 
-    /// Whether the dissipators of a rope, which yield along a curve, are at its end, which may have less than the largest force.
+    /// Whether the dissipators of a rope are used up: then nothing caps its load.
     fn may_be_used_up(&self, rope: usize) -> bool {
-        let Some(given) = self.guideline.dissipator.as_ref().filter(|given| !given.curve.is_plateau()) else {
-            return false;
-        };
+        let Some(given) = &self.guideline.dissipator else { return false };
         let stroke = |seen: &Observed| seen.each(&dissipator::STROKE).get(rope).copied().unwrap_or(f64::NAN);
         let left = largest(self.governing, &stroke) < USED_UP * given.stroke;
         !left
@@ -175,7 +173,7 @@ impl Meeting<'_> {
         let most = largest(self.governing, &value);
         let within = most <= cap * CAP_TOLERANCE;
         Demand {
-            guideline: self.by_equations(rope),
+            guideline: self.by_equations(rope, at_plateau),
             simulation: capped(self.governing, &value, cap).map(|upper| self.factor * upper + excess),
             characteristic: capped(&self.seen.characteristic, &value, cap).filter(|_| self.is_factored()),
             cap: (within && cap.is_finite() && !self.governing.is_empty())
@@ -189,12 +187,13 @@ impl Meeting<'_> {
     }
 
     /// Tension by the equations, with the overstrength of a dissipator that yields.
-    fn by_equations(&self, rope: usize) -> Option<f64> {
+    fn by_equations(&self, rope: usize, at_its_end: bool) -> Option<f64> {
         let rope = self.loaded(rope)?;
         let weak = rope.weak.map_or(0.0, |weak| weak.tension);
         let tension = larger_or_nan(rope.state.tension, weak);
         let excess = if self.yields(tension) { self.excess() } else { 0.0 };
-        Some(tension + excess)
+        // Between posts, beyond heads that hold it, a rope may be pulled more than at its ends.
+        Some((tension + excess) * if at_its_end { 1.0 } else { rope.over_heads })
     }
 
     /// Loads of posts, with what their dissipators may pull beyond their plateau.

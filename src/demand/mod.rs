@@ -10,6 +10,7 @@ pub use self::meeting::{CAP_TOLERANCE, USED_UP};
 pub use self::value::{Demand, Seen};
 use crate::design::Factors;
 use crate::guideline::Guideline;
+use crate::larger::larger_or_nan;
 use crate::quantities::QUANTITIES;
 use crate::quantities::quantity::{Demanded, Quantity};
 
@@ -34,10 +35,22 @@ impl Demands {
     pub fn meet(guideline: &Guideline, seen: &Seen, factors: &Factors) -> Self {
         let (governing, factor) = seen.governing(factors.load);
         let meeting = Meeting { guideline, factors, seen, governing, factor };
-        let weak = (!seen.weak.is_empty()).then(|| Meeting { governing: &seen.weak, factor: 1.0, ..meeting });
+        let weakest = guideline.with_weakest_dissipators();
+        let weak = (!seen.weak.is_empty()).then(|| Meeting {
+            guideline: &weakest,
+            factors,
+            seen,
+            governing: &seen.weak,
+            factor: 1.0,
+        });
         let demanded = QUANTITIES.iter().filter(|quantity| quantity.demanded.is_some());
         let demands = |quantity: &Quantity| {
             let mut demands = meeting.demands(quantity);
+            if !matches!(quantity.demanded, Some(Demanded::Kept)) {
+                // The flow as it is may load a part more than the heavier one, which comes another way.
+                let both = |demand: &Demand| demand.simulation.into_iter().chain(demand.characteristic);
+                demands.iter_mut().for_each(|demand| demand.simulation = both(demand).reduce(larger_or_nan));
+            }
             if let Some(weak) = &weak {
                 let least = matches!(quantity.demanded, Some(Demanded::Kept));
                 for (demand, other) in demands.iter_mut().zip(weak.demands(quantity)) {

@@ -56,6 +56,15 @@ impl AnchorResistance {
         }
     }
 
+    /// The key that gives it.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Characteristic(_) => RESISTANCES[0],
+            Self::ProofLoad(_) => RESISTANCES[1],
+            Self::Design(_) => RESISTANCES[2],
+        }
+    }
+
     /// Partial factor on it, where that of anchors is given.
     pub fn factor(&self, anchor: f64) -> f64 {
         match self {

@@ -2,7 +2,7 @@
 
 use crate::yield_curve::YieldCurve;
 
-/// Energy dissipators, one at each end of every main rope, also of those that run side by side.
+/// Energy dissipators at one end of a rope; of ropes that run side by side, of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DissipatorDesign {
     /// Plateau force (N), or the largest of the curve.

@@ -17,7 +17,7 @@ const RULES: &[fn(&Entries, &str) -> Option<Problem>] = &[
     dissipators_are_stiff,
 ];
 
-/// What is wrong with the dissipators: the first of each place.
+/// All that is wrong with the dissipators.
 pub fn are_sound(e: &Entries) -> Vec<Problem> {
     PLACES.iter().flat_map(|place| RULES.iter().filter_map(|rule| rule(e, place))).collect()
 }

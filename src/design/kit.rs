@@ -1,12 +1,11 @@
 //! A kit: a file with keys of `barrier`, of which a design takes over what it does not say itself.
 //!
-//! What the design says overrides the kit key by key; a list is taken as a whole, and of keys of which one tells the same thing in different
-//! ways the design's stands alone. Comments of the kit go along as remarks, so that every number keeps its origin.
+//! What the design says overrides the kit key by key. A list is taken as a whole. Where the same thing can be given in different ways, the way of
+//! the design stands alone ([`WAYS`]). Comments of the kit go along as remarks, so that every number keeps its origin.
 
 use crate::design::attached::Open;
 use crate::design::document::{Document, Node};
 use crate::design::entries::{Entries, Origin};
-use crate::design::schema::EITHER;
 use crate::problem::Problem;
 
 const BARRIER: &str = "barrier";
@@ -14,6 +13,23 @@ const KEY: &str = "kit";
 const PATH: &str = "barrier.kit";
 /// What a file has to be, as an error tells it.
 const KEYS: &str = "keys of a barrier: flexible_net or rigid_wall, with what stands below them";
+/// Different ways to give the same thing, each by its keys, the first of which says that it is that way.
+const WAYS: &[&[&[&str]]] = &[
+    &[&["rigid_wall"], &["flexible_net"]],
+    &[&["mesh_opening", "net_rope", "mesh_angle"], &["net"]],
+    &[&["count"], &["heights"], &["levels"]],
+    &[&["rope"], &["diameter", "modulus", "breaking_load"]],
+    &[&["plateau_force", "stroke"], &["curve"]],
+    &[&["after_unloading"], &["under_load"]],
+    &[&["resistance"], &["proof_load"], &["design_resistance"]],
+    &[&["bed_resistance"], &["bed_bolt_resistance"]],
+    &[
+        &["resistance", "bending_resistance"],
+        &["radius_of_gyration", "section_modulus", "yield_strength", "buckling_curve"],
+    ],
+    &[&["fixed"], &["opening"]],
+];
+
 /// Keys that name files.
 const FILES: [&str; 2] = ["file", "rope_table"];
 
@@ -41,6 +57,11 @@ pub fn take(root: &mut Node, open: Open, problems: &mut Vec<Problem>) -> Option<
         let document = Document::parse(&bytes, KEYS).map_err(|problem| {
             Problem::new(PATH, format!("`{name}`, in which there is {}", problem.found), problem.allowed)
         })?;
+        let names_a_kit = matches!(&document.root, Node::Map(map) if map.iter().any(|(name, _)| name == KEY));
+        if names_a_kit {
+            return Err(Problem::new(PATH, format!("`{name}`, which names a kit itself"), wanted)
+                .hint("copy the keys of that kit into this one"));
+        }
         match names_a_file(&document.root) {
             Some(key) => Err(Problem::new(PATH, format!("`{name}`, which names a file under `{key}`"), wanted)
                 .hint("a kit says all itself: write the points of a curve and the ropes out")),
@@ -79,19 +100,20 @@ fn names_a_file(node: &Node) -> Option<String> {
 fn merge(own: &mut Vec<(String, Node)>, other: &Node) {
     let Node::Map(other) = other else { return };
     let told: Vec<String> = own.iter().map(|(name, _)| name.clone()).collect();
-    // Of several ways to tell one thing the design's own stands.
-    let stands_for = |name: &String| {
-        let ways = EITHER.iter().filter(|either| either.keys.contains(&name.as_str()));
-        let both = |either: &&crate::design::schema::Either| {
-            either.keys.iter().any(|way| way != name && told.iter().any(|own| own == way))
+    // Whether the design gives in another way what this key of the kit gives.
+    let is_given_otherwise = |name: &String| {
+        let otherwise = |ways: &&&[&[&str]]| {
+            let of_this = ways.iter().position(|way| way.contains(&name.as_str()));
+            let of_design = ways.iter().position(|way| told.iter().any(|own| own == way[0]));
+            of_this.zip(of_design).is_some_and(|(this, design)| this != design)
         };
-        ways.clone().any(|either| both(&either))
+        WAYS.iter().any(|ways| otherwise(&ways))
     };
     for (name, node) in other {
         match own.iter_mut().find(|(known, _)| known == name) {
             Some((_, Node::Map(inner))) => merge(inner, node),
             Some(_) => {}
-            None if stands_for(name) => {}
+            None if is_given_otherwise(name) => {}
             None => own.push((name.clone(), node.clone())),
         }
     }

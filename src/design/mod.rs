@@ -135,6 +135,14 @@ impl Channel {
         datum - right
     }
 
+    /// Place of the bed at a distance along it from the barrier, downstream positive: down the bed at the barrier, and out of it (m).
+    pub fn bed(&self, along: f64) -> [f64; 2] {
+        let Some(profile) = &self.profile else { return [along, 0.0] };
+        let there = profile.at(along);
+        let (sine, cosine) = libm::sincos(self.slope);
+        [there.x * cosine - there.z * sine, there.x * sine + there.z * cosine]
+    }
+
     /// Height of the ground at the barrier, normal to the bed (m).
     pub fn ground_at(&self, across: f64) -> f64 {
         self.survey.as_ref().map_or(0.0, |survey| survey.ground(across))
@@ -314,6 +322,11 @@ impl FlexibleNet {
             posts.retaining.dissipators = Some(weak);
         }
         Some(net)
+    }
+
+    /// Whether a main rope, counted from 0 at the bottom, runs over the heads of posts.
+    pub fn runs_over_posts(&self, rope: usize) -> bool {
+        self.posts.is_some() && rope + 1 == self.main_ropes.levels.len()
     }
 
     /// Number of main ropes, from the bottom, that the bed holds along their length.

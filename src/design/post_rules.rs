@@ -42,14 +42,20 @@ fn ends_of_the_top(e: &Entries) -> Option<[f64; 2]> {
     }
 }
 
-/// Each with room for the rope beside it, and high enough to be one.
+/// Posts stand between the banks, two ring spacings or more from each other and from the banks.
 pub fn posts_stand_between_the_banks(e: &Entries) -> Option<Problem> {
     let (places, [left, right]) = (e.numbers(&post_key("at"))?, ends_of_the_top(e)?);
     let room = 2.0 * e.number(&at("main_ropes.rings.spacing"))?;
     let stops: Vec<f64> = [left].into_iter().chain(places.iter().copied()).chain([right]).collect();
-    if let Some(outside) = places.iter().find(|place| **place <= left || **place >= right) {
+    let [first, last] = [left + room, right - room];
+    if let Some(outside) = places.iter().find(|place| **place < first || **place > last) {
         let found = format!("a post at {}", length(*outside));
-        let allowed = format!("between the ends of the uppermost rope, {} and {}", length(left), length(right));
+        let allowed = format!(
+            "{} to {}: two ring spacings, {}, from the ends of the uppermost rope",
+            length(first),
+            length(last),
+            length(room)
+        );
         let hint = match section(e)? {
             Section::Rectangle { .. } => {
                 "places count from the middle of the channel, to the right looking downstream; those to the left are negative"
@@ -82,7 +88,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// A rope from a head to its anchor does not cut through a bank or a steeper reach of the bed.
 pub fn retaining_ropes_run_clear_of_the_ground(e: &Entries) -> Option<Problem> {
-    let (places, survey, top) = (e.numbers(&post_key("at"))?, survey(e)?, height_of_barrier(e)?);
+    let (places, survey, top) = (e.numbers(&post_key("at"))?, survey(e), height_of_barrier(e)?);
     let slope = e.number("channel.slope")?;
     let rope = |name: &str| e.number(&at(&format!("{RETAINING}.{name}")));
     let (set_back, spread) = (rope("set_back")?, rope("spread")?);
@@ -90,7 +96,8 @@ pub fn retaining_ropes_run_clear_of_the_ground(e: &Entries) -> Option<Problem> {
     let profile = profile(e);
     // Normal to the bed at the barrier.
     let ground = |along: f64, right: f64| {
-        let own = survey.ground(survey.surveyed(0.0) - right);
+        // Level between side walls.
+        let own = survey.as_ref().map_or(0.0, |survey| survey.ground(survey.surveyed(0.0) - right));
         let Some(profile) = &profile else { return own };
         let bed = profile.at(along);
         let (sine, cosine) = libm::sincos(slope);
@@ -138,6 +145,23 @@ pub fn posts_have_one_strength(e: &Entries) -> Option<Problem> {
         Problem::new(at("posts"), found, allowed)
             .hint("without either the posts are simulated, and their check stays open"),
     )
+}
+
+/// No section about its weaker axis has a larger radius of gyration than half its width, and none twice as deep as wide a larger W/A than its
+/// width.
+pub fn posts_have_a_possible_section(e: &Entries) -> Option<Problem> {
+    let value = |name: &str| e.number(&post_key(name));
+    let (width, area) = (value("width")?, value("area")?);
+    let hint = "look at the units of width, area and of the properties of the section";
+    if let Some(radius) = value(OF_A_SECTION[0]).filter(|radius| *radius > 0.5 * width) {
+        let found = format!("{} in a post {} wide", length(radius), length(width));
+        let allowed = format!("at most half the width, {}", length(0.5 * width));
+        return Some(Problem::new(post_key(OF_A_SECTION[0]), found, allowed).hint(hint));
+    }
+    let modulus = value(OF_A_SECTION[1]).filter(|modulus| *modulus > area * width)?;
+    let show = |value: f64| format!("{:.0} cm3", value * 1e6);
+    let allowed = format!("at most area times width, {}", show(area * width));
+    Some(Problem::new(post_key(OF_A_SECTION[1]), show(modulus), allowed).hint(hint))
 }
 
 pub fn posts_belong_to_models_of_ropes(e: &Entries) -> Option<Problem> {

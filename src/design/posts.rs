@@ -13,15 +13,17 @@ pub struct Posts {
     /// Where they stand across the channel as the design lists them, to the right looking downstream (m): in the coordinates of a surveyed
     /// section, or from the middle between side walls.
     pub at: Vec<f64>,
-    /// Across the channel, which the flow meets (m).
+    /// Width that faces the flow (m).
     pub width: f64,
-    /// Of steel (m²).
+    /// Cross-section of steel (m²).
     pub area: f64,
-    /// Pa
+    /// Young's modulus (Pa).
     pub modulus: f64,
     pub strength: PostStrength,
     /// Of the foundation of one post to the force of its foot (N), if known.
     pub foot_resistance: Option<f64>,
+    /// Of a post and its foundation to being pulled up (N), if known.
+    pub uplift_resistance: Option<f64>,
     /// Friction coefficient between a rope and the head of a post.
     pub head_friction: f64,
     pub retaining: RetainingRopes,
@@ -40,12 +42,12 @@ pub enum PostStrength {
     Section(SteelSection),
 }
 
-/// A steel section about its weaker axis, hinged at both ends.
+/// A steel section, hinged at both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteelSection {
-    /// √(I/A) (m)
+    /// √(I/A) about the weaker axis (m).
     pub radius_of_gyration: f64,
-    /// W (m³)
+    /// Elastic section modulus W against bending down the channel (m³).
     pub section_modulus: f64,
     /// Pa
     pub yield_strength: f64,
@@ -57,9 +59,9 @@ pub struct SteelSection {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RetainingRopes {
     pub rope: Rope,
-    /// Of their anchors from the foot of the post, upstream along the bed (m).
+    /// Distance of the anchors upstream of the foot, along the bed (m).
     pub set_back: f64,
-    /// Of each of the two anchors to its side of the post (m); with 0 there is one rope.
+    /// Distance of each of the two anchors to its side of the post (m); with 0 there is one rope.
     pub spread: f64,
     pub dissipators: Option<DissipatorDesign>,
     /// Characteristic resistance of one anchor (N).
@@ -104,6 +106,7 @@ pub fn posts(e: &Entries) -> Option<Posts> {
         modulus: value("modulus")?,
         strength: strength(e),
         foot_resistance: value("foot_resistance"),
+        uplift_resistance: value("uplift_resistance"),
         head_friction: libm::tan(value("head_friction").or(ring_friction)?),
         retaining: RetainingRopes {
             rope: rope(e, &[RETAINING])?,

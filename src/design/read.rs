@@ -54,6 +54,11 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -
     let mut document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
     let kit = kit::take(&mut document.root, open, &mut problems);
+    if let Some(mut broken) = problems.pop() {
+        // What it should have said would be missing everywhere.
+        broken.position = document.position(&broken.path);
+        return Err(refuse(vec![broken]));
+    }
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
     if let Some(kit) = &kit {
         kit.tell_origins(&mut entries, |document, bytes, path| {

@@ -116,6 +116,7 @@ pub const RULES: &[Rule] = &[
     post_rules::posts_stand_on_low_ground,
     post_rules::retaining_ropes_run_clear_of_the_ground,
     post_rules::posts_have_one_strength,
+    post_rules::posts_have_a_possible_section,
     post_rules::posts_belong_to_models_of_ropes,
 ];
 

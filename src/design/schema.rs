@@ -572,6 +572,11 @@ const POSTS: &[Key] = &[
         "characteristic resistance of the foundation of a post to the force of its foot",
     ),
     Key::optional(
+        "uplift_resistance",
+        quantity(D::Force, 1.0, 1e9),
+        "characteristic resistance of a post and its foundation to being pulled up; asked for where that is more than the weight of the post",
+    ),
+    Key::optional(
         "head_friction",
         FRICTION,
         "friction angle between a rope and the head of a post; by default that of the rings on the ropes",

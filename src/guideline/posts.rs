@@ -46,16 +46,16 @@ fn net_of(design: &Design) -> Option<&FlexibleNet> {
 
 /// How the dissipators of the ropes that retain posts yield, if there are any.
 pub fn retaining(design: &Design) -> Option<Yielding> {
-    let given = posts_of(design)?.retaining.dissipators.as_ref()?;
-    Some(Yielding { largest: given.plateau, stroke: given.stroke, curve: given.curve.clone() })
+    posts_of(design)?.retaining.dissipators.as_ref().map(Yielding::from)
 }
 
-/// Where a post stands and is held: its foot on the ground at the barrier, its anchors on the bed as it falls there.
+/// Where a post stands and is held: its foot on the ground at the barrier, its anchors on the section of the barrier over the bed upstream.
 pub fn input(design: &Design, posts: &Posts, right: f64, top: f64) -> PostInput {
     let (channel, lean) = (&design.channel, lean(design));
     let across = channel.across(right);
     let ground = channel.ground_at(across);
-    let anchor = |side: f64| [-posts.retaining.set_back, -side, channel.ground_at(across - side) - ground];
+    let [along, rises] = channel.bed(-posts.retaining.set_back);
+    let anchor = |side: f64| [along, -side, rises + channel.ground_at(across - side) - ground];
     PostInput {
         length: (top - ground) / libm::cos(lean),
         lean,
@@ -75,14 +75,16 @@ pub fn loads(design: &Design, rope: Option<&RopeLoad>, stages: &[LoadCase], top:
         // The stops go from the right to the left, the posts from the left to the right.
         let at = stops.len() - 2 - number;
         let bays = [stops[at] - stops[at - 1], stops[at + 1] - stops[at]];
-        let from_rope = 0.5 * rope.load * (bays[0] + bays[1]);
+        // A point load may hit the head itself.
+        let spread = rope.load - 2.0 * rope.point / rope.span;
+        let from_rope = 0.5 * spread * (bays[0] + bays[1]) + rope.point;
         let own = worst_beam(design, posts, &post, design.channel.ground_at(across), stages);
-        let along = friction(rope, bays, posts.head_friction);
+        let along = design.factors.overstrength * rope.over_heads * friction(rope, bays, posts.head_friction);
         let head = post.under(from_rope + own.head, along);
-        let weakest = posts.retaining.dissipators.as_ref().and_then(|given| given.lower_bound).unwrap_or(1.0);
-        let holds = retaining.as_ref().map_or(f64::INFINITY, |given| weakest * given.least());
+        let least_share = posts.retaining.dissipators.as_ref().and_then(|given| given.lower_bound).unwrap_or(1.0);
+        let yield_force = retaining.as_ref().map_or(f64::INFINITY, |given| least_share * given.least());
         // Asked so that a tension that is not a number uses it up.
-        let below = head.tension <= holds;
+        let below = head.tension <= yield_force;
         let stroke = retaining.as_ref().filter(|_| !below).map_or(0.0, |given| given.stroke);
         let foot = libm::hypot(head.compression, own.foot);
         PostLoad { length: post.length, from_rope, own, along, head, foot, stroke }
@@ -94,7 +96,16 @@ pub fn loads(design: &Design, rope: Option<&RopeLoad>, stages: &[LoadCase], top:
 fn worst_beam(design: &Design, posts: &Posts, post: &PostInput, ground: f64, stages: &[LoadCase]) -> BeamState {
     let upright = libm::cos(post.lean);
     let of = |case: &LoadCase| {
-        beam(post.length, |place| design.factors.load * posts.width * case.diagram.at(ground + place * upright))
+        let pressed =
+            beam(post.length, |place| design.factors.load * posts.width * case.diagram.at(ground + place * upright));
+        // What hits at one place may hit the post.
+        let hit = case.point.map_or(BeamState::default(), |point| {
+            let share = ((point.height - ground) / (post.length * upright)).clamp(0.0, 1.0);
+            let force = design.factors.load * point.force / upright;
+            let moment = force * share * (1.0 - share) * post.length;
+            BeamState { head: force * share, foot: force * (1.0 - share), moment }
+        });
+        BeamState { head: pressed.head + hit.head, foot: pressed.foot + hit.foot, moment: pressed.moment + hit.moment }
     };
     stages.iter().map(of).fold(BeamState::default(), |most, state| BeamState {
         head: larger_or_nan(most.head, state.head),

@@ -26,6 +26,9 @@ pub struct RopeLoad {
     pub state: RopeState,
     /// The same where the dissipators pull with their least force, if that is known.
     pub weak: Option<RopeState>,
+    /// Largest tension of an inner span over that at the ends, where friction on the heads of posts holds the rope: e^(μ Σθ) over the heads that
+    /// lie between, from the nearer end.
+    pub over_heads: f64,
     /// What each anchor takes along the rope's span and down the channel (N).
     pub anchor: [f64; 2],
 }

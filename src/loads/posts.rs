@@ -71,7 +71,7 @@ impl PostInput {
         if held { state } else { HeadState { tension: f64::NAN, compression: f64::NAN } }
     }
 
-    /// Where what pulls along the rope is more than slackens the other rope, no more of it can act.
+    /// The pull along the rope is limited to what makes one of the retaining ropes go slack.
     fn by_two_ropes(&self, load: f64, along: f64, anchors: [&[f64; 3]; 2]) -> HeadState {
         let [one, other] = anchors.map(|anchor| self.direction(anchor));
         let solve = |load: f64, along: f64| {
@@ -130,7 +130,7 @@ pub struct Column {
     pub modulus: f64,
     /// √(I/A) about the weaker axis.
     pub radius_of_gyration: f64,
-    /// W (m³)
+    /// Elastic section modulus W in the direction of bending (m³).
     pub section_modulus: f64,
     pub yield_strength: f64,
     /// α of its buckling curve.

@@ -147,10 +147,15 @@ impl RopeInput {
         self.length() * (1.0 + tension / self.axial_stiffness) + self.behind * tension / self.axial_stiffness
     }
 
-    /// Length of the arcs of all spans together, with this sag of the longest (m).
+    /// Length of the arcs of all spans together, with this sag of the longest, and by how much the rope beyond them is longer than straight across
+    /// because it goes on as steeply as the longest span ends (m).
     pub fn arcs(&self, sag: f64) -> f64 {
         let other = |span: &f64| arc(*span, sag * (span / self.span).powi(2));
-        arc(self.span, sag) + self.others.iter().map(other).sum::<f64>()
+        let aslant = match self.behind > 0.0 {
+            true => self.behind * (libm::hypot(1.0, 4.0 * sag / self.span) - 1.0),
+            false => 0.0,
+        };
+        arc(self.span, sag) + self.others.iter().map(other).sum::<f64>() + aslant
     }
 }
 

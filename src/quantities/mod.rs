@@ -87,6 +87,7 @@ pub const QUANTITIES: &[&Quantity] = &[
     &boulder::FORCE,
     &boulder::NET,
     &posts::COMPRESSION,
+    &posts::UPLIFT,
     &posts::MOMENT,
     &posts::FOOT,
     &posts::FOOT_ALONG,

@@ -14,6 +14,14 @@ pub const COMPRESSION: Quantity =
     .told(Told::WhereLoaded)
     .demanded(Demanded::LoadOfPost(|post| post.head.compression, OverPlateau::Grows));
 
+/// Largest pull on each post.
+pub const UPLIFT: Quantity = Quantity::new("post_uplift", "Pull on post", Newton, Of::EachPost, |run| {
+    let rows = run.histories.barrier.rows(&of_posts::COMPRESSION);
+    rows.iter().map(|row| row.iter().map(|compression| -compression).fold(0.0, dem::larger_or_nan)).collect()
+})
+.json("post_uplift_peak_n")
+.demanded(Demanded::LoadOfPost(|post| -post.head.compression, OverPlateau::Grows));
+
 /// Largest moment by which what presses on each post bends it.
 pub const MOMENT: Quantity = Quantity::new("post_moment", "Bending moment of post", NewtonMetre, Of::EachPost, |run| {
     run.peaks(&of_posts::MOMENT)

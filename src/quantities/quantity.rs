@@ -127,7 +127,7 @@ pub enum OverPlateau {
 pub struct Quantity {
     /// By which recordings and the spreads of `result.json` know it.
     pub id: &'static str,
-    /// As a table names it; of ropes a number follows.
+    /// As a table names it; of ropes, segments, posts and anchors a number follows.
     pub title: &'static str,
     pub unit: Unit,
     pub of: Of,

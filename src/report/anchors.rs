@@ -2,6 +2,7 @@
 
 use dem::Vec3;
 
+use crate::checks::outcome::Outcome;
 use crate::design::{AnchorDesign, AnchorOf, AnchorResistance, Bank, BarrierDesign, FlexibleNet};
 use crate::guideline::height_over_bed;
 use crate::guideline::posts::input;
@@ -24,28 +25,28 @@ pub fn table(run: &Run) -> Option<Table> {
             (number + 1).to_string(),
             name(net, anchor),
             resistance(net, anchor),
-            by_equations(run, anchor),
+            by_equations(check(run, anchor)),
             load.map_or("–".into(), |load| parts(&load)),
             seen.map_or("–".into(), |seen| with_unit(value(seen, &EACH, number), "N")),
             load.map_or("–".into(), |load| angle(run, net, anchor, &load)),
-            utilisation(run, net, anchor),
+            utilisation(net, anchor, check(run, anchor)),
         ]
     };
     let bundled = net.main_ropes.levels.iter().any(|level| level.ropes > 1);
     Some(Table {
         columns: vec![
             "Anchor",
-            "Holds",
+            "Location",
             "Resistance",
             "Load by the equations",
-            "Load in the simulation: down the valley, to the left, up",
-            "Size",
+            "Load in the simulation: downstream, left, up",
+            "Magnitude",
             "Angle to its axis",
-            "Used",
+            "Utilisation",
         ],
         rows: anchors.iter().enumerate().map(row).collect(),
         note: format!(
-            "Ground anchors, looking downstream. Loads by the equations carry the partial factor on loads. The vector is that of the first run of the flow without partial factors, at the moment when the load of that anchor is largest, by the level: with a minus it acts upstream, to the right or downwards. The angle is between that load and the axis of the anchor, which is the line of its unloaded rope where neither plunge nor bearing is given. The share used is that of the check.{}",
+            "Ground anchors, looking downstream. Loads by the equations are those of the checks, with partial factors and overstrength. The vector is that of the first run of the flow without partial factors, at the moment when the load of that anchor is largest, in horizontal and vertical components; with a minus it acts upstream, to the right or downwards. The angle is between that load and the axis of the anchor, which is the line of its unloaded rope where no plunge is given; it is told, not checked.{}",
             if bundled { " Where ropes run side by side each has such an anchor at either end." } else { "" }
         ),
     })
@@ -97,12 +98,8 @@ fn resistance(net: &FlexibleNet, anchor: &AnchorOf) -> String {
     format!("{}, {how}", with_unit(value, "N"))
 }
 
-fn by_equations(run: &Run, anchor: &AnchorOf) -> String {
-    let load = match anchor {
-        AnchorOf::Main { rope, .. } => run.guideline.ropes.get(*rope).map(|rope| rope.state.tension),
-        AnchorOf::Retaining { post, .. } => run.guideline.posts.get(*post).map(|post| post.head.tension),
-    };
-    load.map_or("–".into(), |load| with_unit(load, "N"))
+fn by_equations(outcome: Option<&Outcome>) -> String {
+    outcome.and_then(|outcome| outcome.demand.guideline).map_or("–".into(), |load| with_unit(load, "N"))
 }
 
 /// From the ground outwards, by the level.
@@ -139,15 +136,19 @@ fn angle(run: &Run, net: &FlexibleNet, anchor: &AnchorOf, load: &Vec3) -> String
     format!("{:.0}°", libm::acos(cosine).to_degrees())
 }
 
-fn utilisation(run: &Run, net: &FlexibleNet, anchor: &AnchorOf) -> String {
+/// The check of an anchor.
+fn check<'a>(run: &'a Run, anchor: &AnchorOf) -> Option<&'a Outcome> {
     let ids = match anchor {
         AnchorOf::Main { rope, bank } => {
             vec![format!("anchor_{}_load", rope + 1), format!("anchor_{}_{}_load", rope + 1, bank.word())]
         }
         AnchorOf::Retaining { post, .. } => vec![format!("post_{}_anchor_load", post + 1)],
     };
-    let of = run.outcomes.iter().find(|outcome| ids.contains(&outcome.id));
+    run.outcomes.iter().find(|outcome| ids.contains(&outcome.id))
+}
+
+fn utilisation(net: &FlexibleNet, anchor: &AnchorOf, outcome: Option<&Outcome>) -> String {
     let lateral = net.dissipators.is_none() && matches!(anchor, AnchorOf::Main { .. });
     let beside = if lateral { ", with a lateral rope" } else { "" };
-    of.map_or("–".into(), |outcome| format!("{} ({}){beside}", used(outcome), outcome.verdict.word()))
+    outcome.map_or("–".into(), |outcome| format!("{} ({}){beside}", used(outcome), outcome.verdict.word()))
 }

@@ -7,7 +7,7 @@ use crate::design::{BarrierDesign, FlexibleNet, PostStrength, Posts};
 use crate::guideline::PostLoad;
 use crate::pipeline::Run;
 use crate::quantities::observed::Observed;
-use crate::quantities::posts::{COMPRESSION, FOOT_ACROSS, FOOT_ALONG, FOOT_UP, MOMENT, RETAINING, STROKE};
+use crate::quantities::posts::{FOOT_ACROSS, FOOT_ALONG, FOOT_UP, MOMENT};
 use crate::quantities::quantity::Quantity;
 use crate::report::anchors::parts;
 use crate::report::numbers::with_unit;
@@ -29,20 +29,28 @@ pub fn table(run: &Run) -> Option<Table> {
             let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
             seen.map(value)
         };
-        let both = |equations: f64, quantity: &Quantity, unit: &str| {
-            let simulated = value(quantity).map_or("–".to_string(), |value| with_unit(value, unit));
-            format!("{} / {simulated}", with_unit(equations, unit))
+        let judged = |id: &str| {
+            let id = format!("post_{}_{id}", number + 1);
+            let Some(outcome) = run.outcomes.iter().find(|outcome| outcome.id == id) else { return "–".to_string() };
+            let show = |value: Option<f64>| value.map_or("–".to_string(), |it| with_unit(it, outcome.unit.symbol()));
+            format!(
+                "{} / {} of {}",
+                show(outcome.demand.guideline),
+                show(outcome.demand.simulation),
+                show(outcome.capacity)
+            )
         };
+        let moment = value(&MOMENT).map_or("–".to_string(), |value| with_unit(value, "N m"));
         let foot = [&FOOT_ALONG, &FOOT_ACROSS, &FOOT_UP].map(value);
         let foot = foot[0].zip(foot[1]).zip(foot[2]).map(|((x, y), z)| parts(&Vec3::new(x, y, z)));
         vec![
             (number + 1).to_string(),
             format!("{:.2} m, {:.2} m long", posts.at[number], load.length),
-            both(load.head.tension, &RETAINING, "N"),
-            both(load.stroke, &STROKE, "m"),
-            both(load.head.compression, &COMPRESSION, "N"),
-            both(load.own.moment, &MOMENT, "N m"),
-            with_unit(load.foot, "N"),
+            judged("retaining_tension"),
+            judged("retaining_stroke"),
+            judged("compression"),
+            format!("{} / {moment}", with_unit(load.own.moment, "N m")),
+            judged("foot"),
             foot.unwrap_or("–".into()),
         ]
     };
@@ -53,13 +61,13 @@ pub fn table(run: &Run) -> Option<Table> {
             "Tension of a retaining rope",
             "Stroke of its dissipator",
             "Compression",
-            "Moment of what presses on it",
-            "Force on its foundation, by the equations",
-            "The same in the simulation: down the valley, to the left, up",
+            "Bending moment from direct pressure",
+            "Force on the foundation",
+            "The same as a vector: downstream, left, up",
         ],
         rows: run.guideline.posts.iter().enumerate().map(row).collect(),
         note: format!(
-            "By the equations with the partial factor on loads / in the first run of the flow without partial factors. Places count {}, to the right looking downstream.",
+            "By the equations / by the simulation, of the capacity, as in the checks, with partial factors; compression counts with its bending. Moment and vector are those of the first run of the flow without partial factors; the vector acts on the ground. Places count {}, to the right looking downstream.",
             if run.file.design.channel.survey.is_some() {
                 "like the points of the section"
             } else {

@@ -298,7 +298,7 @@ fn retained(run: &Run) -> Option<Chart> {
         anchors: [ends[0] - behind[0], ends[1] + behind[1]],
         posts: posts.at.iter().map(of).collect(),
     };
-    let note = "To scale, upstream at the top; squares: heads of posts, circles: heads of ground anchors. The ground is taken as at the barrier, on the slope of the bed there.";
+    let note = "To scale, upstream at the top; squares: heads of posts, circles: heads of ground anchors. The ground has the section of the barrier over the bed upstream.";
     Some(Chart::of("Posts and retaining ropes from above", posts_plan(&drawn), note))
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use crate::design::{Arrival, BarrierDesign, BarrierModel, Bottom, Design};
+use crate::design::{Arrival, Bank, BarrierDesign, BarrierModel, Bottom, Design};
 use crate::fidelity::{needed_pieces, net_pieces};
 use crate::pipeline::Run;
 use crate::report::numbers::with_unit;
@@ -77,6 +77,8 @@ fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
     let net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let extended = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.side_extension.is_some());
     let ringed = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.rings.is_some());
+    let set_back = matches!(&design.barrier, BarrierDesign::FlexibleNet(net)
+        if (0..net.main_ropes.levels.len()).any(|rope| [Bank::Right, Bank::Left].iter().any(|bank| net.anchor_designs.of(rope, *bank).set_back > 0.0)));
     let posted = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.posts.is_some());
     let bundled = matches!(&design.barrier, BarrierDesign::FlexibleNet(net)
         if net.main_ropes.levels.iter().any(|level| level.ropes > 1));
@@ -102,14 +104,19 @@ fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
             UNSAFE,
         ),
         (
+            set_back,
+            "Anchors that are set back lie in the line of their ropes, in the bank; the rope is taken as free to stretch and to turn between them and the edge of the net. How it is led through the ground there is not looked at.",
+            EITHER,
+        ),
+        (
             posted,
             "Posts are straight and stand on hinged feet that do not move. The uppermost rope runs over their heads; the net and all other ropes hang downstream of the posts, clear of them: a net that leans on a post is not modelled. Buckling, and bending by what presses on the post itself, are checked, not simulated.",
             EITHER,
         ),
         (
             posted,
-            "By the equations the uppermost rope slides over the heads without friction, under the load of its worst span in all of them; friction on a head counts for the post alone, and the load that a yielding retaining rope hands back to the rope is left out: its dissipators are taken as used up.",
-            SAFE,
+            "By the equations the uppermost rope slides over the heads without friction, under the load of its worst span in all of them; its tension between posts is then raised by what friction on the heads can hold, and so is its pull on a head. The load that a yielding retaining rope hands back to the rope is left out: its dissipators are taken as used up. What ropes that sag more hand to the rope over the posts is left out, so that it, posts and their ropes pass with a simulation alone.",
+            EITHER,
         ),
         (
             extended && simulated,
@@ -291,7 +298,10 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
     let loads = &design.loads;
     let ringed = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.rings.is_some());
     let list = [
-        (true, "scour, abutments and foundations"),
+        (
+            true,
+            "scour, abutments, and the ground under foundations (a post's foundation is held against the resistance that is given, no more)",
+        ),
         (wall, "sliding, overturning and bearing of the wall (rigid_wall.stability would have them checked)"),
         (!net, "bending and shear of the wall itself; the segments' pressures are told for that"),
         (true, "corrosion, abrasion and maintenance"),

@@ -57,7 +57,9 @@ pub fn cross_section(drawn: &CrossSection) -> String {
     let top = drawn.outline.iter().map(|point| point[1]).fold(0.0, f64::max);
     let highest_ground = drawn.ground.iter().map(|point| point[1]).fold(top, f64::max).min(1.4 * top);
     let visible: Vec<[f64; 2]> = cut(&drawn.ground, highest_ground);
-    let (left, right) = (visible[0][0], visible[visible.len() - 1][0]);
+    let anchors = || drawn.members.iter().flat_map(|member| heads(member).into_iter().map(|(place, ..)| place));
+    let left = anchors().fold(visible[0][0], f64::min);
+    let right = anchors().fold(visible[visible.len() - 1][0], f64::max);
     let longest = drawn.members.iter().map(|member| member.label.chars().count()).max().unwrap_or(0);
     let labels_take = LABELS.max(LEADER + LETTER * longest as f64);
     let scale = (WIDTH - 2.0 * MARGIN - labels_take) / (right - left);

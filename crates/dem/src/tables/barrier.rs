@@ -67,7 +67,7 @@ pub struct Barrier {
 }
 
 impl Barrier {
-    /// All that pulls, in the order of [`NetForces::strand_tensions`](crate::net::NetForces::strand_tensions). A new element is listed here.
+    /// All that pulls or pushes along a line, in the order of [`NetForces::strand_tensions`](crate::net::NetForces::strand_tensions). A new element is listed here.
     pub fn strands(&self) -> impl Iterator<Item = Strand> {
         let segments = self.segments.iter().map(Segment::strand);
         segments
@@ -89,7 +89,7 @@ impl Barrier {
         }
     }
 
-    /// All springs between two nodes that go slack, in a fixed order.
+    /// All springs between two nodes, in a fixed order: ropes and rings go slack, posts do not.
     pub fn springs(&self) -> impl Iterator<Item = Taut> {
         let segments = self.segments.iter().map(Segment::taut);
         let rings = self.net_rings.iter().flat_map(|ring| ring.springs(&self.nodes));
