@@ -15,7 +15,6 @@ const PATH: &str = "barrier.kit";
 const KEYS: &str = "keys of a barrier: flexible_net or rigid_wall, with what stands below them";
 /// Different ways to give the same thing, each by its keys, the first of which says that it is that way.
 const WAYS: &[&[&[&str]]] = &[
-    &[&["rigid_wall"], &["flexible_net"]],
     &[&["mesh_opening", "net_rope", "mesh_angle"], &["net"]],
     &[&["count"], &["heights"], &["levels"]],
     &[&["rope"], &["diameter", "modulus", "breaking_load"]],
