@@ -91,9 +91,12 @@ pub fn working(run: &Run) -> String {
         _ => "of which one of its two ropes takes more and the other less".to_string(),
     };
     format!(
-        "Post {}: the uppermost rope{} hands it half its load on either side, q (L₁ + L₂)/2 = {:.1} kN normal to the net, and friction on its head up to T (1 − exp(−μ θ)) = {:.1} kN along the rope, {turned}; what presses on the post's own width of {:.0} mm adds {:.1} kN at the head and bends it with {:.1} kN m, as a beam from foot to head. The head is in equilibrium between these, its retaining rope{} with T = {:.1} kN and the post with N = {:.1} kN. The equations do not know how the net pulls the head down, nor how grains jam at a post, so that they alone let no post pass. {}",
+        "Post {}: {} half the load of the bays on either side, q (L₁ + L₂)/2 = {:.1} kN normal to the net, and by friction on its head up to T (1 − exp(−μ θ)) = {:.1} kN along the rope, {turned}. What presses on the post's own width of {:.0} mm adds {:.1} kN at the head and bends it with {:.1} kN m, as a beam from foot to head. The head is in equilibrium between these, its retaining rope{} with T = {:.1} kN and the post with N = {:.1} kN. The equations do not know how the net pulls the head down, nor how grains jam at a post, so that they alone let no post pass. {}",
         worst + 1,
-        if ropes > 1 { format!("s ({ropes} together)") } else { String::new() },
+        match ropes {
+            1 => "the uppermost rope hands it".to_string(),
+            ropes => format!("the {ropes} uppermost ropes together hand it"),
+        },
         load.from_rope / 1e3,
         load.along / 1e3,
         posts.width * 1e3,
@@ -117,7 +120,7 @@ fn strength(run: &Run, posts: &Posts, number: usize) -> String {
         _ => format!("N_b = {:.0} kN", strut.compression / 1e3),
     };
     format!(
-        "It holds {critical} and M_R = {:.1} kN m, one with the other as long as N + N_b M/(M_R (1 − N/N_cr)) ≤ N_b.",
+        "Resistance: {critical}, M_R = {:.1} kN m; together N + N_b M/(M_R (1 − N/N_cr)) ≤ N_b.",
         strut.bending / 1e3
     )
 }
