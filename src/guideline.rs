@@ -610,8 +610,8 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &single.barrier else { panic!("a net") };
         let rope = RopeInput {
             span: two.span,
-            others: Vec::new(),
-            behind: 0.0,
+            other_spans: Vec::new(),
+            to_anchors: 0.0,
             axial_stiffness: net.main_ropes.levels[2].rope.axial_stiffness(),
             dissipator: ropes::dissipator(&single),
         };

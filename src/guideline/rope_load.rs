@@ -10,9 +10,9 @@ pub struct RopeLoad {
     pub strip: [f64; 2],
     /// From bank to bank, or the longest between banks and posts (m), and the other spans.
     pub span: f64,
-    pub others: Vec<f64>,
+    pub other_spans: Vec<f64>,
     /// Of the rope between the edges of the net and its anchors, at both ends together (m).
-    pub behind: f64,
+    pub to_anchors: f64,
     /// Ropes that run side by side and share the load.
     pub ropes: u16,
     /// Load across the span, of all of them and of one (N/m): a point load is that of one.

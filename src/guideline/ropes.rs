@@ -68,9 +68,9 @@ impl<'a> Strip<'a> {
         // The bed holds the lowest rope from bank to bank, or it hangs over its opening.
         let ends = if is_held(net, index) { section.bed_ends() } else { section.banks(heights[index]) };
         let stops = if index == last { posts::stops(design, ends) } else { ends.to_vec() };
-        let mut others: Vec<f64> = stops.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let longest = (0..others.len()).max_by(|a, b| others[*a].total_cmp(&others[*b])).unwrap_or(0);
-        let span = others.remove(longest);
+        let mut other_spans: Vec<f64> = stops.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let longest = (0..other_spans.len()).max_by(|a, b| other_spans[*a].total_cmp(&other_spans[*b])).unwrap_or(0);
+        let span = other_spans.remove(longest);
         let behind = [Bank::Right, Bank::Left].map(|bank| net.anchor_designs.of(index, bank).set_back);
         let weight = design.loads.self_weight.map_or(0.0, |weight| weight * net.height);
         Self {
@@ -78,8 +78,8 @@ impl<'a> Strip<'a> {
             high: if index == last { f64::INFINITY } else { 0.5 * (heights[index] + heights[index + 1]) },
             rope: RopeInput {
                 span,
-                others,
-                behind: behind[0] + behind[1],
+                other_spans,
+                to_anchors: behind[0] + behind[1],
                 axial_stiffness: net.main_ropes.levels[index].rope.axial_stiffness(),
                 dissipator: dissipator(design),
             },
@@ -122,7 +122,7 @@ impl<'a> Strip<'a> {
             return f64::INFINITY;
         }
         let widest = self.section.breadth() - self.rope.length();
-        let narrowest = self.rope.others.iter().copied().fold(self.rope.span, f64::min);
+        let narrowest = self.rope.other_spans.iter().copied().fold(self.rope.span, f64::min);
         let beside = 1.0 + 2.0 * widest.max(0.0) / narrowest;
         let most = beside * case.strip_force(self.low, self.high) * ROUNDING;
         (most + self.point(case)) / libm::cos(lean(self.design))
@@ -201,8 +201,8 @@ impl<'a> Strip<'a> {
             weak: weaker.map(weak),
             over_heads: self.over_heads(&state),
             anchor: [along, across],
-            others: self.rope.others,
-            behind: self.rope.behind,
+            other_spans: self.rope.other_spans,
+            to_anchors: self.rope.to_anchors,
             ..of_all
         }
     }

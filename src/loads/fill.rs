@@ -174,7 +174,9 @@ impl Reservoir {
         }
         for _ in 0..MOST_STEPS {
             // No step goes over a break of the bed.
-            let corner = profile.corners().iter().map(|corner| corner[0]).rfind(|corner| *corner < x - 1e-9 * step);
+            let corners = profile.corners();
+            let upstream = corners.partition_point(|corner| corner[0] < x - 1e-9 * step);
+            let corner = upstream.checked_sub(1).map(|last| corners[last][0]);
             let to = corner.map_or(x - step, |corner| corner.max(x - step));
             let bed = profile.falls(0.5 * (x + to));
             let next = z + surface.falls(bed) * (x - to);

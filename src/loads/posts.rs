@@ -40,9 +40,23 @@ impl PostInput {
         Vector3::new(cosine, 0.0, sine)
     }
 
-    /// From the head to an anchor.
+    /// From the head to an anchor (m).
+    fn rope(&self, anchor: &[f64; 3]) -> Vector3<f64> {
+        Vector3::from(*anchor) - self.axis() * self.length
+    }
+
     fn direction(&self, anchor: &[f64; 3]) -> Vector3<f64> {
-        (Vector3::from(*anchor) - self.axis() * self.length).normalize()
+        self.rope(anchor).normalize()
+    }
+
+    /// Length of each retaining rope (m), and how steeply it falls from the head to its anchor against the level, on a bed of this slope (rad).
+    pub fn ropes(&self, slope: f64) -> Vec<[f64; 2]> {
+        let (sine, cosine) = libm::sincos(slope);
+        let of = |anchor: &[f64; 3]| {
+            let rope = self.rope(anchor);
+            [rope.norm(), -libm::asin((rope.z * cosine - rope.x * sine) / rope.norm())]
+        };
+        self.anchors.iter().map(of).collect()
     }
 
     /// The head under a load normal to the net and up to so much along the rope, to either side (N). Not a number where nothing is in
@@ -191,6 +205,17 @@ mod tests {
         let state = post.under(80e3, 30e3);
         assert_relative_eq!(state.tension, 100e3, max_relative = 1e-12);
         assert_relative_eq!(state.compression, 60e3, max_relative = 1e-12);
+    }
+
+    /// 5 m long, and 3 m down on a level bed; on one of 30° the anchor 4 m up the bed is 2 m higher and the head 3 cos 30° over the foot.
+    #[test]
+    fn a_rope_is_as_long_and_steep_as_its_triangle() {
+        let post = PostInput { length: 3.0, lean: 0.0, anchors: vec![[-4.0, 0.0, 0.0]] };
+        let [[length, falls]] = post.ropes(0.0)[..] else { panic!("a rope") };
+        assert_relative_eq!(length, 5.0, max_relative = 1e-12);
+        assert_relative_eq!(libm::sin(falls), 0.6, max_relative = 1e-12);
+        let [[_, falls]] = post.ropes(std::f64::consts::FRAC_PI_6)[..] else { panic!("a rope") };
+        assert_relative_eq!(libm::sin(falls), (3.0 * 0.75_f64.sqrt() - 2.0) / 5.0, max_relative = 1e-12);
     }
 
     /// Two ropes of √(4² + 2² + 3²) = √29 m: 2 T · 4/√29 = R, N = 2 T · 3/√29; Q = 20 kN goes to one of them, ΔT · 2/√29 = Q/2.

@@ -37,9 +37,9 @@ pub struct RopeInput {
     /// Span between the anchors L, or the longest between banks and posts (m).
     pub span: f64,
     /// The other spans of a rope that runs over posts (m).
-    pub others: Vec<f64>,
+    pub other_spans: Vec<f64>,
     /// Of the rope beyond its spans, at both ends together, which stretches with it (m).
-    pub behind: f64,
+    pub to_anchors: f64,
     /// Axial stiffness EA (N).
     pub axial_stiffness: f64,
     /// How each dissipator yields, if there are any.
@@ -139,23 +139,23 @@ impl RopeInput {
 
     /// All spans together (m).
     pub fn length(&self) -> f64 {
-        self.span + self.others.iter().sum::<f64>()
+        self.span + self.other_spans.iter().sum::<f64>()
     }
 
     /// Length that the rope of all spans has under a tension (N), with what comes out of it from beyond them (m).
     pub fn stretched(&self, tension: f64) -> f64 {
-        self.length() * (1.0 + tension / self.axial_stiffness) + self.behind * tension / self.axial_stiffness
+        self.length() * (1.0 + tension / self.axial_stiffness) + self.to_anchors * tension / self.axial_stiffness
     }
 
     /// Length of the arcs of all spans together, with this sag of the longest, and by how much the rope beyond them is longer than straight across
     /// because it goes on as steeply as the longest span ends (m).
     pub fn arcs(&self, sag: f64) -> f64 {
         let other = |span: &f64| arc(*span, sag * (span / self.span).powi(2));
-        let aslant = match self.behind > 0.0 {
-            true => self.behind * (libm::hypot(1.0, 4.0 * sag / self.span) - 1.0),
+        let aslant = match self.to_anchors > 0.0 {
+            true => self.to_anchors * (libm::hypot(1.0, 4.0 * sag / self.span) - 1.0),
             false => 0.0,
         };
-        arc(self.span, sag) + self.others.iter().map(other).sum::<f64>() + aslant
+        arc(self.span, sag) + self.other_spans.iter().map(other).sum::<f64>() + aslant
     }
 }
 
@@ -184,8 +184,8 @@ mod tests {
             let (curve, [largest, stroke]) = YieldCurve::of(points);
             RopeInput {
                 span: 15.0,
-                others: Vec::new(),
-                behind: 0.0,
+                other_spans: Vec::new(),
+                to_anchors: 0.0,
                 axial_stiffness: 3.2e6,
                 dissipator: Some(Yielding { largest, stroke, curve }),
             }
@@ -206,7 +206,13 @@ mod tests {
         let state = falling.under(20e3);
         assert_relative_eq!(state.tension, 120e3 + 140e3 * (state.stroke - 0.4) / 2.1, max_relative = 1e-6);
         // A fall that is below the tension at both its ends and above it between them: it stops within.
-        let free = RopeInput { span: 15.0, others: Vec::new(), behind: 0.0, axial_stiffness: 3.2e6, dissipator: None };
+        let free = RopeInput {
+            span: 15.0,
+            other_spans: Vec::new(),
+            to_anchors: 0.0,
+            axial_stiffness: 3.2e6,
+            dissipator: None,
+        };
         let [from, to] = [0.0, 0.9].map(|stroke| 0.99 * free.with_stroke(20e3, stroke).tension);
         let state = held(&[[0.0, from], [0.9, to]]).under(20e3);
         assert_relative_eq!(state.tension, from + (to - from) * state.stroke / 0.9, max_relative = 1e-6);
@@ -222,8 +228,8 @@ mod tests {
         // q 20 kN/m, L 15 m, plateau 250 kN: f = 2.8125 m, arc 16.306 m, ΔS = 1.306 m (inextensible rope).
         let rope = RopeInput {
             span: 15.0,
-            others: Vec::new(),
-            behind: 0.0,
+            other_spans: Vec::new(),
+            to_anchors: 0.0,
             axial_stiffness: 1e15,
             dissipator: Some(plateau(250e3, 2.5)),
         };
@@ -238,8 +244,8 @@ mod tests {
     fn exhausted_stroke_lets_the_tension_grow() {
         let rope = RopeInput {
             span: 15.0,
-            others: Vec::new(),
-            behind: 0.0,
+            other_spans: Vec::new(),
+            to_anchors: 0.0,
             axial_stiffness: 3.2e6,
             dissipator: Some(plateau(250e3, 0.2)),
         };
@@ -260,13 +266,14 @@ mod tests {
     /// Any rope is in balance, q L²/8 = H f and T² = H² + (q L/2)², and as long as its stretch and strokes make it.
     #[test]
     fn a_rope_is_in_balance_and_as_long_as_it_is_stretched() {
-        let elastic = RopeInput { span: 12.0, others: Vec::new(), behind: 0.0, axial_stiffness: 8e6, dissipator: None };
+        let elastic =
+            RopeInput { span: 12.0, other_spans: Vec::new(), to_anchors: 0.0, axial_stiffness: 8e6, dissipator: None };
         let used_up = RopeInput { dissipator: Some(plateau(100e3, 0.3)), ..elastic.clone() };
         // So much stroke that it hangs deeper than it spans.
         let deep = RopeInput {
             span: 2.0,
-            others: Vec::new(),
-            behind: 0.0,
+            other_spans: Vec::new(),
+            to_anchors: 0.0,
             axial_stiffness: 8e6,
             dissipator: Some(plateau(1e3, 5.0)),
         };
@@ -286,7 +293,8 @@ mod tests {
     /// Below its plateau a dissipator holds; EA of 10 MN and 5 kN/m on 10 m.
     #[test]
     fn a_dissipator_below_its_plateau_is_as_if_it_were_not_there() {
-        let free = RopeInput { span: 10.0, others: Vec::new(), behind: 0.0, axial_stiffness: 1e7, dissipator: None };
+        let free =
+            RopeInput { span: 10.0, other_spans: Vec::new(), to_anchors: 0.0, axial_stiffness: 1e7, dissipator: None };
         let held = RopeInput { dissipator: Some(plateau(1e9, 1.0)), ..free.clone() };
         assert_eq!(held.under(5e3), free.under(5e3));
         assert!(free.under(5e3).tension < 1e9);
@@ -297,8 +305,8 @@ mod tests {
     fn over_posts_a_rope_has_one_pull() {
         let rope = RopeInput {
             span: 12.0,
-            others: vec![6.0, 6.0],
-            behind: 0.0,
+            other_spans: vec![6.0, 6.0],
+            to_anchors: 0.0,
             axial_stiffness: 8e6,
             dissipator: Some(plateau(100e3, 3.0)),
         };
@@ -310,13 +318,14 @@ mod tests {
         let arcs: f64 = sags.iter().map(|(span, sag)| length(*span, *sag)).sum();
         assert_relative_eq!(2.0 * state.stroke, arcs - 24.0 * (1.0 + 100e3 / 8e6), max_relative = 1e-6);
         // Without posts it sags more and pays out more.
-        let free = RopeInput { span: 24.0, others: Vec::new(), ..rope };
+        let free = RopeInput { span: 24.0, other_spans: Vec::new(), ..rope };
         assert!(free.under(6e3).stroke > 1.5 * state.stroke);
     }
 
     #[test]
     fn an_almost_straight_rope_is_longer_by_two_thirds_of_its_slope_squared() {
-        let rope = RopeInput { span: 10.0, others: Vec::new(), behind: 0.0, axial_stiffness: 1e7, dissipator: None };
+        let rope =
+            RopeInput { span: 10.0, other_spans: Vec::new(), to_anchors: 0.0, axial_stiffness: 1e7, dissipator: None };
         // A slope of 4e-7 at its ends: 16e-14/6.
         assert!((rope.arcs(1e-6) / 10.0 - 1.0 - 16e-14 / 6.0).abs() < 1e-15);
         assert_relative_eq!(rope.arcs(1e-3), length(10.0, 1e-3), max_relative = 1e-12);

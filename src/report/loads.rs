@@ -308,12 +308,12 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
     };
     let tension = libm::hypot(horizontal, half);
     let lean = run.guideline.lean.abs().to_degrees();
-    let over_posts = match rope.others.len() {
+    let over_posts = match rope.other_spans.len() {
         0 => String::new(),
         posts => format!(
             " Over {posts} post{} the rope has one H in all its spans, {} m; shown is the longest, and lengths and arcs are those of all.",
             if posts > 1 { "s" } else { "" },
-            [rope.span].iter().chain(&rope.others).map(|span| format!("{span:.2}")).collect::<Vec<_>>().join(", ")
+            [rope.span].iter().chain(&rope.other_spans).map(|span| format!("{span:.2}")).collect::<Vec<_>>().join(", ")
         ),
     };
     let load = format!(
@@ -325,11 +325,11 @@ fn rope_working(run: &Run, number: usize, rope: &RopeLoad, case: &LoadCase) -> S
         rope.load / 1e3,
     );
     let (q, sag) = (of_one / 1e3, rope.state.sag);
-    let others = rope.others.clone();
+    let others = rope.other_spans.clone();
     let line = RopeInput {
         span,
-        others,
-        behind: rope.behind,
+        other_spans: others,
+        to_anchors: rope.to_anchors,
         axial_stiffness: axial_stiffness(run, number),
         dissipator: None,
     };

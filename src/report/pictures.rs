@@ -304,10 +304,15 @@ pub fn elevation_chart(run: &Run, seen: &Simulated) -> Option<Chart> {
         file: file_name("Barrier from upstream"),
         svg: elevation(snapshot, run.guideline.section.banks(run.guideline.input.barrier_height), resistance),
         note: format!(
-            "At {:.2} s, as deformed then, seen normal to the bed; colour by tension over design resistance at that instant, the partial factor on loads included. Main ropes are numbered from the bottom{}.{}",
+            "At {:.2} s, as deformed then, seen normal to the bed; colour by tension over design resistance at that instant, the partial factor on loads included. Main ropes are numbered from the bottom{}.{}{}",
             snapshot.time,
             if net.rings.is_some() {
                 "; rings are drawn as they are modelled, straight from contact to contact"
+            } else {
+                ""
+            },
+            if net.posts.is_some() {
+                " Posts stand upright, and the ropes from their heads run to their anchors upstream."
             } else {
                 ""
             },

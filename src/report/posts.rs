@@ -4,7 +4,8 @@ use dem::Vec3;
 
 use crate::checks::posts::strut;
 use crate::design::{BarrierDesign, FlexibleNet, PostStrength, Posts};
-use crate::guideline::PostLoad;
+use crate::guideline::posts::input;
+use crate::guideline::{PostLoad, height_over_bed};
 use crate::pipeline::Run;
 use crate::quantities::observed::Observed;
 use crate::quantities::posts::{FOOT_ACROSS, FOOT_ALONG, FOOT_UP, MOMENT};
@@ -45,7 +46,7 @@ pub fn table(run: &Run) -> Option<Table> {
         let foot = foot[0].zip(foot[1]).zip(foot[2]).map(|((x, y), z)| parts(&Vec3::new(x, y, z)));
         vec![
             (number + 1).to_string(),
-            format!("{:.2} m, {:.2} m long", posts.at[number], load.length),
+            format!("{:.2} m, {:.2} m long; {}", posts.at[number], load.length, ropes(run, posts, number)),
             judged("retaining_tension"),
             judged("retaining_stroke"),
             judged("compression"),
@@ -57,7 +58,7 @@ pub fn table(run: &Run) -> Option<Table> {
     Some(Table {
         columns: vec![
             "Post",
-            "Where, and how long",
+            "Where, how long, and its ropes with their fall",
             "Tension of a retaining rope",
             "Stroke of its dissipator",
             "Compression",
@@ -107,6 +108,15 @@ pub fn working(run: &Run) -> String {
         load.head.compression / 1e3,
         strength(run, posts, worst)
     )
+}
+
+/// Length and fall of the ropes that retain a post.
+fn ropes(run: &Run, posts: &Posts, number: usize) -> String {
+    let design = &run.file.design;
+    let held = input(design, posts, posts.at[number], height_over_bed(design));
+    let of = |[length, falls]: [f64; 2]| format!("{length:.2} m at {:.0}°", falls.to_degrees());
+    let ropes: Vec<String> = held.ropes(design.channel.slope).into_iter().map(of).collect();
+    format!("ropes of {}", ropes.join(" and "))
 }
 
 fn strength(run: &Run, posts: &Posts, number: usize) -> String {
