@@ -26,7 +26,9 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let stroke = Resistance { characteristic: given.stroke, factor: 1.0 };
             let outcome = Outcome::at_most(name, *demand, stroke, design.limits.dissipator_utilisation);
             let tension = demands.each(&rope_tension::PEAK).get(index).copied().unwrap_or_default();
-            let growth = growth_of(given, demand, &tension).unwrap_or(outcome.growth);
+            // Of the other ropes the equations know what presses on the full barrier.
+            let idle = growth_of(given, demand, &tension).filter(|_| net.runs_over_posts(index));
+            let growth = idle.unwrap_or(outcome.growth);
             let outcome = Outcome { kind: Kind::Stroke, growth, ..outcome.of_rope(index) };
             if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome }
         })
