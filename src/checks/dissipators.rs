@@ -35,14 +35,13 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
         .collect()
 }
 
-/// How the stroke of dissipators grows that neither the equations nor the simulation let yield; nothing where one of them does.
+/// How the stroke of dissipators grows with the load where the equations see none: nothing where they do.
 pub fn growth_of(given: &DissipatorDesign, stroke: &Demand, tension: &Demand) -> Option<Growth> {
-    let idle = |stroke: Option<f64>| stroke.is_none_or(|stroke| stroke <= 0.0);
-    if !(idle(stroke.guideline) && idle(stroke.simulation)) {
+    if stroke.guideline.is_some_and(|stroke| stroke > 0.0) {
         return None;
     }
     let yields_at = given.lower_bound.unwrap_or(1.0) * given.plateau * given.curve.least();
-    Some(Growth::Idle { tension: tension.simulation?, yields_at, stroke: given.stroke })
+    Some(Growth::ToItsStop { tension: tension.simulation?, yields_at, stroke: given.stroke })
 }
 
 /// With stroke left, a dissipator pulls with its plateau force at the most. At the plateau it works as it should, so there

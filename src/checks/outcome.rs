@@ -76,8 +76,9 @@ pub enum Growth {
     EndBolt { axial: f64, lateral: f64 },
     /// As the pressure under a wall that stands by its weight.
     UnderAWall(UnderAWall),
-    /// As the stroke of a dissipator that has not begun to yield: none up to where its rope is pulled with its force, and then all of it.
-    Idle { tension: f64, yields_at: f64, stroke: f64 },
+    /// As the stroke of a dissipator beside which nothing else holds: in proportion up to where its rope is pulled with its force (N), and then all of
+    /// it (m).
+    ToItsStop { tension: f64, yields_at: f64, stroke: f64 },
     /// As the compression of a post whose moment grows with its compression.
     OfAPost(OfAPost),
 }
@@ -343,12 +344,12 @@ impl Outcome {
             }
             Growth::UnderAWall(wall) => wall.pressure(route, more),
             Growth::OfAPost(post) => post.compression(route, more),
-            Growth::Idle { tension, yields_at, stroke } if route == Route::Simulation => {
+            Growth::ToItsStop { tension, yields_at, stroke } if route == Route::Simulation => {
                 // Asked so that a tension that is not a number yields.
-                let stays = more * tension < yields_at;
+                let stays = more <= 1.0 || more * tension < yields_at;
                 Some(if stays { demand * more } else { stroke })
             }
-            Growth::Idle { .. } => Some(demand * more),
+            Growth::ToItsStop { .. } => Some(demand * more),
         }
     }
 

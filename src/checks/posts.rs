@@ -14,15 +14,8 @@ use crate::quantities::quantity::Unit;
 use crate::sources::{ANCHOR_FACTOR, POST_STRENGTH, ROPE_FACTOR, STROKE_DATA};
 use crate::units::GRAVITY;
 
-fn of(design: &Design) -> Option<&Posts> {
-    match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.posts.as_ref(),
-        BarrierDesign::RigidWall(_) => None,
-    }
-}
-
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let Some(given) = of(design) else { return Vec::new() };
+    let Some(given) = design.posts() else { return Vec::new() };
     let uppermost = match &design.barrier {
         BarrierDesign::FlexibleNet(net) => net.main_ropes.levels.len() - 1,
         BarrierDesign::RigidWall(_) => 0,
@@ -103,29 +96,26 @@ fn compressed(design: &Design, given: &Posts, number: usize, demands: &Demands) 
 /// By which a load that comes at once bends more than the same load at rest, at the most.
 const SUDDEN: f64 = 2.0;
 
-/// A post that is pulled: its own weight holds it, and nothing else that is given.
+/// A post that is pulled: its own weight holds it, and more of it what is given; nothing where it is pressed all the time.
 fn uplift(design: &Design, given: &Posts, number: usize, demands: &Demands) -> Option<Outcome> {
     let demand = demand(demands.each(&posts::UPLIFT), number);
-    let length = input(design, given, given.at[number], height_over_bed(design)).length;
-    let weight = STEEL * GRAVITY * given.area * length;
     // Asked so that what is not a number is told.
-    let held = demand.largest().is_some_and(|largest| largest <= weight);
-    if held {
+    let pressed = demand.largest().is_some_and(|largest| largest <= 0.0);
+    if pressed {
         return None;
     }
+    let length = input(design, given, given.at[number], height_over_bed(design)).length;
+    let weight = GRAVITY * given.mass(length);
+    let held_by_weight = demand.largest().is_some_and(|largest| largest <= weight);
     let name = CheckName::of(&posts::UPLIFT, number, format!("post_{}_uplift", number + 1), ANCHOR_FACTOR);
-    Some(match given.uplift_resistance {
-        Some(characteristic) => {
-            let resistance = Resistance { characteristic, factor: design.factors.anchor };
-            Outcome::at_most(name, demand, resistance, design.limits.anchor_utilisation)
-                .only_by_simulation(NOT_BY_EQUATIONS)
-        }
-        None => Outcome::without_resistance(name, demand, "posts.uplift_resistance"),
-    })
+    let resistance = match given.uplift_resistance {
+        Some(characteristic) => Resistance { characteristic, factor: design.factors.anchor },
+        None if held_by_weight => Resistance { characteristic: weight, factor: 1.0 },
+        None => return Some(Outcome::without_resistance(name, demand, "posts.uplift_resistance")),
+    };
+    let limit = design.limits.anchor_utilisation;
+    Some(Outcome::at_most(name, demand, resistance, limit).only_by_simulation(NOT_BY_EQUATIONS))
 }
-
-/// Density of steel (kg/m³).
-const STEEL: f64 = 7850.0;
 
 /// Why the equations alone let no post and no foundation pass.
 const NOT_BY_EQUATIONS: &str = "the net hands load to the heads of posts, grains jam at the posts and press on their ropes, and the equations do not know by how much";
@@ -230,7 +220,8 @@ mod tests {
         assert_eq!(verdict(&judged(|text| text, 1.01 * capacity), "post_2_compression"), CheckVerdict::Fail);
         assert_eq!(verdict(&judged(|text| text, f64::NAN), "post_1_compression"), CheckVerdict::Fail);
         // 1.8 m of 61.2 cm² weigh 0.85 kN: more pull is open until a resistance to it is given.
-        assert!(judged(|text| text, -500.0).iter().all(|outcome| outcome.id != "post_1_uplift"));
+        assert!(judged(|text| text, 500.0).iter().all(|outcome| outcome.id != "post_1_uplift"));
+        assert_eq!(verdict(&judged(|text| text, -500.0), "post_1_uplift"), CheckVerdict::Pass);
         assert_eq!(verdict(&judged(|text| text, -2e3), "post_1_uplift"), CheckVerdict::Open);
         let given = |text: String| {
             text.replace("foot_resistance: 400 kN", "foot_resistance: 400 kN\n      uplift_resistance: 10 kN")
@@ -262,6 +253,15 @@ mod tests {
         let stroke = outcomes.iter().find(|outcome| outcome.id == "post_1_retaining_stroke").expect("a check");
         assert_eq!((stroke.verdict, stroke.demand_under(Route::Simulation, 2.0)), (CheckVerdict::Pass, Some(0.0)));
         assert_eq!(stroke.demand_under(Route::Simulation, 3.0), Some(0.6));
+        // One that has begun to yield is used up by more load just the same.
+        let given = Demand { simulation: Some(0.01), ..Demand::default() };
+        let begun = Demand { simulation: Some(85e3), ..Demand::default() };
+        let design = read_design("x", TEXT.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
+        let dissipators = design.posts().and_then(|posts| posts.retaining.dissipators.as_ref()).expect("dissipators");
+        let growth = growth_of(dissipators, &given, &begun).expect("a growth");
+        let stroke = Outcome { growth, demand: given, ..stroke.clone() };
+        assert_eq!(stroke.demand_under(Route::Simulation, 1.0), Some(0.01));
+        assert_eq!(stroke.demand_under(Route::Simulation, 1.5), Some(0.6));
     }
 
     #[test]

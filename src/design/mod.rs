@@ -74,6 +74,14 @@ pub struct Design {
 }
 
 impl Design {
+    /// The posts of its net, if it has any.
+    pub fn posts(&self) -> Option<&Posts> {
+        match &self.barrier {
+            BarrierDesign::FlexibleNet(net) => net.posts.as_ref(),
+            BarrierDesign::RigidWall(_) => None,
+        }
+    }
+
     /// The same event with another of its surges first, and the others after it: what is asked of the first is asked of that one.
     pub fn led_by(&self, number: usize) -> Self {
         Self { flow: self.flow.led_by(number), ..self.clone() }

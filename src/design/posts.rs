@@ -29,6 +29,16 @@ pub struct Posts {
     pub retaining: RetainingRopes,
 }
 
+/// Density of steel (kg/m³).
+const STEEL: f64 = 7850.0;
+
+impl Posts {
+    /// Mass of a post of this length (m; kg).
+    pub fn mass(&self, length: f64) -> f64 {
+        STEEL * self.area * length
+    }
+}
+
 /// What a post withstands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PostStrength {

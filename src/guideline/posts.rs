@@ -1,6 +1,6 @@
 //! Posts under the guideline's loads: what the uppermost rope hands to their heads, and what presses on themselves.
 
-use crate::design::{BarrierDesign, Design, FlexibleNet, Posts};
+use crate::design::{Design, Posts};
 use crate::guideline::face::lean;
 use crate::guideline::rope_load::RopeLoad;
 use crate::larger::larger_or_nan;
@@ -27,26 +27,15 @@ pub struct PostLoad {
 
 /// The bays of the uppermost rope from the right bank to the left (m): where it begins, the posts, where it ends.
 pub fn stops(design: &Design, [from, to]: [f64; 2]) -> Vec<f64> {
-    let posts = posts_of(design).map_or(Vec::new(), |posts| posts.at.clone());
+    let posts = design.posts().map_or(Vec::new(), |posts| posts.at.clone());
     let mut places: Vec<f64> = posts.iter().map(|right| design.channel.across(*right)).collect();
     places.reverse();
     [from].into_iter().chain(places).chain([to]).collect()
 }
 
-fn posts_of(design: &Design) -> Option<&Posts> {
-    net_of(design)?.posts.as_ref()
-}
-
-fn net_of(design: &Design) -> Option<&FlexibleNet> {
-    match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => Some(net),
-        BarrierDesign::RigidWall(_) => None,
-    }
-}
-
 /// How the dissipators of the ropes that retain posts yield, if there are any.
 pub fn retaining(design: &Design) -> Option<Yielding> {
-    posts_of(design)?.retaining.dissipators.as_ref().map(Yielding::from)
+    design.posts()?.retaining.dissipators.as_ref().map(Yielding::from)
 }
 
 /// Where a post stands and is held: its foot on the ground at the barrier, its anchors on the section of the barrier over the bed upstream.
@@ -65,7 +54,7 @@ pub fn input(design: &Design, posts: &Posts, right: f64, top: f64) -> PostInput 
 
 /// Each post under the governing load of the uppermost rope.
 pub fn loads(design: &Design, rope: Option<&RopeLoad>, stages: &[LoadCase], top: f64) -> Vec<PostLoad> {
-    let (Some(posts), Some(rope)) = (posts_of(design), rope) else { return Vec::new() };
+    let (Some(posts), Some(rope)) = (design.posts(), rope) else { return Vec::new() };
     let ends = design.channel.section().banks(top);
     let stops = stops(design, ends);
     let retaining = retaining(design);

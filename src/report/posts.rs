@@ -3,7 +3,7 @@
 use dem::Vec3;
 
 use crate::checks::posts::strut;
-use crate::design::{BarrierDesign, FlexibleNet, PostStrength, Posts};
+use crate::design::{PostStrength, Posts};
 use crate::guideline::posts::input;
 use crate::guideline::{PostLoad, height_over_bed};
 use crate::pipeline::Run;
@@ -14,16 +14,9 @@ use crate::report::anchors::parts;
 use crate::report::numbers::with_unit;
 use crate::report::table::Table;
 
-fn of(run: &Run) -> Option<(&FlexibleNet, &Posts)> {
-    match &run.file.design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.posts.as_ref().map(|posts| (&**net, posts)),
-        BarrierDesign::RigidWall(_) => None,
-    }
-}
-
 /// Nothing where the barrier has none.
 pub fn table(run: &Run) -> Option<Table> {
-    let (_, posts) = of(run)?;
+    let posts = run.file.design.posts()?;
     let seen = run.simulated.as_ref().map(|simulated| simulated.first());
     let row = |(number, load): (usize, &PostLoad)| {
         let value = |quantity: &Quantity| {
@@ -80,13 +73,13 @@ pub fn table(run: &Run) -> Option<Table> {
 
 /// How the loads of the posts by the equations follow; empty where there are none.
 pub fn working(run: &Run) -> String {
-    let Some((net, posts)) = of(run) else { return String::new() };
+    let Some(posts) = run.file.design.posts() else { return String::new() };
     let Some((worst, load)) =
         run.guideline.posts.iter().enumerate().max_by(|a, b| a.1.head.tension.total_cmp(&b.1.head.tension))
     else {
         return String::new();
     };
-    let ropes = net.main_ropes.levels.last().map_or(1, |level| level.ropes);
+    let ropes = run.guideline.ropes.last().map_or(1, |rope| rope.ropes);
     let turned = match posts.retaining.count() {
         1 => "which the rope over its head is left to bear".to_string(),
         _ => "of which one of its two ropes takes more and the other less".to_string(),

@@ -191,7 +191,7 @@ fn across(run: &Run) -> Chart {
             BarrierDesign::RigidWall(_) => 1,
         };
         let times = if ropes > 1 { format!("{ropes} ×, ") } else { String::new() };
-        let posts = if index + 1 == heights.len() { posts_of(design) } else { 0 };
+        let posts = if index + 1 == heights.len() { design.posts().map_or(0, |posts| posts.at.len()) } else { 0 };
         let what = match (bolted(index), posts) {
             (true, _) => "bolted,".to_string(),
             (false, 0) => "span".to_string(),
@@ -258,13 +258,6 @@ fn across(run: &Run) -> Chart {
 fn set_backs(design: &Design, rope: usize) -> [f64; 2] {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return [0.0; 2] };
     [Bank::Left, Bank::Right].map(|bank| net.anchor_designs.of(rope, bank).set_back)
-}
-
-fn posts_of(design: &Design) -> usize {
-    match &design.barrier {
-        BarrierDesign::FlexibleNet(net) => net.posts.as_ref().map_or(0, |posts| posts.at.len()),
-        BarrierDesign::RigidWall(_) => 0,
-    }
 }
 
 /// Foot and head of each post.

@@ -51,7 +51,7 @@ impl Builder<'_> {
         let foot = self.add_node(self.place(top.y, up), true);
         let place = self.barrier.nodes[foot as usize].position;
         let rest_length = (top - place).norm();
-        let mass = ROPE_DENSITY * posts.area * rest_length;
+        let mass = posts.mass(rest_length);
         let on_head = MASS_AT_HEAD * mass;
         self.barrier.nodes[head as usize].mass += on_head;
         self.barrier.nodes[foot as usize].mass += mass - on_head;
