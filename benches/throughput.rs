@@ -20,7 +20,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use barrier_check::validation::barrier::ring_panel::ring_panel;
+use barrier_check::validation::barrier::ring_panel::{FOUR, SIX, ring_panel};
 use barrier_check::validation::barrier::stand::{cantilever, line, rope};
 use criterion::{Criterion, Throughput, criterion_group};
 use dem::Vec3;
@@ -28,6 +28,7 @@ use dem::contact::law::LawConstants;
 use dem::neighbours::broad_phase::{Box3, BoxTree};
 use dem::net::pull_all;
 use dem::simulation::Simulation;
+use dem::tables::barrier::Barrier;
 use dem::tables::grains::GrainShape;
 use dem::workers::gather;
 use states::{Phase, RADIUS, SKIN, State};
@@ -141,7 +142,7 @@ fn main() {
 
 fn tell_all_elements() {
     println!(
-        "barrier, one thread: ns per element and step: tension-only segments, cylinders that bend, rings with four contacts"
+        "barrier, one thread: ns per element and step: tension-only segments, cylinders that bend, rings with four contacts, and with six"
     );
     [100, 1000, 10_000].into_iter().for_each(tell_elements);
 }
@@ -151,21 +152,25 @@ fn tell_elements(count: usize) {
     const ELEMENT_STEPS: usize = 4_000_000;
     let end = Vec3::new(0.07 * count as f64, 0.0, 0.0);
     let across = (count as f64).sqrt() as i32;
-    let mut taut = ring_panel(across);
-    // Drawn apart, so that every ring pulls.
-    taut.nodes.iter_mut().for_each(|node| node.position *= 1.06);
-    let barriers = [rope(&line(Vec3::zeros(), end, count), [true, true], 0.99), cantilever(end.x, count), taut];
+    let rings = [FOUR, SIX].map(|lattice| {
+        let mut taut = ring_panel(lattice, across);
+        // Drawn apart, so that every ring pulls.
+        taut.nodes.iter_mut().for_each(|node| node.position *= 1.06);
+        taut
+    });
+    let ropes = [rope(&line(Vec3::zeros(), end, count), [true, true], 0.99), cantilever(end.x, count)];
     let law = LawConstants::new(0.3, 2.0 / 7.0, 1e-5);
-    let [segment, cylinder, ring] = barriers.map(|barrier| {
+    let cost = |barrier: &Barrier| {
         let count = barrier.segments.len() + barrier.cylinders.len() + barrier.net_rings.len();
         let rounds = ELEMENT_STEPS / count;
         let start = Instant::now();
         for _ in 0..rounds {
-            std::hint::black_box(pull_all(std::hint::black_box(&barrier), &law));
+            std::hint::black_box(pull_all(std::hint::black_box(barrier), &law));
         }
         start.elapsed().as_nanos() as f64 / (rounds * count) as f64
-    });
-    println!("{count:>6} elements {segment:>8.1} {cylinder:>8.1} {ring:>8.1}");
+    };
+    let told: String = ropes.iter().chain(&rings).map(|barrier| format!(" {:>8.1}", cost(barrier))).collect();
+    println!("{count:>6} elements{told}");
 }
 
 /// What the search for neighbours costs, by rapier's tree and by a cell list, and its share of a run.

@@ -472,7 +472,7 @@ fn gain_of(design: &Design, distance: f64) -> f64 {
 fn ring_load(design: &Design, stages: &[LoadCase]) -> Option<RingLoad> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let rings = net.rings.as_ref()?;
-    let of = RingNet { diameter: rings.diameter, taut_from: rings.law().taut_from };
+    let of = RingNet { lattice: rings.lattice(), taut_from: rings.law().taut_from };
     let (top, leans) = (height_over_bed(design), libm::cos(lean(design)));
     let bays = net.main_ropes.levels.windows(2).map(|pair| [pair[0].height, pair[1].height]);
     let load = |[low, high]: [f64; 2]| {

@@ -18,7 +18,7 @@
 //! | a contact law | a file beside [`dem::contact::law`], called by `law::respond`, through which every contact goes, and its springs by `law::Spring`, from which the stable step and what is shown go as well; its damping in [`dem::contact::restitution`] |
 //! | a step of its own for some bodies | [`dem::time::multi_rate`], and who watches it: `Simulation::audit` |
 //! | a pair of shapes | a file in [`dem::contact`] with its geometry in [`dem::geometry`] |
-//! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`]; the lattice of the contacts is in `scene::net::grid` and `scene::net::cut`, and what asks of `net.rings` elsewhere (`guideline`, [`fidelity`], [`report::site`], [`report::statements`]) asks of the new kind too |
+//! | another kind of net | its key in `design::schema` under `net`, its rules and numbers in files beside `design::net_rings`, its law in a file beside [`ring_law`], its elements in [`dem::elements`], how it hangs in a file beside `scene::net::ring_net`, and its check in [`checks::ropes`]; its lattice in [`lattice`], which `scene::net::grid` and `scene::net::cut` fit to the barrier, and what asks of `net.rings` elsewhere (`guideline`, [`fidelity`], [`report::site`], [`report::statements`]) asks of the new kind too |
 //! | a key of posts or anchors | `design::posts`, `design::anchors` and their rules; how they stand in `scene::net::posts`, by the equations in `guideline::posts` and `loads::posts`, their checks in [`checks::posts`] and [`checks::anchors`], their tables in [`report::posts`] and [`report::anchors`] |
 //! | a rule of buckling | `Column` and `Strut` in `loads::posts`, told in [`report::posts`] |
 //! | a kit that ships, or another way to give a thing that kits give | a file in `designs/kits`; a line in `WAYS` of `design::kit` |
@@ -92,6 +92,7 @@ pub mod design;
 pub mod fidelity;
 pub mod guideline;
 mod larger;
+pub mod lattice;
 pub mod load_cases;
 mod loads;
 mod lock;

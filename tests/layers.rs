@@ -25,19 +25,23 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("section", &[]),
     ("starts", &[]),
     ("ring_law", &[]),
+    ("lattice", &[]),
     ("yield_curve", &[]),
     ("terminal", &["problem"]),
     ("units", &["problem"]),
-    ("design", &["problem", "profile", "raster", "relief", "ring_law", "section", "units", "yield_curve"]),
+    ("design", &["lattice", "problem", "profile", "raster", "relief", "ring_law", "section", "units", "yield_curve"]),
     ("load_cases", &["design"]),
-    ("loads", &["larger", "profile", "relief", "section", "sources", "units", "yield_curve"]),
+    ("loads", &["larger", "lattice", "profile", "relief", "section", "sources", "units", "yield_curve"]),
     ("checkpoint", &["dem", "lock", "program", "container", "terminal"]),
     ("guideline", &["design", "larger", "loads", "section", "units"]),
     ("quantities", &["dem", "design", "guideline", "loads", "section"]),
     ("demand", &["design", "guideline", "larger", "quantities", "starts", "yield_curve"]),
     ("checks", &["demand", "design", "guideline", "larger", "loads", "quantities", "sources", "units", "yield_curve"]),
     ("fidelity", &["checks", "dem", "demand", "design", "guideline", "quantities", "ring_law", "scene"]),
-    ("scene", &["checkpoint", "dem", "design", "fidelity", "profile", "relief", "ring_law", "section", "units"]),
+    (
+        "scene",
+        &["checkpoint", "dem", "design", "fidelity", "lattice", "profile", "relief", "ring_law", "section", "units"],
+    ),
     ("sensitivity", &["checks", "demand", "design", "guideline", "loads"]),
     (
         "simulated",
@@ -81,6 +85,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     (
         "validation",
         &[
+            "lattice",
             "ring_law",
             "dem",
             "demand",
@@ -100,6 +105,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     (
         "studies",
         &[
+            "lattice",
             "checks",
             "dem",
             "demand",

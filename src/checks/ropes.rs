@@ -68,7 +68,7 @@ fn check_rings(design: &Design, rings: &NetRings, name: CheckName, demand: Deman
     }
     if outcome.holds() && !rings.is_known() {
         outcome.leave_open(Opening::NotGiven(
-            "it holds by the tests of rings of 300 mm with 5 to 19 windings of 3 mm of 1770 MPa, and what rings of other kinds hold is not known (give net.rings.chain_test)".into(),
+            "it holds by the tests of rings of 300 mm with four contacts and 5 to 19 windings of 3 mm of 1770 MPa, and what rings of other kinds hold is not known (give net.rings.chain_test)".into(),
         ));
     }
     outcome

@@ -5,7 +5,7 @@ use crate::design::entries::Entries;
 use crate::design::flow::RUN_IN;
 use crate::design::flow_entries::flow_volume;
 use crate::design::hydrograph_entries::HYDROGRAPH;
-use crate::design::net_rules::{Lattice, rope_heights};
+use crate::design::net_rules::{TypedLattice, rope_heights};
 use crate::design::show::{NET, at, length};
 use crate::design::surge_entries::{of_the_first, volume_of_all};
 use crate::problem::Problem;
@@ -216,12 +216,12 @@ pub fn ropes_of_cylinders_are_straight(e: &Entries) -> Option<Problem> {
     })
 }
 
-/// Length of the lowest rope below which it is none, in diagonals of the mesh.
+/// Length of the lowest rope below which it is none, in widths of a mesh or ring.
 const SHORTEST_ROPE: f64 = 2.0;
 
 pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
-    let (survey, lattice) = (survey(e)?, Lattice::of(e)?);
-    let least = SHORTEST_ROPE * lattice.across;
+    let (survey, lattice) = (survey(e)?, TypedLattice::of(e)?);
+    let least = SHORTEST_ROPE * lattice.across();
     let opening = e.number(&at("bottom.opening"));
     let bed = survey.bed();
     let width = match opening {
@@ -247,7 +247,7 @@ pub fn lowest_rope_has_a_length(e: &Entries) -> Option<Problem> {
     })
 }
 
-/// Least height of the second rope over a bed to which the lowest is bolted, in diagonals of the mesh.
+/// Least height of the second rope over a bed to which the lowest is bolted, in heights of a mesh or ring.
 const ABOVE_THE_BED: f64 = 0.5;
 
 /// Height over the bed, normal to it, of a place along the barrier (m).
@@ -258,10 +258,10 @@ fn over_the_bed(e: &Entries, along: f64) -> Option<f64> {
 
 /// The second rope hangs above a bed that is not level.
 pub fn second_rope_above_the_bed(e: &Entries) -> Option<Problem> {
-    let (survey, heights, lattice) = (survey(e)?, rope_heights(e)?, Lattice::of(e)?);
+    let (survey, heights, lattice) = (survey(e)?, rope_heights(e)?, TypedLattice::of(e)?);
     let bed = survey.bed().iter().map(|point| point[1]).fold(0.0, f64::max);
     let second = over_the_bed(e, *heights.get(1)?)?;
-    let least = bed + ABOVE_THE_BED * lattice.along;
+    let least = bed + ABOVE_THE_BED * lattice.along();
     (e.number(&at("bottom.opening")).is_none() && bed > 0.0 && second < least).then(|| {
         let found = format!("main rope 2, {} above the lowest point, over a bed that rises by {}", length(second), length(bed));
         let allowed = format!("at least {} (normal to the bed)", length(least));

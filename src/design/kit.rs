@@ -15,7 +15,7 @@ const PATH: &str = "barrier.kit";
 const KEYS: &str = "keys of a barrier: flexible_net or rigid_wall, with what stands below them";
 /// Different ways to give the same thing, each by its keys, the first of which says that it is that way.
 const WAYS: &[&[&[&str]]] = &[
-    &[&["mesh_opening", "net_rope", "mesh_angle"], &["net"]],
+    &[&["mesh_opening", "net_rope", "mesh_angle", "mesh_shape"], &["net"]],
     &[&["count"], &["heights"], &["levels"]],
     &[&["rope"], &["diameter", "modulus", "breaking_load"]],
     &[&["plateau_force", "stroke"], &["curve"]],

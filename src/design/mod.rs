@@ -23,7 +23,8 @@ pub(crate) mod hydrograph_file;
 pub(crate) mod hydrograph_rules;
 pub(crate) mod key;
 pub(crate) mod kit;
-pub(crate) mod net_ring_rules;
+pub(crate) mod mesh_shape;
+mod net_ring_rules;
 pub(crate) mod net_rings;
 pub(crate) mod net_rules;
 pub(crate) mod post_rules;
@@ -52,10 +53,12 @@ use std::sync::Arc;
 pub use self::anchors::{AnchorDesign, AnchorDesigns, AnchorOf, AnchorResistance, Bank};
 pub use self::dissipator::DissipatorDesign;
 pub use self::flow::{Arrival, Boulders, CurveCut, DamBreak, Flow, LaterSurge, OwnSizes, PoreFluid, Surge};
-pub use self::net_rings::NetRings;
+pub use self::mesh_shape::MeshShape;
+pub use self::net_rings::{Contacts, NetRings};
 pub use self::posts::{PostStrength, Posts, RetainingRopes, SteelSection};
 pub use self::rope::{Level, Rope};
 
+use crate::lattice::Lattice;
 use crate::profile::Profile;
 use crate::relief::Relief;
 use crate::section::{Section, Survey};
@@ -224,10 +227,9 @@ pub struct FlexibleNet {
     pub height: f64,
     /// Angle against plumb (rad), positive towards the flow.
     pub tilt: f64,
-    /// Side of the mesh, which stands on its corner (m); in a ring net the contacts of the rings lie as the knots of a square one do.
+    /// Distance between opposite sides of a mesh (m), for diamonds the length of a side; in a ring net that of a square on four contacts.
     pub mesh_opening: f64,
-    /// Angle between its sides at the upper and the lower corner (rad); nothing where it is a square.
-    pub mesh_angle: Option<f64>,
+    pub mesh: MeshShape,
     /// Rope of the net; in a ring net the one that is like a leg of a ring.
     pub net_rope: Rope,
     /// The rings of a ring net.
@@ -294,9 +296,9 @@ impl FlexibleNet {
         [&self.net_rope, &self.lateral_rope].into_iter().chain(main).chain(of_posts)
     }
 
-    /// Diagonals of the mesh across the barrier and along it (m).
-    pub fn diagonals(&self) -> [f64; 2] {
-        diagonals(self.mesh_opening, self.mesh_angle)
+    /// How the knots of the net lie, or the contacts of its rings.
+    pub fn lattice(&self) -> Lattice {
+        self.rings.map_or_else(|| self.mesh.lattice(self.mesh_opening), |rings| rings.lattice())
     }
 
     /// Diameter of the largest stone that passes the net by itself (m): the side of the mesh, which may be drawn into a square, or a whole ring.
@@ -340,17 +342,6 @@ impl FlexibleNet {
     /// Number of main ropes, from the bottom, that the bed holds along their length.
     pub fn ropes_held_by_bed(&self) -> usize {
         usize::from(self.bottom == Bottom::Fixed)
-    }
-}
-
-/// Diagonals across and along a mesh of this side (m), whose sides meet at this angle above and below (rad); a square where none is told.
-pub fn diagonals(side: f64, angle: Option<f64>) -> [f64; 2] {
-    match angle {
-        None => [side * std::f64::consts::SQRT_2; 2],
-        Some(angle) => {
-            let (sine, cosine) = libm::sincos(0.5 * angle);
-            [2.0 * side * sine, 2.0 * side * cosine]
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
-use crate::design::net_rings::{ring_key, tested_chain, wires};
+use crate::design::net_rings::{Contacts, net_rings, ring_key, tested_chain, wires};
 use crate::design::net_rules::rope_heights;
 use crate::design::show::{NET, at};
 use crate::problem::Problem;
@@ -82,13 +82,15 @@ const MOST_STRETCHED: f64 = 1.1;
 
 /// Rings hang side by side: where they do not fit they would be stretched before anything comes.
 pub fn rings_fit_between_ropes(e: &Entries) -> Option<Problem> {
-    let (diameter, heights) = (e.number(&ring_key("diameter"))?, rope_heights(e)?);
-    let stretched = |length: f64| length / (diameter * (length / diameter).round().max(1.0));
+    let (rings, heights) = (net_rings(e)?, rope_heights(e)?);
+    let (diameter, [wide, tall]) = (rings.diameter, rings.lattice().period());
+    let over = |length: f64, period: f64| length / (period * (length / period).round().max(1.0));
+    let stretched = |bay: f64| over(bay, tall);
     let bays = heights.windows(2).map(|pair| pair[1] - pair[0]);
     let worst = bays.filter(|bay| *bay > 0.0).max_by(|a, b| stretched(*a).total_cmp(&stretched(*b)))?;
     // Between the banks, at the height of the barrier.
     let across = section(e).zip(height_of_barrier(e)).map(|(section, height)| section.width(height));
-    if let Some(width) = across.filter(|width| stretched(*width) > MOST_STRETCHED) {
+    if let Some(width) = across.filter(|width| over(*width, wide) > MOST_STRETCHED) {
         let [width, ring] = [width, diameter].map(|length| Dimension::Length.show(length));
         return Some(
             Problem::new(
@@ -101,19 +103,62 @@ pub fn rings_fit_between_ropes(e: &Entries) -> Option<Problem> {
     }
     (stretched(worst) > MOST_STRETCHED).then(|| {
         let [bay, ring] = [worst, diameter].map(|length| Dimension::Length.show(length));
-        let (more, count) = (100.0 * (stretched(worst) - 1.0), (worst / diameter).round().max(1.0));
-        let found = format!("{count} ring(s) of {ring} between ropes {bay} apart, stretched by {more:.0} %");
-        Problem::new(at("main_ropes"), found, "ropes about a whole number of ring diameters apart, at most 10 % more")
-            .hint("move the ropes, or choose other rings")
+        let (more, count) = (100.0 * (stretched(worst) - 1.0), (worst / tall).round().max(1.0));
+        let found = format!("{count} row(s) of rings of {ring} between ropes {bay} apart, stretched by {more:.0} %");
+        let row = Dimension::Length.show(tall);
+        let allowed = format!("ropes about a whole number of rows of {row} apart, at most 10 % more");
+        Problem::new(at("main_ropes"), found, allowed).hint("move the ropes, or choose other rings")
     })
 }
 
-/// The angle of a mesh is one of ropes.
-pub fn rings_have_no_angle(e: &Entries) -> Option<Problem> {
+/// What tells the shape of a mesh of ropes has no place beside rings.
+pub fn rings_have_no_shape_of_mesh(e: &Entries) -> Option<Problem> {
+    let given = ["mesh_angle", "mesh_shape"].into_iter().find(|key| e.mentions(&at(key)))?;
+    e.mentions(&at("net")).then(|| {
+        Problem::new(at(given), "the shape of a mesh beside rings", "rings without it")
+            .hint("net.rings.contacts tells whether each ring meets four others or six")
+    })
+}
+
+/// A hexagon is regular.
+pub fn hexagons_have_no_angle(e: &Entries) -> Option<Problem> {
     let path = at("mesh_angle");
-    (e.mentions(&path) && e.mentions(&at("net"))).then(|| {
-        Problem::new(path, "an angle of the mesh beside rings", "rings without it")
-            .hint("each ring meets four others, in squares")
+    (e.mentions(&path) && e.text(&at("mesh_shape")) == Some("hexagons")).then(|| {
+        Problem::new(path, "an angle of the mesh beside hexagons", "mesh_shape: hexagons without it")
+            .hint("hexagons are taken as regular; mesh_angle makes a square a diamond")
+    })
+}
+
+/// The strips go on with the pattern of squares or diamonds.
+pub fn hexagons_have_no_side_extension(e: &Entries) -> Option<Problem> {
+    let path = at("side_extension");
+    (e.has_section(&path) && e.text(&at("mesh_shape")) == Some("hexagons")).then(|| {
+        Problem::new(path, "side extensions of a net of hexagons", "squares or diamonds with side extensions")
+            .hint("leave them out; what passes beside the net is then on the high side")
+    })
+}
+
+pub fn rings_meet_four_or_six(e: &Entries) -> Option<Problem> {
+    let path = ring_key("contacts");
+    let contacts = e.number(&path)?;
+    (contacts == 5.0).then(|| {
+        Problem::new(path, "5 contacts to each ring", "4 or 6")
+            .hint("rings lie in squares and meet four others, or in triangles and meet six")
+    })
+}
+
+/// Six contacts lie on the ring as it hangs: it is not taut before anything comes.
+pub fn rings_of_six_contacts_hang_slack(e: &Entries) -> Option<Problem> {
+    let rings = net_rings(e).filter(|rings| rings.contacts == Contacts::Six)?;
+    let ([[bent, _], _], hangs) = (rings.chain, 3.0 * rings.spacing());
+    let least = hangs / (2.0 * rings.diameter) - 1.0;
+    (rings.law().taut_from < hangs).then(|| {
+        Problem::new(
+            ring_key("chain_test"),
+            format!("the end of bending at {:.1} %", 100.0 * bent),
+            format!("{:.1} % or more for these rings with six contacts", 100.0 * least),
+        )
+        .hint("earlier the rings of the net would be taut as they hang")
     })
 }
 

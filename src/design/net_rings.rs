@@ -3,13 +3,15 @@
 use crate::design::entries::Entries;
 use crate::design::rope::Rope;
 use crate::design::show::at;
+use crate::lattice::Lattice;
 use crate::ring_law::{Chain, LOWEST_OF_TESTS, RingLaw, Wires, chain_of, is_known};
 
-/// Rings, each of which meets four others.
+/// Rings, each of which meets so many others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NetRings {
     /// m
     pub diameter: f64,
+    pub contacts: Contacts,
     pub wires: Wires,
     /// A chain of such rings, as a test or the wires tell.
     pub chain: Chain,
@@ -19,7 +21,41 @@ pub struct NetRings {
     pub breaks: bool,
 }
 
+/// How many others a ring meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Contacts {
+    Four,
+    Six,
+}
+
+impl Contacts {
+    pub fn number(self) -> usize {
+        match self {
+            Self::Four => 4,
+            Self::Six => 6,
+        }
+    }
+}
+
 impl NetRings {
+    /// Distance between the centres of rings that meet (m). Rings that meet four others hang side by side; those that meet six are held
+    /// by all of them, so that they stand as close as interlinked rings do, a diameter less their thickness.
+    pub fn spacing(&self) -> f64 {
+        match self.contacts {
+            Contacts::Four => self.diameter,
+            Contacts::Six => self.diameter - self.wires.bundle(),
+        }
+    }
+
+    /// How the contacts of the rings lie.
+    pub fn lattice(&self) -> Lattice {
+        let spacing = self.spacing();
+        match self.contacts {
+            Contacts::Four => Lattice::FourContacts { spacing },
+            Contacts::Six => Lattice::SixContacts { spacing },
+        }
+    }
+
     pub fn law(&self) -> RingLaw {
         RingLaw::of(&self.chain, self.diameter)
     }
@@ -41,7 +77,7 @@ impl NetRings {
 
     /// Whether what the rings withstand is known: from a test, or because they are of the kind that has been tested.
     pub fn is_known(&self) -> bool {
-        self.tested || is_known(&self.wires, self.diameter)
+        self.tested || (self.contacts == Contacts::Four && is_known(&self.wires, self.diameter))
     }
 
     /// A rope as thick as the bundle, as stiff as a taut ring and as strong as one leg.
@@ -60,6 +96,14 @@ impl NetRings {
     /// Side of the square mesh whose knots lie as the contacts of the rings do (m).
     pub fn mesh(&self) -> f64 {
         self.diameter * std::f64::consts::FRAC_1_SQRT_2
+    }
+}
+
+/// Four where the design does not say.
+pub fn contacts(e: &Entries) -> Contacts {
+    match e.number(&ring_key("contacts")) {
+        Some(6.0) => Contacts::Six,
+        _ => Contacts::Four,
     }
 }
 
@@ -89,6 +133,7 @@ pub fn net_rings(e: &Entries) -> Option<NetRings> {
     let given = e.mentions(&ring_key("chain_test"));
     Some(NetRings {
         diameter: e.number(&ring_key("diameter"))?,
+        contacts: contacts(e),
         wires,
         chain: if given { tested? } else { chain_of(&wires) },
         tested: given,

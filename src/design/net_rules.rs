@@ -1,11 +1,12 @@
 //! Contradictions between values of a flexible net; listed in [`super::rules`].
 
+use crate::design::MeshShape;
 use crate::design::channel_entries::{height_of_barrier, section};
-use crate::design::diagonals;
 use crate::design::entries::Entries;
-use crate::design::net_rings::ring_key;
+use crate::design::net_rings::{net_rings, ring_key};
 use crate::design::rope_entries::{LEVELS, levels};
 use crate::design::show::{at, length};
+use crate::lattice::Lattice;
 use crate::problem::Problem;
 use crate::units::Dimension;
 
@@ -29,53 +30,74 @@ pub fn bolts_have_their_distance(e: &Entries) -> Option<Problem> {
     })
 }
 
-/// The lattice of the net: square meshes, or the contacts of rings.
-pub struct Lattice {
-    /// The key that tells it.
+/// The lattice of the net as its keys tell it.
+pub struct TypedLattice {
+    /// The key that tells its size.
     pub path: String,
-    /// Diagonals of a mesh across and along the barrier, or diameter of a ring (m).
-    pub across: f64,
-    pub along: f64,
-    /// Side of the mesh, or diameter of the ring (m).
+    pub lattice: Lattice,
+    /// Opening of the mesh, or diameter of the ring (m).
     size: f64,
     rings: bool,
 }
 
-impl Lattice {
+impl TypedLattice {
     /// Nothing where it is not told.
     pub fn of(e: &Entries) -> Option<Self> {
-        if let Some(diameter) = e.number(&ring_key("diameter")) {
+        if e.mentions(&at("net")) {
+            let rings = net_rings(e)?;
             return Some(Self {
                 path: ring_key("diameter"),
-                across: diameter,
-                along: diameter,
-                size: diameter,
+                lattice: rings.lattice(),
+                size: rings.diameter,
                 rings: true,
             });
         }
         let mesh = e.number(&at("mesh_opening"))?;
-        let [across, along] = diagonals(mesh, e.number(&at("mesh_angle")));
-        Some(Self { path: at("mesh_opening"), across, along, size: mesh, rings: false })
+        let lattice = MeshShape::of(e).lattice(mesh);
+        Some(Self { path: at("mesh_opening"), lattice, size: mesh, rings: false })
+    }
+
+    /// Width of a period across the barrier, and height of one along it (m).
+    pub fn across(&self) -> f64 {
+        self.lattice.period()[0]
+    }
+
+    pub fn along(&self) -> f64 {
+        self.lattice.period()[1]
     }
 
     fn shown(&self) -> String {
         format!("{} of {}", if self.rings { "rings" } else { "a mesh" }, length(self.size))
     }
 
-    /// What is as wide as its diagonal.
+    /// What is as wide as a period.
     pub fn wide(&self) -> &'static str {
-        if self.rings { "ring" } else { "mesh diagonal" }
+        match self.lattice {
+            Lattice::Diamonds { .. } => "mesh diagonal",
+            Lattice::Hexagons { .. } => "mesh opening",
+            Lattice::FourContacts { .. } | Lattice::SixContacts { .. } => "ring",
+        }
+    }
+
+    /// What is as tall as a period.
+    pub fn tall(&self) -> &'static str {
+        match self.lattice {
+            Lattice::Diamonds { .. } => "mesh diagonal",
+            Lattice::Hexagons { .. } => "pair of rows of hexagons",
+            Lattice::FourContacts { .. } => "ring",
+            Lattice::SixContacts { .. } => "row of rings",
+        }
     }
 }
 
 pub fn mesh_within_the_barrier(e: &Entries) -> Option<Problem> {
-    let (lattice, height) = (Lattice::of(e)?, e.number(&at("height"))?);
-    (lattice.along > height).then(|| {
+    let (lattice, height) = (TypedLattice::of(e)?, e.number(&at("height"))?);
+    (lattice.along() > height).then(|| {
         let found = format!("{} in a barrier {} high", lattice.shown(), length(height));
         let allowed = if lattice.rings {
-            "rings that fit the barrier's height"
+            "rings that fit the barrier's height".to_string()
         } else {
-            "a mesh whose diagonal fits the barrier's height"
+            format!("a {} no taller than the barrier", lattice.tall())
         };
         Problem::new(lattice.path, found, allowed)
     })
@@ -130,18 +152,18 @@ pub fn rope_heights_span_the_barrier(e: &Entries) -> Option<Problem> {
 }
 
 pub fn ropes_leave_room_for_the_mesh(e: &Entries) -> Option<Problem> {
-    let (lattice, heights) = (Lattice::of(e)?, rope_heights(e)?);
-    let (diagonal, wide) = (lattice.along, lattice.wide());
+    let (lattice, heights) = (TypedLattice::of(e)?, rope_heights(e)?);
+    let (tall, name) = (lattice.along(), lattice.tall());
     let bay = heights.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
-    (bay > 0.0 && bay < 0.6 * diagonal).then(|| {
-        let found = format!("ropes {} apart with a {wide} of {}", length(bay), length(diagonal));
-        Problem::new(at("main_ropes"), found, format!("at least one {wide} between two main ropes"))
+    (bay > 0.0 && bay < 0.6 * tall).then(|| {
+        let found = format!("ropes {} apart with a {name} of {}", length(bay), length(tall));
+        Problem::new(at("main_ropes"), found, format!("at least one {name} between two main ropes"))
     })
 }
 
 pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
-    let (lattice, width) = (Lattice::of(e)?, section(e)?.width(height_of_barrier(e)?));
-    (3.0 * lattice.across > width).then(|| {
+    let (lattice, width) = (TypedLattice::of(e)?, section(e)?.width(height_of_barrier(e)?));
+    (3.0 * lattice.across() > width).then(|| {
         let found = format!("{} across a channel of {}", lattice.shown(), length(width));
         let allowed = format!("at least three {}s across the channel", lattice.wide());
         Problem::new(lattice.path, found, allowed)
@@ -149,18 +171,27 @@ pub fn mesh_within_the_channel(e: &Entries) -> Option<Problem> {
 }
 
 pub fn rings_match_the_mesh(e: &Entries) -> Option<Problem> {
-    let (spacing, lattice) = (e.number(&at("main_ropes.rings.spacing"))?, Lattice::of(e)?);
-    let (diagonal, wide) = (lattice.across, lattice.wide());
+    let (spacing, lattice) = (e.number(&at("main_ropes.rings.spacing"))?, TypedLattice::of(e)?);
+    let (diagonal, wide) = (lattice.lattice.along_a_rope(), lattice.wide());
     ((spacing / diagonal - 1.0).abs() > 0.1).then(|| {
         let (found, allowed) = if lattice.rings {
             (
-                format!("a spacing of {} with rings of {} in the net", length(spacing), length(diagonal)),
-                "the diameter of the net's rings, each of which hangs on the rope (to 10 %)",
+                format!(
+                    "a spacing of {} with rings of the net that hang on the rope every {}",
+                    length(spacing),
+                    length(diagonal)
+                ),
+                match lattice.lattice {
+                    Lattice::SixContacts { .. } => {
+                        "half of the distance of the net's rings, each of which hangs on the rope in two places (to 10 %)"
+                    }
+                    _ => "the diameter of the net's rings, each of which hangs on the rope (to 10 %)",
+                },
             )
         } else {
             (
                 format!("rings every {} with a {wide} of {}", length(spacing), length(diagonal)),
-                "one ring to each mesh along the rope (the diagonal to 10 %)",
+                "one ring to each mesh along the rope, as wide as that is (to 10 %)",
             )
         };
         Problem::new(at("main_ropes.rings.spacing"), found, allowed)
@@ -253,8 +284,8 @@ pub fn lateral_ropes_have_their_dissipators(e: &Entries) -> Option<Problem> {
 const MOST_KNOTS: f64 = 50_000.0;
 
 pub fn knots_are_bearable(e: &Entries) -> Option<Problem> {
-    let (lattice, height) = (Lattice::of(e)?, e.number(&at("height"))?);
-    let of_one = 0.5 * lattice.across * lattice.along;
+    let (lattice, height) = (TypedLattice::of(e)?, e.number(&at("height"))?);
+    let of_one = lattice.across() * lattice.along() / lattice.lattice.knots();
     let knots = section(e)?.mean_width(height_of_barrier(e)?) * height / of_one;
     (knots > MOST_KNOTS).then(|| {
         let what = if lattice.rings { "contacts" } else { "knots" };

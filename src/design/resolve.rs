@@ -20,8 +20,8 @@ use crate::design::surge_entries::{surges, volume_of, volume_of_all};
 use crate::design::terrain_file::FINE;
 use crate::design::{
     Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, Factors, FidelityWish,
-    FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, OtherLoads, OutsideRange, OwnSizes, PoreFluid,
-    Project, RigidWall, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, MeshShape, OtherLoads, OutsideRange, OwnSizes,
+    PoreFluid, Project, RigidWall, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -249,7 +249,7 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             Some(rings) => rings.mesh(),
             None => value("mesh_opening")?,
         },
-        mesh_angle: value("mesh_angle"),
+        mesh: MeshShape::of(e),
         net_rope: match &rings {
             Some(rings) => rings.as_rope(),
             None => rope(e, &["net_rope"])?,

@@ -2,8 +2,8 @@
 
 use crate::design::factor_sets;
 use crate::design::key::{Bounded, Key, Kind, quantity};
-use crate::design::posts;
 use crate::design::rope_table::{BREAKING_LOADS, DIAMETERS, MODULI};
+use crate::design::{mesh_shape, posts};
 use crate::units::Dimension as D;
 
 /// Version of the table below; raised when a file that was good is read differently, or no more.
@@ -493,7 +493,13 @@ const FLEXIBLE_NET: &[Key] = &[
     Key::optional(
         "mesh_opening",
         Kind::LengthOrGrains { low: 0.005, high: 3.0 },
-        "side of the mesh; give this with net_rope, or net.rings",
+        "distance between opposite sides of a mesh, for a diamond the length of a side; give this with net_rope, or net.rings",
+    ),
+    Key::default(
+        "mesh_shape",
+        Kind::Choice(&mesh_shape::SHAPES),
+        "squares",
+        "squares on their corner, or regular hexagons with two plumb sides",
     ),
     Key::optional(
         "mesh_angle",
@@ -606,10 +612,17 @@ const RETAINING_ROPES: &[Key] = &[
     Key::required("anchor_resistance", quantity(D::Force, 1.0, 1e9), "characteristic resistance of one anchor"),
 ];
 
-const NETS: &[Key] = &[Key::optional("rings", Kind::Section(NET_RINGS), "a ring net: each ring meets four others")];
+const NETS: &[Key] =
+    &[Key::optional("rings", Kind::Section(NET_RINGS), "a ring net: each ring meets four others, or six")];
 
 const NET_RINGS: &[Key] = &[
     Key::required("diameter", quantity(D::Length, 0.02, 3.0), "diameter of a ring"),
+    Key::default(
+        "contacts",
+        Kind::Count { low: 4, high: 6 },
+        "4",
+        "rings that each one meets: 4, in squares, or 6, in triangles",
+    ),
     Key::required("windings", Kind::Count { low: 1, high: 100 }, "windings of wire in a ring"),
     Key::required("wire_diameter", quantity(D::Length, 2e-4, 0.02), "diameter of the wire"),
     Key::required("wire_strength", quantity(D::Pressure, 4e8, 2.4e9), "tensile strength of the wire"),

@@ -66,7 +66,7 @@ pub fn net_pieces(design: &Design, net: &FlexibleNet) -> u32 {
 pub fn needed_pieces(design: &Design, net: &FlexibleNet) -> u32 {
     match net.rings {
         Some(_) => 1,
-        None => pieces_for(net.mesh_opening, 0.5 * design.flow.sizes.quantile(0.5)),
+        None => pieces_for(net.lattice().side(), 0.5 * design.flow.sizes.quantile(0.5)),
     }
 }
 
@@ -100,22 +100,22 @@ fn stiffest_pairs(design: &Design) -> Pairs {
     pairs
 }
 
-/// Four net ropes meet in a knot; along the mesh's diagonal their stiffness adds up to twice one rope's on each
-/// side. A grain of the mean size presses on it as well.
+/// So many sides meet in a knot, at even angles; along any direction in their plane their stiffness adds up to half of their sum, and to as
+/// much again where the neighbours move against it. A grain of the mean size presses on it as well.
 fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let area = |rope: &Rope| std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
-    let [diagonal, _] = net.diagonals();
+    let lattice = net.lattice();
     let knot = |rope: &Rope, length: f64, parts: f64, sides: f64| {
         let mass = 0.5 * parts * ROPE_DENSITY * area(rope) * length;
         let stiffness = rope.modulus * area(rope) / length;
         (mass, sides * stiffness)
     };
     let pieces = net_pieces(design, net);
-    // A node between two pieces of a side is lighter than a knot, of four.
-    let meeting = if pieces > 1 { 2.0 } else { 4.0 };
+    // A node between two pieces of a side is lighter than a knot of four, and as stiff along the side.
+    let (meeting, sides) = if pieces > 1 { (2.0, 4.0) } else { (lattice.meeting(), lattice.meeting()) };
     let (net_mass, net_stiffness) = match &net.rings {
         Some(rings) => contact_of_rings(rings),
-        None => knot(&net.net_rope, net.mesh_opening / f64::from(pieces), meeting, 4.0),
+        None => knot(&net.net_rope, lattice.side() / f64::from(pieces), meeting, sides),
     };
     let radius = 0.42 * design.flow.sizes.quantile(0.5);
     let grain = design.flow.modulus * radius;
@@ -129,7 +129,7 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     }
     let on_net = net_mass / (net_stiffness + contact);
     let on_rope = |level: &Level| {
-        let (mass, stiffness) = knot(&level.rope, diagonal, 2.0, 4.0);
+        let (mass, stiffness) = knot(&level.rope, lattice.along_a_rope(), 2.0, 4.0);
         let ropes = f64::from(level.ropes);
         (ropes * mass + net_mass) / (ropes * stiffness + net_stiffness + contact)
     };
@@ -142,12 +142,14 @@ fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     critical_step_of_pair(1.0, least, ROPE_DAMPING_RATIO)
 }
 
-/// Mass of a contact of two rings (kg), and their stiffness there (N/m) when neighbours breathe against each other: with all contacts of a
-/// ring out by u its way grows by 4 √2 u, and each pulls its contact by √2 k 4 √2 u = 8 k u; opposite contacts bend it by 2 u.
+/// Mass of a contact of two rings (kg), and their stiffness there (N/m) when neighbours breathe against each other: with all n contacts of a
+/// ring out by u its way grows by 2 n s u, s = sin(π/n), and each pulls its contact by 2 s k 2 n s u; opposite contacts bend it by 2 u.
 fn contact_of_rings(rings: &NetRings) -> (f64, f64) {
-    let law = rings.law();
-    let mass = 0.5 * ring_law::mass(&rings.wires, rings.diameter, ROPE_DENSITY);
-    (mass, 2.0 * (8.0 * law.stiffness + 2.0 * law.bending))
+    let (law, contacts) = (rings.law(), rings.contacts.number() as f64);
+    let mass = 2.0 * ring_law::mass(&rings.wires, rings.diameter, ROPE_DENSITY) / contacts;
+    let sine = libm::sin(std::f64::consts::PI / contacts);
+    let taut = 4.0 * contacts * sine * sine * law.stiffness;
+    (mass, 2.0 * (taut + 2.0 * law.bending))
 }
 
 /// Two significant digits, downwards: a step a person can read.

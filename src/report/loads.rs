@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::checks::between_bolts::{concentration, tension_between};
 use crate::checks::detailing;
-use crate::design::BarrierDesign;
+use crate::design::{BarrierDesign, Contacts};
 use crate::guideline::{RopeLoad, wall_of};
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::cases::split;
@@ -261,14 +261,22 @@ pub fn ring_net(run: &Run) -> String {
         return String::new();
     };
     let Some(rings) = &net.rings else { return String::new() };
-    let of = RingNet { diameter: rings.diameter, taut_from: rings.law().taut_from };
+    let of = RingNet { lattice: rings.lattice(), taut_from: rings.law().taut_from };
+    let taut = match rings.contacts {
+        Contacts::Four => format!("a way P₁ = {:.3} m round their contacts, L = P₁", of.taut_from),
+        Contacts::Six => format!(
+            "a way P₁ = {:.3} m round their contacts, of which L = P₁ − s = {:.3} m rises",
+            of.taut_from,
+            of.rising()
+        ),
+    };
     format!(
-        "Rings of the net: the bay of b = {:.2} m whose pressure is largest bears q = {:.1} kN on a metre of width. Rings of D = {:.3} m that stay side by side are taut when they are d = {:.3} m high, with a way P₁ = {:.3} m round their contacts, and the net bulges by f = b √(⅜ (d/D − 1)) = {:.3} m; a width of one ring pulls with V = D q √((b/8f)² + ¼), and a leg with T = V P₁/(4 d) = {:.1} kN. Single grains load rings more than that: the simulation tells, and the equations alone never let the rings pass.",
+        "Rings of the net: the bay of b = {:.2} m whose pressure is largest bears q = {:.1} kN on a metre of width. Rings that stay side by side, s = {:.3} m from centre to centre, are taut when they are d = {:.3} m high instead of d₀ = {:.3} m, with {taut}, and the net bulges by f = b √(⅜ (d/d₀ − 1)) = {:.3} m; a width of one ring pulls with V = s q √((b/8f)² + ¼), and a leg with T = V L/(4 d) = {:.1} kN. Single grains load rings more than that: the simulation tells, and the equations alone never let the rings pass.",
         found.bay,
         found.load / 1e3,
-        rings.diameter,
+        of.spacing(),
         of.height(),
-        of.taut_from,
+        of.hung(),
         found.bulge,
         found.leg / 1e3
     )

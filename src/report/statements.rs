@@ -125,7 +125,7 @@ fn of_the_net(design: &Design, simulated: bool) -> Vec<Statement> {
         ),
         (
             ringed && simulated,
-            "Each ring of the net slides without friction through its contacts with four others and runs straight between them: it resists bending elastically while its opposite contacts are further apart than its diameter, then one tension acts all round. The wires break earlier the more sharply a ring is turned; what is told is the force of a leg, which is the bundle of wires on one side of a ring, as that of a chain of rings that is as near to breaking. What rings take away by bending for good is left out.",
+            "Each ring of the net slides without friction through its contacts with its neighbours and runs straight between them: it resists bending elastically while its opposite contacts are further apart than its diameter, then one tension acts all round. The wires break earlier the more sharply a ring is turned; what is told is the force of a leg, which is the bundle of wires on one side of a ring, as that of a chain of rings that is as near to breaking. What rings take away by bending for good is left out.",
             EITHER,
         ),
         (

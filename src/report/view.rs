@@ -564,7 +564,7 @@ fn ring_rows(rings: &NetRings) -> [Row; 3] {
         (true, _) => "a test of such a chain",
         (false, true) => "follows from the wires (Guo 2022)",
         (false, false) => {
-            "follows from the wires, for rings as nobody has tested them (Guo 2022 has 300 mm, 5 to 19 windings of 3 mm)"
+            "follows from the wires, for rings as nobody has tested them (Guo 2022 has 300 mm, 5 to 19 windings of 3 mm, and four contacts)"
         }
     };
     [

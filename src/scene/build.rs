@@ -482,7 +482,7 @@ fn recorder_setup(design: &Design, net: Option<BuiltNet>) -> RecorderSetup {
         boulders: [0, 0],
         mesh: match &design.barrier {
             BarrierDesign::FlexibleNet(net) => {
-                let [across, along] = net.diagonals();
+                let [across, along] = net.lattice().period();
                 across.max(along)
             }
             BarrierDesign::RigidWall(_) => 0.0,

@@ -2,14 +2,16 @@
 
 use nalgebra::UnitQuaternion;
 
+use crate::lattice::Lattice;
 use crate::ring_law::{RingLaw, Wires, chain_of, mass};
 use crate::validation::barrier::posts::post;
+use crate::validation::barrier::punching::Panel;
+use crate::validation::barrier::ring_panel::ring_panel;
 use crate::validation::scenes::{MODULUS, ball, closed_box, free_model, material, plane};
 use dem::Vec3;
 use dem::contact::law::contact_stiffness;
 use dem::elements::cylinder::Cylinder;
 use dem::elements::dissipator::Dissipator;
-use dem::elements::net_ring::{NetRing, RingStrength};
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::elements::yield_curve::YieldCurve;
@@ -28,7 +30,7 @@ pub struct Scene {
     pub build: fn() -> Model,
 }
 
-pub const SCENES: [Scene; 20] = [
+pub const SCENES: [Scene; 22] = [
     Scene {
         name: "row of balls", what: "eight balls pressed together between walls, ε = 1", linear: true, build: row
     },
@@ -86,13 +88,25 @@ pub const SCENES: [Scene; 20] = [
         name: "taut rings",
         what: "16 rings of 300 mm with 12 windings of 3 mm in a frame, stretched by a hundredth",
         linear: true,
-        build: || rings(1.01),
+        build: || rings(four, 1.01),
     },
     Scene {
         name: "bent rings",
         what: "the same, drawn from circles to where they are nearly taut",
         linear: true,
-        build: || rings(0.99),
+        build: || rings(four, 0.99),
+    },
+    Scene {
+        name: "taut rings of six contacts",
+        what: "16 and more such rings that meet six others, stretched by a hundredth",
+        linear: true,
+        build: || rings(six, 1.01),
+    },
+    Scene {
+        name: "hexagons",
+        what: "a panel of 3 m of ropes of 8 mm in hexagons of 300 mm, stretched by a hundredth",
+        linear: true,
+        build: hexagons,
     },
     Scene {
         name: "rings from slack to taut",
@@ -244,43 +258,50 @@ fn taut(element: f64, stiffer: f64, ropes: usize, radius: f64) -> Barrier {
     barrier
 }
 
-/// Four by four rings whose contacts lie on a square lattice, those on the frame fixed; `stretch` is the way round each over the one from
-/// which it is taut.
-fn rings(stretch: f64) -> Model {
+/// Rings in a frame; `stretch` is the way round each over the one from which it is taut.
+fn rings(lattice: fn(f64) -> Lattice, stretch: f64) -> Model {
     const ACROSS: i32 = 4;
-    let wires = Wires { windings: 12, diameter: 3e-3, strength: 1.77e9 };
-    let (diameter, mut barrier) = (0.3, Barrier { friction: 0.4, contact_modulus: ROPE_MODULUS, ..Barrier::default() });
-    let law = RingLaw::of(&chain_of(&wires), diameter);
-    let half = stretch * law.taut_from / (4.0 * std::f64::consts::SQRT_2);
-    let mut numbers = std::collections::BTreeMap::new();
-    for (x, y) in (0..ACROSS).flat_map(|column| (0..ACROSS).map(move |row| (2 * column + 1, 2 * row + 1))) {
-        let nodes = [(x + 1, y), (x, y + 1), (x - 1, y), (x, y - 1)].map(|place| {
-            *numbers.entry(place).or_insert_with(|| {
-                let fixed = [place.0, place.1].into_iter().any(|at| at == 0 || at == 2 * ACROSS);
-                let number = barrier.nodes.len();
-                let place = Vec3::new(f64::from(place.0), f64::from(place.1), 0.0) * half;
-                barrier.nodes.push(node(place, 0.5 * mass(&wires, diameter, STEEL), fixed, number));
-                number as u32
-            })
-        });
-        barrier.net_rings.push(NetRing {
-            nodes: nodes.to_vec(),
-            taut_from: law.taut_from,
-            stiffness: law.stiffness,
-            damping: 0.1 * (law.stiffness * mass(&wires, diameter, STEEL) / 32.0).sqrt(),
-            bending: law.bending,
-            diameter,
-            radius: 0.5 * wires.bundle(),
-            touched: Vec::new(),
-            strength: RingStrength { in_chain: f64::INFINITY, in_net: f64::INFINITY, breaks: false, broken: false },
-        });
+    let mut barrier = ring_panel(lattice(1.0), ACROSS);
+    let law = RingLaw::of(&chain_of(&WIRES), 0.3);
+    // Drawn from a way round each ring of one side for every contact.
+    let unit = lattice(1.0);
+    let drawn = stretch * law.taut_from / (unit.corners().len() as f64 * unit.side());
+    for (number, node) in barrier.nodes.iter_mut().enumerate() {
+        node.position *= drawn;
+        node.velocity = if node.fixed { Vec3::zeros() } else { nudge(number) };
+        node.pace = node.velocity;
+        node.radius = 0.0;
     }
-    barrier.connect();
+    for ring in &mut barrier.net_rings {
+        ring.damping = 0.1 * (law.stiffness * mass(&WIRES, 0.3, STEEL) / 32.0).sqrt();
+        ring.touched.clear();
+    }
+    with_barrier(barrier, far_ball())
+}
+
+const WIRES: Wires = Wires { windings: 12, diameter: 3e-3, strength: 1.77e9 };
+
+fn four(spacing: f64) -> Lattice {
+    Lattice::FourContacts { spacing }
+}
+
+fn six(spacing: f64) -> Lattice {
+    Lattice::SixContacts { spacing }
+}
+
+/// Ropes of 8 mm in hexagons of 300 mm in a frame, stretched by a hundredth.
+fn hexagons() -> Model {
+    let mut barrier = Panel { axial: 4e6, slack: 0.0, mesh: 0.3, pieces: 1 }.build_hexagons();
+    for (number, node) in barrier.nodes.iter_mut().enumerate() {
+        node.position *= 1.01;
+        node.velocity = if node.fixed { Vec3::zeros() } else { nudge(number) };
+        node.pace = node.velocity;
+    }
     with_barrier(barrier, far_ball())
 }
 
 fn swinging_rings() -> Model {
-    let mut model = rings(0.99);
+    let mut model = rings(four, 0.99);
     for (number, node) in model.barrier.iter_mut().flat_map(|barrier| &mut barrier.nodes).enumerate() {
         node.velocity = if node.fixed { Vec3::zeros() } else { nudge(number) * 5e3 };
     }

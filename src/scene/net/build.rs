@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use nalgebra::UnitQuaternion;
 
 use crate::design::{Bank, BarrierModel, Bottom, Channel, DissipatorDesign, FlexibleNet, LateralTo, Rope};
+use crate::lattice::Place;
 use crate::scene::net::grid::Grid;
 use crate::scene::net::ring_shape::{POISSON, ring_stand_off};
 use dem::Vec3;
@@ -77,9 +78,7 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
         builder.add_cut_net(survey);
     } else {
         builder.add_knots();
-        if design.rings.is_none() {
-            builder.add_net();
-        }
+        builder.add_sides();
         builder.add_main_ropes();
         builder.add_lateral_ropes();
     }
@@ -91,9 +90,6 @@ pub fn build(design: &FlexibleNet, channel: &Channel, model: BarrierModel, piece
     }
     builder.finish()
 }
-
-/// A place of the lattice, by column and row.
-pub(super) type Place = (usize, usize);
 
 pub(super) struct Builder<'a> {
     pub(super) design: &'a FlexibleNet,
@@ -111,8 +107,8 @@ pub(super) struct Builder<'a> {
     pub(super) rope_nodes: BTreeMap<usize, Vec<u32>>,
     /// Knots of the side extensions by row, on either side, from the net outwards.
     pub(super) wings: Vec<[Vec<u32>; 2]>,
-    /// In a ring net, the node on the edge at which a side between two places of the lattice was cut, by the place that is left.
-    pub(super) cut_sides: BTreeMap<[Place; 2], u32>,
+    /// In a ring net, the node on the edge at which a side was cut, by the place that is left and the way from there to the other.
+    pub(super) cut_sides: BTreeMap<(Place, (i32, i32)), u32>,
     /// Heads of posts.
     pub(super) heads: Vec<u32>,
 }
@@ -135,10 +131,10 @@ impl Builder<'_> {
     }
 
     /// Place of a column across the channel (m).
-    pub(super) fn across(&self, column: usize) -> f64 {
+    pub(super) fn across(&self, column: i32) -> f64 {
         let gap = self.design.side_gap();
         let inner = self.width - 2.0 * gap;
-        self.starts + gap + inner * column as f64 / self.grid.columns as f64
+        self.starts + gap + inner * f64::from(column) / f64::from(self.grid.columns)
     }
 
     /// Unit vectors up the barrier's plane and out of it, upstream.
@@ -179,7 +175,7 @@ impl Builder<'_> {
         let bottom_fixed = self.design.bottom == Bottom::Fixed;
         let [_, upstream] = self.directions();
         for row in 0..self.grid.row_heights.len() {
-            for column in self.grid.knot_columns(row) {
+            for column in self.grid.knot_columns(row).chain(self.edge_contacts(row)) {
                 let mut position = self.place(self.across(column), self.grid.row_heights[row]);
                 if self.model == BarrierModel::Cylinders && self.has_free_rope(row) {
                     position += upstream * ring_stand_off(&self.design.main_ropes, self.rope_of_row(row));
@@ -190,13 +186,24 @@ impl Builder<'_> {
         }
     }
 
-    fn add_net(&mut self) {
+    /// Columns of the lateral ropes where a ring that meets six others would stand half outside: it is cut there, and hangs on the rope.
+    fn edge_contacts(&self, row: usize) -> impl Iterator<Item = i32> + use<> {
+        let lattice = self.grid.lattice;
+        [0, self.grid.columns].into_iter().filter(move |column| lattice.has_centre((*column, row)))
+    }
+
+    /// Adds the sides of all meshes; a ring net has none.
+    fn add_sides(&mut self) {
+        if self.design.rings.is_some() {
+            return;
+        }
         let mut pairs = Vec::new();
-        for (&(column, row), &node) in &self.knots {
-            for neighbour in [column.checked_sub(1), Some(column + 1)].into_iter().flatten() {
-                if let Some(&above) = self.knots.get(&(neighbour, row + 1)) {
-                    pairs.push([node, above]);
-                }
+        for (&place, &node) in &self.knots {
+            for &step in self.grid.lattice.neighbours(place) {
+                // Beside the net the lateral rope runs where a side would.
+                let beside = step.0 == 0 && (place.0 == 0 || place.0 == self.grid.columns);
+                let other = self.grid.from(place, step).filter(|other| other.1 > place.1 && !beside);
+                pairs.extend(other.and_then(|other| self.knots.get(&other)).map(|&above| [node, above]));
             }
         }
         for knots in pairs {
@@ -218,7 +225,7 @@ impl Builder<'_> {
 
     /// Pieces of a side of this length: fewer where it was cut (m).
     fn pieces_of(&self, length: f64) -> u32 {
-        let whole = self.design.mesh_opening;
+        let whole = self.grid.lattice.side();
         if length > 0.75 * whole || self.pieces == 1 {
             return self.pieces;
         }
@@ -306,7 +313,7 @@ impl Builder<'_> {
         }
     }
 
-    fn lateral_stop(&self, column: usize, row: usize) -> Option<u32> {
+    fn lateral_stop(&self, column: i32, row: usize) -> Option<u32> {
         let Some(rope) = self.grid.rope_rows.iter().position(|&rope_row| rope_row == row) else {
             return self.knots.get(&(column, row)).copied();
         };
@@ -322,7 +329,7 @@ impl Builder<'_> {
     }
 
     pub(super) fn knots_of_row(&self, row: usize) -> Vec<u32> {
-        self.grid.knot_columns(row).filter_map(|column| self.knots.get(&(column, row)).copied()).collect()
+        (0..=self.grid.columns).filter_map(|column| self.knots.get(&(column, row)).copied()).collect()
     }
 
     /// Adds a straight rope between two nodes, as a segment or as a cylinder.

@@ -25,7 +25,7 @@ impl Builder<'_> {
         let rows = self.grid.row_heights.len();
         self.wings = vec![[Vec::new(), Vec::new()]; rows];
         for side in 0..2 {
-            let edge = side * self.grid.columns;
+            let edge = [0, self.grid.columns][side];
             let mut knots: BTreeMap<(usize, usize), u32> = BTreeMap::new();
             for row in 0..rows {
                 if let Some(&knot) = self.knots.get(&(edge, row)) {

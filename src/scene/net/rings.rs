@@ -23,7 +23,7 @@ impl Builder<'_> {
     pub(super) fn add_ringed_rope(&mut self, rope: u16, row: usize, ends: [u32; 2]) -> Vec<u32> {
         let ropes = self.design.main_ropes.clone();
         let up = self.grid.row_heights[row];
-        let columns: Vec<usize> = self.grid.knot_columns(row).collect();
+        let columns: Vec<i32> = self.grid.knot_columns(row).collect();
         let stops = [&[0], &columns[..], &[self.grid.columns]].concat();
         let mut nodes = vec![ends[0]];
         let mut ring_places = Vec::new();

@@ -1,5 +1,6 @@
 //! D27: a net panel in a frame, pushed through its middle.
 
+use crate::lattice::Lattice;
 use crate::validation::barrier::stand::DENSITY;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, free_model};
@@ -48,7 +49,7 @@ fn area() -> f64 {
 }
 
 /// A panel in the plane z = 0, whose nodes on the frame are fixed.
-pub(super) struct Panel {
+pub struct Panel {
     /// EA of its ropes (N).
     pub axial: f64,
     /// Rest lengths are (1 + slack) of the squares' sides.
@@ -86,6 +87,36 @@ impl Panel {
             for other in [(column + 1, row + 1), (column + 1, row - 1)] {
                 let Some(&other) = numbers.get(&other) else { continue };
                 self.add_side(&mut barrier, [node, other]);
+            }
+        }
+        barrier.connect();
+        barrier
+    }
+
+    /// The same of hexagons, so wide between opposite sides, with the knots fixed at which a side would lead out of the panel.
+    pub fn build_hexagons(&self) -> Barrier {
+        let lattice = Lattice::Hexagons { opening: self.mesh };
+        let ([wide, tall], [columns, rows]) = (lattice.period(), lattice.steps());
+        let periods = [2.0 * HALF / wide, 2.0 * HALF / tall].map(f64::round);
+        let [columns, rows] = [(periods[0] as i32) * columns as i32, (periods[1] as usize * rows) as i32];
+        let mut barrier = Barrier { friction: 0.3, contact_modulus: MODULUS, ..Barrier::default() };
+        let mut numbers = std::collections::BTreeMap::new();
+        for (column, row) in (0..=columns).flat_map(|column| (0..=rows as usize).map(move |row| (column, row))) {
+            if !lattice.has_knot((column, row)) {
+                continue;
+            }
+            let along = (row / lattice.steps()[1]) as f64 + lattice.rows()[row % lattice.steps()[1]];
+            let x = (f64::from(column) / lattice.steps()[0] as f64 - 0.5 * periods[0]) * wide;
+            numbers.insert((column, row as i32), barrier.nodes.len() as u32);
+            barrier.nodes.push(knot(Vec3::new(x, (along - 0.5 * periods[1]) * tall, 0.0), false));
+        }
+        for (&(column, row), &node) in &numbers {
+            for &(by, up) in lattice.neighbours((column, row as usize)) {
+                match numbers.get(&(column + by, row + up)) {
+                    Some(&other) if other > node => self.add_side(&mut barrier, [node, other]),
+                    Some(_) => {}
+                    None => barrier.nodes[node as usize].fixed = true,
+                }
             }
         }
         barrier.connect();

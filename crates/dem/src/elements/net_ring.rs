@@ -78,6 +78,15 @@ pub struct RingPull {
     pub breaks: bool,
 }
 
+/// A ring that is taut, as it is now.
+#[derive(Clone, Debug)]
+pub struct TautRing {
+    /// By how much the way round the ring grows as each contact moves, in the order of the contacts.
+    pub ways: Vec<Vec3>,
+    /// N
+    pub tension: f64,
+}
+
 impl NetRing {
     /// Neighbouring contacts, the last with the first at the end.
     pub fn sides(&self) -> impl Iterator<Item = [u32; 2]> {
@@ -102,20 +111,24 @@ impl NetRing {
         self.sides().map(length).sum()
     }
 
-    /// Springs of which each ring is no stiffer than their sum: for e the elongations of n sides, (Σ e)² ≤ n Σ e². Neighbouring rings that
-    /// breathe against each other reach it.
-    pub fn springs<'a>(&'a self, nodes: &'a [Node]) -> impl Iterator<Item = Taut> + 'a {
-        let count = self.nodes.len() as f64;
-        let over = (self.way(nodes) - self.taut_from) / count;
-        let taut = over >= 0.0 && !self.strength.broken;
-        let sides = self.sides().filter(move |_| taut).map(move |ends| {
-            let [a, b] = ends.map(|node| nodes[node as usize].position);
-            let (stiffness, damping) = (count * self.stiffness, count * self.damping);
-            Taut { nodes: ends, stiffness, damping, slack: (b - a).norm() - over }
-        });
-        let diagonals =
-            self.diagonals().map(|nodes| Taut { nodes, stiffness: self.bending, damping: 0.0, slack: self.diameter });
-        sides.chain(diagonals)
+    /// Springs of bending, between opposite contacts.
+    pub fn springs(&self) -> impl Iterator<Item = Taut> + '_ {
+        self.diagonals().map(|nodes| Taut { nodes, stiffness: self.bending, damping: 0.0, slack: self.diameter })
+    }
+
+    /// The one spring of a taut ring, by which the way round it grows; nothing where it is slack.
+    pub fn taut(&self, nodes: &[Node]) -> Option<TautRing> {
+        let over = self.way(nodes) - self.taut_from;
+        if over < 0.0 || self.strength.broken {
+            return None;
+        }
+        // Two contacts at one place pull each other nowhere.
+        let line = |[a, b]: [u32; 2]| nodes[b as usize].position - nodes[a as usize].position;
+        let direction = |side| line(side).try_normalize(0.0).unwrap_or_default();
+        let after: Vec<Vec3> = self.sides().map(direction).collect();
+        let before = after[after.len() - 1..].iter().chain(&after[..after.len() - 1]);
+        let ways = before.zip(&after).map(|(before, after)| before - after).collect();
+        Some(TautRing { ways, tension: self.stiffness * over })
     }
 
     /// Puts its forces on the contacts, after a step of length `step` (s).
@@ -123,6 +136,7 @@ impl NetRing {
         match self.nodes.len() {
             _ if self.strength.broken => RingPull::default(),
             4 => self.pull_on::<4>(nodes, forces, step),
+            6 => self.pull_on::<6>(nodes, forces, step),
             _ => self.pull_on::<MOST_CONTACTS>(nodes, forces, step),
         }
     }
@@ -296,17 +310,17 @@ mod tests {
         assert_eq!(forces, [Vec3::zeros(); 2]);
     }
 
+    /// The way round a square of diagonals 0.4 m grows by √2 as one contact moves out by 1, and by nothing as it moves along the next two.
     #[test]
-    fn springs_of_the_stable_step_are_no_softer_than_the_ring() {
+    fn a_taut_ring_is_one_spring() {
         let nodes = [node(0.2, 0.0), node(0.0, 0.2), node(-0.2, 0.0), node(0.0, -0.2)];
         let ring = ring(4);
-        let springs: Vec<Taut> = ring.springs(&nodes).collect();
-        assert_eq!(springs.len(), 6);
-        // The tension of each side is that of the ring.
-        let tension = ring.pull(&nodes, &mut [Vec3::zeros(); 4], 1e-3).tension;
-        let length = 0.2 * 2.0_f64.sqrt();
-        for side in &springs[..4] {
-            assert_relative_eq!(side.stiffness * (length - side.slack), tension, max_relative = 1e-12);
+        let taut = ring.taut(&nodes).expect("a taut ring");
+        assert_relative_eq!(taut.tension, 1000.0 * (0.8 * 2.0_f64.sqrt() - 0.9), max_relative = 1e-12);
+        for (way, node) in taut.ways.iter().zip(&nodes) {
+            assert_relative_eq!((way - node.position / 0.2 * 2.0_f64.sqrt()).norm(), 0.0, epsilon = 1e-12);
         }
+        assert_eq!(ring.springs().count(), 2);
+        assert!(ring.taut(&nodes.map(|one| node(0.5 * one.position.x, 0.5 * one.position.y))).is_none());
     }
 }

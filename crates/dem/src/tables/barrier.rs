@@ -89,10 +89,10 @@ impl Barrier {
         }
     }
 
-    /// All springs between two nodes, in a fixed order: ropes and rings go slack, posts do not.
+    /// All springs between two nodes, in a fixed order: ropes and rings go slack, posts do not. The tension of rings is none of them.
     pub fn springs(&self) -> impl Iterator<Item = Taut> {
         let segments = self.segments.iter().map(Segment::taut);
-        let rings = self.net_rings.iter().flat_map(|ring| ring.springs(&self.nodes));
+        let rings = self.net_rings.iter().flat_map(NetRing::springs);
         let posts = self.posts.iter().map(|post| post.taut(&self.nodes));
         segments.chain(self.dissipators.iter().chain(&self.holds).map(Dissipator::taut)).chain(rings).chain(posts)
     }

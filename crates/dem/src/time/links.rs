@@ -106,6 +106,57 @@ impl Link {
     }
 }
 
+/// A spring and dashpot that many bodies lengthen together, as the contacts of a ring do the way round it.
+#[derive(Clone, Debug)]
+pub struct Loop {
+    /// Bodies, and by how much it grows as each moves.
+    ways: Vec<(u32, Vec3)>,
+    /// N/m
+    stiffness: f64,
+    /// N s/m
+    damping: f64,
+}
+
+impl Loop {
+    /// Bodies, and how stiff the loop is against the motion of each alone (N/m).
+    pub fn ends(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.ways.iter().map(|(body, way)| (*body, self.stiffness * way.norm_squared()))
+    }
+
+    /// How fast it grows in the given motion of all bodies (m/s).
+    pub fn growth(&self, motion: &[Twist]) -> f64 {
+        self.ways.iter().map(|(body, way)| motion[*body as usize][0].dot(way)).sum()
+    }
+
+    /// Forces of spring and dashpot to a growth or its rate.
+    pub fn pull(&self, growth: f64) -> [f64; 2] {
+        [self.stiffness * growth, self.damping * growth]
+    }
+
+    /// Puts a force on all bodies.
+    pub fn push(&self, force: f64, onto: &mut [Twist]) {
+        for (body, way) in &self.ways {
+            onto[*body as usize][0] += way * force;
+        }
+    }
+}
+
+/// All that ties bodies together.
+#[derive(Clone, Debug, Default)]
+pub struct Ties {
+    /// In lists that may be worked side by side.
+    pub links: Vec<Vec<Link>>,
+    pub loops: Vec<Loop>,
+}
+
+impl Ties {
+    /// Adds what another holds.
+    pub fn extend(&mut self, other: Self) {
+        self.links.extend(other.links);
+        self.loops.extend(other.loops);
+    }
+}
+
 /// What there is to be linked.
 pub struct Linked<'a> {
     pub grains: GrainRows<'a>,
@@ -119,20 +170,53 @@ pub struct Linked<'a> {
 
 impl Linked<'_> {
     /// All contacts of grains, in a fixed order, with friction springs that stick.
-    pub fn contacts(&self) -> Vec<Vec<Link>> {
-        workers::map(self.blocks, |_, block| {
+    pub fn contacts(&self) -> Ties {
+        let links = workers::map(self.blocks, |_, block| {
             let mut links = Vec::new();
             self.add_pairs(block, &mut links);
             self.add_surfaces(block, &mut links);
             self.add_ropes(block, &mut links);
             links
-        })
+        });
+        Ties { links, loops: Vec::new() }
     }
 
     /// What holds the barrier together: ropes as far as they are taut, and rings as if they touched their ropes.
-    pub fn within_barrier(&self) -> Vec<Vec<Link>> {
-        let Some(barrier) = self.barrier else { return Vec::new() };
-        vec![self.elements(barrier), self.cylinders(barrier), self.rings(barrier), self.footings(barrier)]
+    pub fn within_barrier(&self) -> Ties {
+        let Some(barrier) = self.barrier else { return Ties::default() };
+        let mut ties = Ties {
+            links: vec![self.elements(barrier), self.cylinders(barrier), self.rings(barrier), self.footings(barrier)],
+            loops: Vec::new(),
+        };
+        self.add_net_rings(barrier, &mut ties);
+        ties
+    }
+
+    /// The tension of each ring of the net as one loop, and its sides, which the tension makes stiffer across.
+    fn add_net_rings(&self, barrier: &Barrier, ties: &mut Ties) {
+        let mut sides = Vec::new();
+        for ring in &barrier.net_rings {
+            let Some(taut) = ring.taut(&barrier.nodes) else { continue };
+            let ways = ring
+                .nodes
+                .iter()
+                .zip(taut.ways)
+                .filter_map(|(node, way)| self.node_end(barrier, *node, 1.0).map(|end| (end.body, way)));
+            ties.loops.push(Loop { ways: ways.collect(), stiffness: ring.stiffness, damping: ring.damping });
+            for [a, b] in ring.sides() {
+                let line = barrier.nodes[b as usize].position - barrier.nodes[a as usize].position;
+                let ends = [(a, -1.0), (b, 1.0)];
+                let ends = ends.into_iter().filter_map(|(node, share)| self.node_end(barrier, node, share));
+                let length = line.norm();
+                if length != 0.0 {
+                    let across = taut.tension / length;
+                    sides.push(Link { direction: line / length, across, ..Link::between(ends) });
+                }
+            }
+        }
+        if !sides.is_empty() {
+            ties.links.push(sides);
+        }
     }
 
     fn footings(&self, barrier: &Barrier) -> Vec<Link> {

@@ -14,7 +14,7 @@ use crate::Vec3;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
 use crate::time::inlet::burden_of;
-use crate::time::links::{Link, Twist};
+use crate::time::links::{Link, Loop, Ties, Twist};
 use crate::workers;
 
 /// Rounds of the power iteration.
@@ -55,11 +55,12 @@ impl Inertia {
     }
 }
 
-/// Step over critical step of the given links at a step (s); infinite if anything is not finite.
-pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, barrier: Option<&Barrier>, step: f64) -> StepRatio {
+/// Step over critical step of the given ties at a step (s); infinite if anything is not finite.
+pub fn step_ratio(ties: &Ties, grains: &GrainTable, barrier: Option<&Barrier>, step: f64) -> StepRatio {
     let inertias = inertias(grains, barrier);
+    let links = ties.links.as_slice();
     let groups = groups_of(links);
-    let mut forces = first_forces(links, &inertias);
+    let mut forces = first_forces(ties, &inertias);
     let mut motion = vec![[Vec3::zeros(); 2]; inertias.len()];
     let mut sheets: Vec<Vec<Twist>> = groups.iter().map(|_| vec![[Vec3::zeros(); 2]; inertias.len()]).collect();
     let (mut stiffness, mut damping) = (0.0, 0.0);
@@ -74,9 +75,10 @@ pub fn step_ratio(links: &[Vec<Link>], grains: &GrainTable, barrier: Option<&Bar
             sheet.fill([Vec3::zeros(); 2]);
             strain(&links[group.clone()], &motion, step, sheet)
         });
-        let sum = |part: usize| works.iter().map(|work| work[part]).sum::<f64>() / size;
-        (stiffness, damping) = (sum(0), sum(1));
         add_up(&sheets, &mut forces);
+        let of_loops = strain_loops(&ties.loops, &motion, step, &mut forces);
+        let sum = |part: usize| works.iter().chain([&of_loops]).map(|work| work[part]).sum::<f64>() / size;
+        (stiffness, damping) = (sum(0), sum(1));
     }
     let (stiffness, damping) = (MARGIN * stiffness, MARGIN * damping);
     let critical = ((damping * damping + 4.0 * stiffness).sqrt() - damping) / stiffness;
@@ -136,6 +138,19 @@ fn strain(links: &[Vec<Link>], motion: &[Twist], step: f64, forces: &mut [Twist]
     works
 }
 
+/// The same for loops.
+fn strain_loops(loops: &[Loop], motion: &[Twist], step: f64, forces: &mut [Twist]) -> [f64; 2] {
+    let mut works = [0.0; 2];
+    for one in loops {
+        let growth = one.growth(motion);
+        let [spring, dashpot] = one.pull(growth);
+        works[0] += growth * spring;
+        works[1] += growth * dashpot;
+        one.push(spring * (step * step) + dashpot * (2.0 * step), forces);
+    }
+    works
+}
+
 /// Adds up the forces of all groups, in their order.
 fn add_up(sheets: &[Vec<Twist>], forces: &mut [Twist]) {
     workers::for_each(forces.chunks_mut(BODIES_IN_PART), |part, forces| {
@@ -182,9 +197,12 @@ fn inertias(grains: &GrainTable, barrier: Option<&Barrier>) -> Vec<Inertia> {
 }
 
 /// Forces that are strong where much stiffness meets little mass, in directions that no symmetry can blind.
-fn first_forces(links: &[Vec<Link>], inertias: &[Inertia]) -> Vec<Twist> {
+fn first_forces(ties: &Ties, inertias: &[Inertia]) -> Vec<Twist> {
     let mut strength = vec![0.0_f64; inertias.len()];
-    for link in links.iter().flatten() {
+    for (body, stiffness) in ties.loops.iter().flat_map(Loop::ends) {
+        strength[body as usize] += stiffness * inertias[body as usize].inverse_mass;
+    }
+    for link in ties.links.iter().flatten() {
         for end in link.ends() {
             let inertia = &inertias[end.body as usize];
             let yielding = inertia.inverse_mass + end.arm.norm_squared() * inertia.inverse_transverse;
