@@ -205,13 +205,20 @@ fn validation_row() -> Row {
     let failed: Vec<String> =
         kept.cases.iter().filter(|case| !case.held).map(|case| format!("{} ({})", case.id, case.title)).collect();
     let this = COMMIT;
-    let commit = if kept.commit == this {
-        format!("at this commit, {this}")
-    } else {
-        format!(
-            "the full validation was last run on an earlier version (commit {}); this version (commit {this}) has passed the tests only",
-            kept.commit
-        )
+    let commit = match kept.commits().as_slice() {
+        [(commit, _)] if *commit == this => format!("at this commit, {this}"),
+        commits => {
+            let of = |(commit, count): &(&str, usize)| format!("{count} at commit {commit}");
+            let commits: Vec<String> = commits.iter().map(of).collect();
+            format!(
+                "the cases were last run with earlier versions ({}); this version (commit {this}) has passed the tests only",
+                commits.join(", ")
+            )
+        }
+    };
+    let commit = match kept.not_run() {
+        0 => commit,
+        count => format!("{commit}; {count} further cases have not been run yet"),
     };
     let remark = match failed.as_slice() {
         [] => commit,

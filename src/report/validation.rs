@@ -116,30 +116,60 @@ fn number(value: f64) -> String {
     }
 }
 
-/// What a validation came to, as it is kept with the program.
+/// What is known of every case, as it is kept with the program.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Kept {
-    /// Of the program that was validated.
-    pub commit: String,
     pub cases: Vec<KeptCase>,
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct KeptCase {
     pub id: String,
     pub title: String,
     pub held: bool,
+    /// Of the program with which it ran last.
+    pub commit: String,
 }
 
 impl Kept {
-    /// Of the whole set, at the last commit at which it ran: a copy of the `outcome.json` that `barrier-check validate` writes.
+    /// Of this version: a copy of the `outcome.json` that `barrier-check validate` writes.
     pub fn of_this_version() -> Option<Self> {
         serde_json::from_str(include_str!("../../templates/validation_outcome.json")).ok()
     }
 
-    fn of(rows: &[Row]) -> Self {
-        let case = |row: &Row| KeptCase { id: row.id.to_string(), title: row.title.to_string(), held: row.passed() };
-        Self { commit: COMMIT.to_string(), cases: rows.iter().map(case).collect() }
+    /// What has been kept, with the cases that have just run in place of what they came to before. A case that now has another title is another
+    /// case.
+    fn with(rows: &[Row]) -> Self {
+        let before = Self::of_this_version().map_or_else(Vec::new, |kept| kept.cases);
+        let known = |case: &&Case| {
+            let ran = rows.iter().find(|row| row.id == case.id);
+            let ran = ran.map(|row| KeptCase {
+                id: row.id.to_string(),
+                title: row.title.to_string(),
+                held: row.passed(),
+                commit: COMMIT.to_string(),
+            });
+            ran.or_else(|| before.iter().find(|kept| kept.id == case.id && kept.title == case.title).cloned())
+        };
+        Self { cases: CASES.iter().filter_map(known).collect() }
+    }
+
+    /// With which versions the cases ran last, and how many with each, the first of them first.
+    pub fn commits(&self) -> Vec<(&str, usize)> {
+        let mut commits: Vec<(&str, usize)> = Vec::new();
+        for case in &self.cases {
+            match commits.iter_mut().find(|(commit, _)| *commit == case.commit) {
+                Some((_, count)) => *count += 1,
+                None => commits.push((&case.commit, 1)),
+            }
+        }
+        commits
+    }
+
+    /// Cases that this version has and that have not run.
+    pub fn not_run(&self) -> usize {
+        let ran = |case: &&&Case| self.cases.iter().any(|kept| kept.id == case.id && kept.title == case.title);
+        CASES.len() - CASES.iter().filter(ran).count()
     }
 }
 
@@ -148,7 +178,9 @@ pub fn document() -> Result<String, tera::Error> {
     let kept = Kept::of_this_version();
     let result = |case: &Case| {
         let found = kept.iter().flat_map(|kept| &kept.cases).find(|kept| kept.id == case.id);
-        found.map_or("not run yet", |kept| if kept.held { "passes" } else { "does not pass" })
+        let found = found.filter(|kept| kept.title == case.title);
+        let commit = found.map_or_else(String::new, |kept| kept.commit.clone());
+        (found.map_or("not run yet", |kept| if kept.held { "passes" } else { "does not pass" }), commit)
     };
     let row = |case: &&Case| DocumentRow {
         id: case.id,
@@ -157,7 +189,8 @@ pub fn document() -> Result<String, tera::Error> {
         source: case.source,
         tier: case.tier.word(),
         weakness: case.weakness,
-        result: result(case),
+        result: result(case).0,
+        commit: result(case).1,
     };
     let rows: Vec<DocumentRow> = CASES.iter().map(row).collect();
     let count = |result: &str| rows.iter().filter(|row| row.result == result).count();
@@ -165,7 +198,6 @@ pub fn document() -> Result<String, tera::Error> {
     context.insert("passed", &count("passes"));
     context.insert("ran", &(rows.len() - count("not run yet")));
     context.insert("later", &count("not run yet"));
-    context.insert("commit", &kept.as_ref().map_or("unknown", |kept| kept.commit.as_str()));
     context.insert("cases", &rows);
     Tera::one_off(DOCUMENT, &context, false)
 }
@@ -179,6 +211,8 @@ struct DocumentRow {
     tier: &'static str,
     weakness: &'static str,
     result: &'static str,
+    /// With which it ran last; empty where it did not.
+    commit: String,
 }
 
 /// How many cases hold; of all that were `asked` for some may not have run.
@@ -200,6 +234,6 @@ pub fn render(rows: &[Row], asked: usize) -> Result<Vec<ReportFile>, tera::Error
     context.insert("version", env!("CARGO_PKG_VERSION"));
     context.insert("commit", COMMIT);
     let file = |name| tera.render(name, &context).map(|text| ReportFile::new(name, text));
-    let kept = serde_json::to_string_pretty(&Kept::of(rows)).unwrap_or_default() + "\n";
+    let kept = serde_json::to_string_pretty(&Kept::with(rows)).unwrap_or_default() + "\n";
     Ok(vec![file("validation.html")?, file("validation.md")?, ReportFile::new("outcome.json", kept)])
 }
