@@ -1,5 +1,7 @@
 //! The main ropes under the guideline's loads: each carries the strip of the net that is nearest to it.
 
+use std::cell::Cell;
+
 use crate::design::{Bank, BarrierDesign, Bottom, Design, DissipatorDesign, FlexibleNet};
 use crate::guideline::face::{height_over_bed, lean};
 use crate::guideline::posts;
@@ -97,7 +99,15 @@ impl<'a> Strip<'a> {
     fn spread(&self, case: &LoadCase) -> f64 {
         let Section::Surveyed(survey) = &self.section else { return case.strip_force(self.low, self.high) };
         let loaded = self.high.min(case.diagram.top);
-        let per_width = |ground: f64| case.strip_force(self.low.max(ground), self.high);
+        // A level piece of ground has one force, and so has all of what lies below the strip.
+        let last = Cell::new((f64::NAN, 0.0));
+        let per_width = |ground: f64| {
+            let from = self.low.max(ground);
+            if last.get().0 != from {
+                last.set((from, case.strip_force(from, self.high)));
+            }
+            last.get().1
+        };
         let bay = |bay: usize| even_load(survey, &self.stops, bay, loaded, per_width);
         (0..self.stops.len() - 1).map(bay).fold(0.0, larger_or_nan)
     }
@@ -139,13 +149,22 @@ impl<'a> Strip<'a> {
         cases.flows.iter().flat_map(of).collect()
     }
 
-    /// The case that loads the rope most, and that load (N/m). What cannot reach the load of the one that may reach furthest is not summed.
+    /// The case that loads the rope most, and that load (N/m). From the one that may reach furthest on, until no other can reach the hardest found.
     fn governing<'c>(&self, cases: impl Iterator<Item = &'c LoadCase>) -> Option<(f64, &'c LoadCase)> {
-        let all: Vec<(f64, &LoadCase)> = cases.map(|case| (self.may_reach(case), case)).collect();
-        let furthest = all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let hardest = if furthest.0.is_finite() { self.on_rope(furthest.1) } else { f64::NEG_INFINITY };
-        let reaching = all.iter().filter(|(most, _)| most.is_nan() || hardest.is_nan() || *most >= hardest);
-        reaching.map(|(_, case)| (self.on_rope(case), *case)).max_by(|a, b| a.0.total_cmp(&b.0))
+        let mut all: Vec<(f64, &LoadCase)> = cases.map(|case| (self.may_reach(case), case)).collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut hardest: Option<(f64, &LoadCase)> = None;
+        for (most, case) in all {
+            // What is not a number is always worked out.
+            if hardest.is_some_and(|(load, _)| most < load) {
+                break;
+            }
+            let load = self.on_rope(case);
+            if hardest.is_none_or(|(before, _)| load.total_cmp(&before).is_ge()) {
+                hardest = Some((load, case));
+            }
+        }
+        hardest
     }
 
     /// By which friction on the heads lets the pull of an inner span be more than that at the ends.

@@ -2,7 +2,7 @@
 //!
 //! On a bed of even slope α, behind a barrier that leans upstream by ε from the bed's normal, a deposit of height H whose plane surface falls at
 //! α' downstream holds V = S(H) (cot(α − α') + tan ε), S being the first moment of the section's area: ½ b H² in a rectangle. With reaches of
-//! other slopes the area under the surface is integrated along the bed. Derived here.
+//! other slopes the area under the surface is integrated along the bed, on each of them with S in closed form. Derived here.
 
 use std::sync::Arc;
 
@@ -10,15 +10,18 @@ use crate::profile::Profile;
 use crate::relief::Relief;
 use crate::section::Section;
 
-/// Steps of a deposit's height in which the area is integrated along the bed.
+/// Steps of a deposit's height in which the area under a face is summed.
 const STEPS: f64 = 40.0;
 /// How close a height is sought, as a share, and tries at the most.
 const CLOSE: f64 = 1e-9;
 const MOST_TRIES: usize = 60;
 /// Times that a height is brought closer before it is bracketed.
 const CLOSER: usize = 3;
-/// Steps after which a surface is taken never to meet the bed.
+/// Steps over a raster, and heights of a deposit upstream of its barrier, after which a surface is taken never to meet the bed.
 const MOST_STEPS: usize = 20_000;
+const FURTHEST: f64 = 500.0;
+/// Change of a depth over a reach, as a share, below which the mean of its area is that in the middle.
+const NEARLY_EVEN: f64 = 1e-4;
 
 /// The surface of a deposit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,84 +123,117 @@ impl Reservoir {
 
     /// The deposit over reaches of several slopes; nothing where its surface does not meet the bed.
     fn along(&self, profile: &Profile, height: f64, surface: Surface, friction: f64) -> Option<Stored> {
-        let (columns, end) = self.columns(profile, height, surface);
-        let volume = columns.iter().map(|column| column.area * column.over).sum();
-        Some(Stored { volume, length: -end?, pull: pull_of(&columns, friction) })
+        let (parts, end) = self.parts(profile, height, surface);
+        let volume = parts.iter().map(|part| part.volume).sum();
+        Some(Stored { volume, length: -end?, pull: pull_of(&parts, friction) })
     }
 
     /// Volume times what slope less friction pulls a deposit with, where it does not end as well (m³). What friction holds back upstream does
     /// not pull on what is downstream of it.
     pub fn pull(&self, height: f64, surface: Surface, friction: f64) -> f64 {
         match &self.profile {
-            Some(profile) => pull_of(&self.columns(profile, height, surface).0, friction),
+            Some(profile) => pull_of(&self.parts(profile, height, surface).0, friction),
             None => self.stored(height, surface, friction).map_or(0.0, |stored| stored.pull.max(0.0)),
         }
     }
 
-    /// Columns along the bed from the barrier upstream, their areas plumb, and where the surface meets the bed (m).
-    fn columns(&self, profile: &Profile, height: f64, surface: Surface) -> (Vec<Column>, Option<f64>) {
-        let (sine, cosine) = libm::sincos(self.slope);
-        // Plumb area under a level at a place, and whether it is known: a deposit that comes to an edge of the raster is not.
-        let known = std::cell::Cell::new(true);
-        let area = |x: f64, level: f64| match &self.relief {
-            Some(relief) => {
-                let (area, edge) = relief.area_under(x, level, relief.thalweg()[relief.nearest_row(x)]);
-                if edge || x < relief.stretch()[0] {
-                    known.set(false);
-                }
-                area
-            }
-            None => self.section.area((level - profile.elevation(x)) * cosine) / cosine,
-        };
+    /// Parts of a deposit from the barrier upstream, and where the surface meets the bed (m).
+    fn parts(&self, profile: &Profile, height: f64, surface: Surface) -> (Vec<Part>, Option<f64>) {
         // The top of the deposit at the barrier, level and plumb.
+        let (sine, cosine) = libm::sincos(self.slope);
         let top_along = -height * libm::tan(self.lean);
-        let (top_x, top_z) = (top_along * cosine + height * sine, height * cosine - top_along * sine);
-        // On a raster from row to row.
-        let step = self.relief.as_ref().map_or(height / STEPS, |relief| relief.x(1) - relief.x(0));
-        let at_the_foot = profile.falls(-0.5 * step);
-        let mut columns = Vec::new();
-        // Between the foot and the top of the face: what is under the face is taken off, or added where it leans upstream.
-        let pieces = (top_x.abs() / step).ceil().max(1.0) as usize;
-        for piece in 0..pieces {
-            let x = top_x * (piece as f64 + 0.5) / pieces as f64;
-            let over = top_x.abs() / pieces as f64;
-            if top_x != 0.0 {
-                let face = area(x, top_z * x / top_x);
-                let under = top_z - surface.falls(at_the_foot) * (x - top_x);
-                let area = if top_x < 0.0 { face } else { area(x, under) - face };
-                columns.push(Column { falls: profile.falls(x), area, over });
+        let top = [top_along * cosine + height * sine, height * cosine - top_along * sine];
+        match &self.relief {
+            Some(relief) => self.over_a_raster(relief, profile, surface, top),
+            None => self.over_reaches(profile, surface, top, height),
+        }
+    }
+
+    /// Parts over reaches in a section, reach by reach: where the depth d changes evenly with the way, ∫ A(d) dx is that of S with d.
+    fn over_reaches(
+        &self,
+        profile: &Profile,
+        surface: Surface,
+        [top_x, top_z]: [f64; 2],
+        height: f64,
+    ) -> (Vec<Part>, Option<f64>) {
+        let cosine = libm::cos(self.slope);
+        // Plumb area under a plumb depth, and its integral over that.
+        let area = |depth: f64| self.section.area(depth * cosine) / cosine;
+        let moment = |depth: f64| self.section.moment(depth * cosine) / (cosine * cosine);
+        let over = |way: f64, [from, to]: [f64; 2]| {
+            if (from - to).abs() > NEARLY_EVEN * from.max(to) {
+                way * (moment(from) - moment(to)) / (from - to)
+            } else {
+                way * area(0.5 * (from + to))
             }
+        };
+        let under = |x: f64, level: f64| area(level - profile.elevation(x));
+        let mut parts = face_parts(&under, profile, surface, [top_x, top_z], height / STEPS);
+        let (mut x, mut z) = behind_the_face(profile, surface, [top_x, top_z], height / STEPS);
+        let furthest = x - FURTHEST * height;
+        let corners = profile.corners();
+        let mut ahead = corners.partition_point(|corner| corner[0] < x);
+        while x > furthest {
+            ahead = ahead.saturating_sub(1);
+            let corner = corners.get(ahead).filter(|corner| corner[0] < x);
+            let to = corner.map_or(furthest, |corner| corner[0].max(furthest));
+            let falls = profile.falls(0.5 * (x + to));
+            let next = z + surface.falls(falls) * (x - to);
+            let [near, far] = [z - profile.elevation(x), next - profile.elevation(to)];
+            if far <= 0.0 {
+                let way = near / (near - far) * (x - to);
+                parts.push(Part { falls, volume: over(way, [near, 0.0]) });
+                return (parts, Some(x - way));
+            }
+            parts.push(Part { falls, volume: over(x - to, [near, far]) });
+            (x, z) = (to, next);
         }
-        let (mut x, mut z) = (top_x.min(0.0), top_z);
-        if top_x > 0.0 {
-            z += surface.falls(at_the_foot) * top_x;
-        }
+        (parts, None)
+    }
+
+    /// Parts over a raster, from row to row; a deposit that comes to an edge of what the raster tells has no end that is known.
+    fn over_a_raster(
+        &self,
+        relief: &Relief,
+        profile: &Profile,
+        surface: Surface,
+        top: [f64; 2],
+    ) -> (Vec<Part>, Option<f64>) {
+        let known = std::cell::Cell::new(true);
+        let under = |x: f64, level: f64| {
+            let (area, edge) = relief.area_under(x, level, relief.thalweg()[relief.nearest_row(x)]);
+            if edge || x < relief.stretch()[0] {
+                known.set(false);
+            }
+            area
+        };
+        let step = relief.x(1) - relief.x(0);
+        let mut parts = face_parts(&under, profile, surface, top, step);
+        let (mut x, mut z) = behind_the_face(profile, surface, top, step);
+        let corners = profile.corners();
         for _ in 0..MOST_STEPS {
             // No step goes over a break of the bed.
-            let corners = profile.corners();
             let upstream = corners.partition_point(|corner| corner[0] < x - 1e-9 * step);
             let corner = upstream.checked_sub(1).map(|last| corners[last][0]);
             let to = corner.map_or(x - step, |corner| corner.max(x - step));
-            let bed = profile.falls(0.5 * (x + to));
-            let next = z + surface.falls(bed) * (x - to);
+            let falls = profile.falls(0.5 * (x + to));
+            let next = z + surface.falls(falls) * (x - to);
             let [near, far] = [z - profile.elevation(x), next - profile.elevation(to)];
             if far <= 0.0 {
                 let share = (near / (near - far)).clamp(0.0, 1.0);
                 let end = x - share * (x - to);
-                columns.push(Column {
-                    falls: bed,
-                    area: third(&area, [x, z], [end, profile.elevation(end)]),
-                    over: x - end,
-                });
-                return (columns, known.get().then_some(end));
+                let volume = (x - end) * third(&under, [x, z], [end, profile.elevation(end)]);
+                parts.push(Part { falls, volume });
+                return (parts, known.get().then_some(end));
             }
-            columns.push(Column { falls: bed, area: third(&area, [x, z], [to, next]), over: x - to });
+            parts.push(Part { falls, volume: (x - to) * third(&under, [x, z], [to, next]) });
             if !known.get() {
-                return (columns, None);
+                return (parts, None);
             }
             (x, z) = (to, next);
         }
-        (columns, None)
+        (parts, None)
     }
 
     /// Height at the barrier, normal to the bed, of a deposit of a volume over the width (m²) whose surface falls upstream at an angle ψ below
@@ -319,17 +355,43 @@ impl Reservoir {
     }
 }
 
-/// A column of a deposit: tan of the bed's slope below it, its area across the channel (m²), and its length along it (m).
-struct Column {
+/// A part of a deposit: tan of the bed's slope below it, and its volume (m³).
+struct Part {
     falls: f64,
-    area: f64,
-    over: f64,
+    volume: f64,
 }
 
-/// What the columns pull with, from the one furthest upstream on (m³); it is never negative, since a deposit bears no tension.
-fn pull_of(columns: &[Column], friction: f64) -> f64 {
-    let pulls = |column: &Column| column.area * column.over * (column.falls - friction);
-    columns.iter().rev().fold(0.0, |pull: f64, column| (pull + pulls(column)).max(0.0))
+/// What the parts pull with, from the one furthest upstream on (m³); it is never negative, since a deposit bears no tension.
+fn pull_of(parts: &[Part], friction: f64) -> f64 {
+    parts.iter().rev().fold(0.0, |pull: f64, part| (pull + part.volume * (part.falls - friction)).max(0.0))
+}
+
+/// Parts between the foot of a face and its top: what is under the face is taken off, or added where it leans upstream.
+fn face_parts(
+    under: &impl Fn(f64, f64) -> f64,
+    profile: &Profile,
+    surface: Surface,
+    [top_x, top_z]: [f64; 2],
+    step: f64,
+) -> Vec<Part> {
+    if top_x == 0.0 {
+        return Vec::new();
+    }
+    let at_the_foot = profile.falls(-0.5 * step);
+    let pieces = (top_x.abs() / step).ceil().max(1.0) as usize;
+    let part = |piece: usize| {
+        let x = top_x * (piece as f64 + 0.5) / pieces as f64;
+        let face = under(x, top_z * x / top_x);
+        let area = if top_x < 0.0 { face } else { under(x, top_z - surface.falls(at_the_foot) * (x - top_x)) - face };
+        Part { falls: profile.falls(x), volume: area * top_x.abs() / pieces as f64 }
+    };
+    (0..pieces).map(part).collect()
+}
+
+/// Where the surface goes on upstream of a face, and how high it is there (m).
+fn behind_the_face(profile: &Profile, surface: Surface, [top_x, top_z]: [f64; 2], step: f64) -> (f64, f64) {
+    let falls = surface.falls(profile.falls(-0.5 * step));
+    (top_x.min(0.0), top_z + if top_x > 0.0 { falls * top_x } else { 0.0 })
 }
 
 /// Mean area over a step between two places with their levels, by Simpson's rule.
