@@ -13,7 +13,7 @@ use crate::demand::Demands;
 use crate::design::read::DesignFile;
 use crate::design::{BarrierDesign, Design};
 use crate::fidelity::choose;
-use crate::fidelity::ladder::{RUNGS, Rung, Step, rung_of};
+use crate::fidelity::ladder::{RUNGS, Rung, RungKind, Step, rung_of};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
 use crate::load_cases::{self, LoadCase, cases};
@@ -96,13 +96,21 @@ pub fn by_equations(file: DesignFile) -> Run {
 /// assert!(simulated.first().one(&mass::RETAINED) > 0.9);
 /// ```
 pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
-    run_on(None, file, starts, watch)
+    run_by(None, file, starts, &|design, starts| simulate_cases(design, starts, Detail::Full, watch))
 }
 
+/// Simulates a design with as many packings as it is told.
+pub type Simulate<'a> = dyn Fn(&Design, u32) -> Result<Simulated, RunError> + 'a;
+
 /// The same on a rung of the ladder, whose accuracy is then known; else it is that of the rung that the run is like.
-fn run_on(rung: Option<&'static Rung>, file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
-    let design = &file.design;
-    let guideline = guideline(design);
+fn run_by(rung: Option<&'static Rung>, file: DesignFile, starts: u32, by: &Simulate) -> Result<Run, RunError> {
+    let simulated = by(&file.design, starts)?;
+    let guideline = guideline(&file.design);
+    Ok(finish(file, guideline, Some(simulated), rung))
+}
+
+/// Simulates a design under each of its load cases, with as many packings as `starts` asks for; `first` is how much is kept of the first.
+pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch) -> Result<Simulated, RunError> {
     let threads = rayon::current_num_threads();
     let (started, began) = (Instant::now(), SystemTime::now());
     let cases = cases(design);
@@ -111,7 +119,7 @@ fn run_on(rung: Option<&'static Rung>, file: DesignFile, starts: u32, watch: &Wa
     let one = |index: usize| {
         let (start, (_, design)) = jobs[index];
         // The first is told in full; of the others what was observed.
-        let detail = if index == 0 { Detail::Full } else { Detail::Observed };
+        let detail = if index == 0 { first } else { Detail::Observed };
         let seed = design.simulation.seed.wrapping_add(u64::from(start));
         simulate(design, &choose(design), &crate::guideline::guideline(design), seed, detail, watch)
     };
@@ -132,7 +140,7 @@ fn run_on(rung: Option<&'static Rung>, file: DesignFile, starts: u32, watch: &Wa
             LoadCase::WeakDissipators => simulated.weak.extend(other.starts),
         }
     }
-    Ok(finish(file, guideline, Some(simulated), rung))
+    Ok(simulated)
 }
 
 /// What a recorded simulation says, as at first.
@@ -148,6 +156,11 @@ pub fn restore(mut file: DesignFile, simulated: Option<Simulated>, varied: Vec<S
 /// Runs one design on one rung of the ladder after the other, until no verdict can flip. `starts` is the least number of packings
 /// of those rungs that have several. The file's design becomes that of the last rung.
 pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
+    climb_by(file, starts, RungKind::Fine, &|design, starts| simulate_cases(design, starts, Detail::Full, watch))
+}
+
+/// The same with simulations from elsewhere, up to a rung.
+pub fn climb_by(file: DesignFile, starts: u32, last: RungKind, by: &Simulate) -> Result<Run, RunError> {
     let asked = file.design.clone();
     let fits = |rung: &Rung| {
         let design = rung.of(&asked);
@@ -162,7 +175,7 @@ pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunErr
         let climbed = std::mem::take(&mut now.climb);
         now = match rung.starts {
             0 => by_equations(file),
-            several => run_on(Some(rung), file, if several > 1 { several.max(starts) } else { 1 }, watch)?,
+            several => run_by(Some(rung), file, if several > 1 { several.max(starts) } else { 1 }, by)?,
         };
         now.climb = climbed;
         let mut open = rung.open(&now.outcomes);
@@ -177,15 +190,22 @@ pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunErr
             governing: governing(&now.outcomes),
             open,
         });
-        if decided {
+        if decided || rung.kind == last {
             break;
         }
     }
     Ok(now)
 }
 
+/// Runs a design on the rung of several packings.
+pub fn confirm_by(file: DesignFile, starts: u32, by: &Simulate) -> Result<Run, RunError> {
+    let rung = RUNGS.iter().find(|rung| rung.kind == RungKind::Starts);
+    let design = rung.map_or_else(|| file.design.clone(), |rung| rung.of(&file.design));
+    run_by(rung, DesignFile { design, ..file }, starts, by)
+}
+
 /// The check that uses most of what it has, with how much.
-fn governing(outcomes: &[Outcome]) -> String {
+pub fn governing(outcomes: &[Outcome]) -> String {
     let used = outcomes.iter().filter_map(|outcome| Some((outcome.utilisation?, outcome)));
     let most = used.max_by(|a, b| a.0.total_cmp(&b.0));
     most.map_or(String::new(), |(used, outcome)| format!("{} ({:.0} %)", outcome.title, 100.0 * used))

@@ -9,6 +9,7 @@ pub(crate) mod progress;
 pub mod report;
 pub mod schema;
 pub(crate) mod signals;
+mod size;
 pub mod study;
 pub mod validate;
 

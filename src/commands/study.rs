@@ -12,6 +12,7 @@ use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::output::{put, tell_of_replaced};
 use crate::commands::signals::{listen, stop};
+use crate::commands::size::size;
 use crate::design::read::DesignFile;
 use crate::report::folder::{Folder, Named, Refusal, folder_name};
 use crate::report::kind::Kind;
@@ -30,9 +31,9 @@ use crate::terminal;
 /// Runs what is not kept yet, and writes the page below `out`.
 pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
     match run(path, out) {
-        Ok(page) => {
+        Ok((page, found)) => {
             terminal::say(format_args!("study: {}", page.display()));
-            ExitCode::Pass
+            if found { ExitCode::Pass } else { ExitCode::Undecided }
         }
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
@@ -41,7 +42,8 @@ pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
     }
 }
 
-fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
+/// The page, and whether what was sought was found.
+fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, bool), Failure> {
     let bytes = input::read(path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{}: it is not text in UTF-8", path.display()))?;
     let study = Study::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
@@ -52,11 +54,12 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
         tell_of_replaced(&folder, Kind::Study);
         Ok::<_, Refusal>(folder)
     };
+    let beside = path.parent().unwrap_or(Path::new("."));
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,
-        Study::Stability(plan) => return stability_map(&plan, folder_of(&plan.name)?),
+        Study::Stability(plan) => return Ok((stability_map(&plan, folder_of(&plan.name)?)?, true)),
+        Study::Size(plan) => return size(&plan, beside, folder_of(&plan.name)?),
     };
-    let beside = path.parent().unwrap_or(Path::new("."));
     let scenes = plan
         .scenes
         .iter()
@@ -66,7 +69,7 @@ fn run(path: &Path, out: Option<&Path>) -> Result<PathBuf, Failure> {
     let kept = KeptResults::within(folder.path())?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
     put(&mut folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
-    Ok(folder.path().join("study.html"))
+    Ok((folder.path().join("study.html"), true))
 }
 
 /// Maps every scene that is not kept, side by side, and writes the page.

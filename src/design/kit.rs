@@ -96,7 +96,7 @@ fn names_a_file(node: &Node) -> Option<String> {
 }
 
 /// Adds what a group does not have from another, group by group.
-fn merge(own: &mut Vec<(String, Node)>, other: &Node) {
+pub(super) fn merge(own: &mut Vec<(String, Node)>, other: &Node) {
     let Node::Map(other) = other else { return };
     let told: Vec<String> = own.iter().map(|(name, _)| name.clone()).collect();
     // Whether the design gives in another way what this key of the kit gives.

@@ -4,6 +4,7 @@ pub(crate) mod anchor_rules;
 pub mod anchors;
 pub mod attached;
 pub(crate) mod boulder_rules;
+pub mod changes;
 pub(crate) mod channel_entries;
 pub(crate) mod channel_rules;
 pub(crate) mod curve_file;

@@ -2,6 +2,7 @@
 
 use crate::design::Design;
 use crate::design::attached::{Attached, Open, read_attached};
+use crate::design::changes::Changes;
 use crate::design::dissipator_rules;
 use crate::design::document::Document;
 use crate::design::entries::{Entries, Origin, Purpose, Value, read};
@@ -50,9 +51,21 @@ pub(super) const KEYS: &str = "a design with the sections project, channel, flow
 
 /// The same for a purpose, with the files that the design names.
 pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -> Result<DesignFile, Problems> {
+    read_design_changed(purpose, file, bytes, open, &Changes::default())
+}
+
+/// The same with values in place of some of the file's. Remarks and places of problems are then not sought, which takes longer than all else.
+pub fn read_design_changed(
+    purpose: Purpose,
+    file: &str,
+    bytes: &[u8],
+    open: Open,
+    changes: &Changes,
+) -> Result<DesignFile, Problems> {
     let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
     let mut document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
     let mut problems = Vec::new();
+    changes.put_onto(&mut document.root);
     let kit = kit::take(&mut document.root, open, &mut problems);
     if let Some(mut broken) = problems.pop() {
         // What it should have said would be missing everywhere.
@@ -60,15 +73,17 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -
         return Err(refuse(vec![broken]));
     }
     let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
-    if let Some(kit) = &kit {
+    if let Some(kit) = kit.as_ref().filter(|_| changes.is_empty()) {
         kit.tell_origins(&mut entries, |document, bytes, path| {
             let text = String::from_utf8_lossy(bytes);
             let line = text.lines().nth(document.position(path)?.line.checked_sub(1)?)?;
             comment(line).map(String::from)
         });
     }
-    take_remarks(&mut entries, &document, bytes);
-    problems.extend(keep_texts_as_typed(&mut entries, &document, kit.as_ref()));
+    if changes.is_empty() {
+        take_remarks(&mut entries, &document, bytes);
+    }
+    problems.extend(keep_texts_as_typed(&mut entries, &document, kit.as_ref(), changes));
     make_harmless(&mut entries);
     let mut attached = read_attached(&mut entries, open, &mut problems);
     attached.extend(kit.iter().map(|kit| (kit.name.clone(), kit.bytes.clone())));
@@ -88,7 +103,7 @@ pub fn read_design_for(purpose: Purpose, file: &str, bytes: &[u8], open: Open) -
     }
     let more = problems.len().saturating_sub(MOST_PROBLEMS);
     problems.truncate(MOST_PROBLEMS);
-    for problem in &mut problems {
+    for problem in problems.iter_mut().filter(|_| changes.is_empty()) {
         kit.iter().for_each(|kit| kit.tell_of(problem));
         problem.position = problem.position.or_else(|| match problem.again {
             true => document.position_again(&problem.path),
@@ -125,9 +140,14 @@ fn take_remarks(entries: &mut Entries, document: &Document, bytes: &[u8]) {
 
 /// A text that the parser takes for a number or a truth value is what stands in the file: revision 1.10 is not 1.1. Where that cannot be told
 /// it is refused.
-fn keep_texts_as_typed(entries: &mut Entries, document: &Document, kit: Option<&Kit>) -> Vec<Problem> {
+fn keep_texts_as_typed(
+    entries: &mut Entries,
+    document: &Document,
+    kit: Option<&Kit>,
+    changes: &Changes,
+) -> Vec<Problem> {
     let mut problems = Vec::new();
-    for path in std::mem::take(&mut entries.rewritten) {
+    for path in std::mem::take(&mut entries.rewritten).into_iter().filter(|path| !changes.has(path)) {
         let Some(entry) = entries.values.get_mut(&path).filter(|entry| entry.origin == Origin::File) else { continue };
         let of_kit = kit.filter(|kit| kit.has(&path));
         let plain = match of_kit {

@@ -21,6 +21,7 @@ const TOLD_BY: &[(&str, Kind)] = &[
     ("validation.html", Kind::Validation),
     ("study.html", Kind::Study),
     ("stability.html", Kind::Study),
+    ("size.html", Kind::Study),
     ("histories.csv", Kind::Simulation),
     ("report.html", Kind::Equations),
 ];

@@ -23,6 +23,7 @@ pub(crate) mod replay;
 pub(crate) mod row;
 pub(crate) mod series;
 pub(crate) mod site;
+pub(crate) mod size;
 pub(crate) mod spreads;
 pub(crate) mod stability_map;
 pub(crate) mod statements;

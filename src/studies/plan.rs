@@ -8,12 +8,14 @@ use serde::Deserialize;
 use crate::design::document::{Document, Node};
 use crate::problem::Problem;
 use crate::studies::knobs::Knob;
+use crate::studies::size_plan::SizePlan;
 
 /// What a study is of.
 #[derive(Clone, Debug)]
 pub enum Study {
     SpeedAccuracy(Plan),
     Stability(StabilityPlan),
+    Size(Box<SizePlan>),
 }
 
 /// The same as the file names it.
@@ -22,6 +24,7 @@ pub enum Study {
 enum Kind {
     SpeedAccuracy,
     Stability,
+    Size,
 }
 
 /// The key that tells what the others are; these are not looked at.
@@ -49,11 +52,13 @@ impl Study {
         let study = match head.kind {
             Kind::SpeedAccuracy => serde_yaml::from_str(text).map(Self::SpeedAccuracy),
             Kind::Stability => serde_yaml::from_str(text).map(Self::Stability),
+            Kind::Size => serde_yaml::from_str(text).map(|plan| Self::Size(Box::new(plan))),
         };
         let study = study.map_err(misread)?;
         let wrong = match &study {
             Self::SpeedAccuracy(plan) => plan.wrong(),
             Self::Stability(plan) => plan.wrong(),
+            Self::Size(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
         };
         if wrong.is_empty() {
             return Ok(study);
@@ -230,7 +235,7 @@ mod tests {
             (
                 "kind: speed_accuracy",
                 "kind: speed",
-                "kind: unknown value `speed`, expected `speed_accuracy` or `stability` at line ",
+                "kind: unknown value `speed`, expected one of `speed_accuracy`, `stability`, `size` at line ",
             ),
             ("step: [", "step: [0.1, fast, ", "knobs.step[1]: found the text \"fast\", expected a number at line "),
         ] {

@@ -1,5 +1,6 @@
 //! Charts as plain SVG, so that the report opens offline and prints sharply.
 
+pub(crate) mod cost_margin;
 pub(crate) mod cross_section;
 pub(crate) mod elevation;
 pub(crate) mod line_chart;

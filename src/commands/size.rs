@@ -1,0 +1,176 @@
+//! `barrier-check study FILE` of the kind size: prices, equations and simulations of all ways to put choices together.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use crate::commands::Failure;
+use crate::commands::input::{self, LONGEST_TEXT};
+use crate::commands::kept::KeptResults;
+use crate::commands::output::put;
+use crate::commands::signals::{listen, stop};
+use crate::design::Design;
+use crate::design::document::Document;
+use crate::design::entries::Purpose;
+use crate::design::read::{DesignFile, read_design_changed};
+use crate::fidelity::choose;
+use crate::fidelity::ladder::RungKind;
+use crate::pipeline::{Run, by_equations, climb_by, confirm_by, simulate_cases};
+use crate::report::folder::{Folder, ReportFile};
+use crate::report::size::{Sized, files};
+use crate::scene::event::Watch;
+use crate::simulated::{Detail, RunError, Simulated};
+use crate::starts::side_by_side;
+use crate::studies::bill::Prices;
+use crate::studies::choices::Choices;
+use crate::studies::size_plan::SizePlan;
+use crate::studies::sizing::{Fate, Wanted, Way, Ways, mechanics, search};
+use crate::terminal;
+
+/// Of the design that is sized: its text, and files that it and its changes name.
+struct Site {
+    name: String,
+    path: PathBuf,
+    text: Vec<u8>,
+}
+
+/// All ways to size one design.
+struct Sizes<'a> {
+    site: &'a Site,
+    choices: &'a Choices,
+    prices: &'a Prices,
+    kept: &'a KeptResults,
+    currency: &'a str,
+    /// Files that designs name, read once.
+    attached: Mutex<BTreeMap<String, Result<Vec<u8>, String>>>,
+}
+
+/// Searches, writes the page, and returns it with whether the cheapest passes.
+pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathBuf, bool), Failure> {
+    listen();
+    let path = beside.join(&plan.design);
+    let text = input::read(&path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
+    let site = Site { name: path.display().to_string(), path: path.clone(), text };
+    let (choices, prices) = (plan.choices(), plan.prices());
+    let kept = KeptResults::within(folder.path())?;
+    let ways = Sizes {
+        site: &site,
+        choices: &choices,
+        prices: &prices,
+        kept: &kept,
+        currency: &prices.currency,
+        attached: Mutex::new(BTreeMap::new()),
+    };
+    let wanted = plan.wanted();
+    let found = search(&ways, &wanted)?;
+    let front = plan.front().into_iter().map(|margin| {
+        let found = search(&ways, &Wanted { margin, ..wanted })?;
+        Ok((margin, found.cheapest.map(|place| found.ways[place].clone())))
+    });
+    let front = front.collect::<Result<Vec<(f64, Option<Way>)>, String>>()?;
+    let cheapest = found.cheapest.map(|place| &found.ways[place]);
+    let mut extra = Vec::new();
+    if let Some(way) = cheapest {
+        let root = Document::parse(&site.text, "").map_err(|problem| problem.found)?.root;
+        let head = format!(
+            "# The cheapest of the study {}: {} with its choices put in. Files that it names are taken from the folder of that design.\n",
+            plan.name,
+            plan.design.display()
+        );
+        extra.push(ReportFile::new("cheapest.yaml", head + &choices.changes(way.number).text_of(&root)));
+    }
+    let passes = cheapest.is_some_and(|way| matches!(way.fate, Fate::Passes { .. }));
+    let sized = Sized {
+        name: &plan.name,
+        design: &plan.design,
+        choices: &choices,
+        prices: &prices,
+        wanted,
+        found: &found,
+        front: &front,
+    };
+    let mut all =
+        files(&sized, |number| ways.read(number).map(|file| file.design)).map_err(|error| error.to_string())?;
+    all.extend(extra);
+    put(&mut folder, &all)?;
+    Ok((folder.path().join("size.html"), passes))
+}
+
+impl Sizes<'_> {
+    fn read(&self, number: usize) -> Result<DesignFile, String> {
+        let open = |name: &str| {
+            let mut attached = self.attached.lock().map_err(|_| "a file could not be read".to_string())?;
+            attached.entry(name.to_string()).or_insert_with(|| input::beside(&self.site.path, name)).clone()
+        };
+        let changes = self.choices.changes(number);
+        read_design_changed(Purpose::Simulation, &self.site.name, &self.site.text, &open, &changes).map_err(
+            |problems| {
+                let first = problems.list.first();
+                let told = first
+                    .map(|problem| format!("{}: found {}, allowed {}", problem.path, problem.found, problem.allowed));
+                told.unwrap_or_else(|| "it cannot be read".into())
+            },
+        )
+    }
+
+    /// What simulations of a design show, each kept by what it hangs on.
+    fn simulated(&self, design: &Design, starts: u32) -> Result<Simulated, RunError> {
+        let bare = mechanics(design);
+        let of = format!("{bare:?} {:?} {starts}", choose(&bare));
+        if let Some(kept) = self.kept.get::<Simulated>(&[of.as_bytes()]) {
+            return Ok(Simulated { fidelity: choose(design), ..kept });
+        }
+        let watch = Watch { progress: &|_| (), stop: stop(), store: None };
+        let simulated = simulate_cases(design, starts, Detail::Observed, &watch)?;
+        // What cannot be kept is made again.
+        if let Err(error) = self.kept.put(&[of.as_bytes()], &simulated) {
+            terminal::warn(format_args!("note: a result could not be kept: {error}"));
+        }
+        Ok(simulated)
+    }
+}
+
+impl Ways for Sizes<'_> {
+    fn count(&self) -> usize {
+        self.choices.count().unwrap_or(0)
+    }
+
+    fn price(&self, number: usize) -> Result<f64, String> {
+        self.read(number).map(|file| self.prices.of(&file.design))
+    }
+
+    fn by_equations(&self, number: usize) -> Result<Run, String> {
+        self.read(number).map(by_equations)
+    }
+
+    fn simulated_once(&self, number: usize) -> Result<Run, String> {
+        let file = self.read(number)?;
+        climb_by(file, 1, RungKind::Grains, &|design, starts| self.simulated(design, starts))
+            .map_err(|error| error.to_string())
+    }
+
+    fn confirmed(&self, number: usize, packings: u32) -> Result<Run, String> {
+        let file = self.read(number)?;
+        confirm_by(file, packings, &|design, starts| self.simulated(design, starts)).map_err(|error| error.to_string())
+    }
+
+    fn side_by_side<T: Send>(&self, numbers: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        side_by_side(self.at_once(), numbers.len(), |index| job(numbers[index]))
+    }
+
+    fn at_once(&self) -> usize {
+        rayon::current_num_threads()
+    }
+
+    fn tell(&self, way: &Way) {
+        let options: Vec<&str> = self.choices.options(way.number).iter().map(|option| option.label.as_str()).collect();
+        let price = way.price.map_or(String::new(), |price| format!("{price:.0} {}", self.currency));
+        let said = match &way.fate {
+            Fate::Passes { by, check, used } => format!("passes by {by}, {check} {:.0} %", 100.0 * used),
+            Fate::Fails { by, check, used } => format!("fails by {by}, {check} {:.0} %", 100.0 * used),
+            Fate::Undecided { by, why, .. } => format!("undecided by {by}, {why}"),
+            Fate::Impossible { .. } | Fate::NotAsked => return,
+        };
+        let _ = terminal::say(format_args!("{:<40} {price:>14}  {said}", options.join(", ")));
+    }
+}

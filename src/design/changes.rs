@@ -1,0 +1,161 @@
+//! Values that a study puts in place of those of a design.
+
+use crate::design::document::Node;
+use crate::design::kit;
+
+/// Dotted paths of keys, and what stands there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Changes(Vec<(String, Node)>);
+
+impl Changes {
+    pub fn new(changes: Vec<(String, Node)>) -> Self {
+        Self(changes)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether the value at a path is one of them, or below one.
+    pub fn has(&self, path: &str) -> bool {
+        let below =
+            |of: &String| path.strip_prefix(of.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        self.0.iter().any(|(of, _)| below(of))
+    }
+
+    /// Puts them onto the tree of a design. A list is taken as a whole, and where the same thing can be given in different ways, the way of the
+    /// change stands alone.
+    pub fn put_onto(&self, root: &mut Node) {
+        for (path, node) in &self.0 {
+            let mut tree = node.clone();
+            for name in path.rsplit('.') {
+                tree = Node::Map(vec![(name.to_string(), tree)]);
+            }
+            let Node::Map(mut changed) = tree else { continue };
+            kit::merge(&mut changed, root);
+            *root = Node::Map(in_the_order_of(changed, root));
+        }
+    }
+
+    /// The design as it is with them, as the text of a file without comments.
+    pub fn text_of(&self, root: &Node) -> String {
+        let mut root = root.clone();
+        self.put_onto(&mut root);
+        let mut text = String::new();
+        write(&root, 0, &mut text);
+        text
+    }
+}
+
+/// Keys as they stood before, new ones behind them.
+fn in_the_order_of(mut keys: Vec<(String, Node)>, before: &Node) -> Vec<(String, Node)> {
+    let Node::Map(before) = before else { return keys };
+    keys.sort_by_key(|(name, _)| before.iter().position(|(known, _)| known == name).unwrap_or(before.len()));
+    keys
+}
+
+/// Writes a node in block style, its texts quoted where they could be read as something else.
+fn write(node: &Node, depth: usize, text: &mut String) {
+    let blank = "  ".repeat(depth);
+    match node {
+        Node::Map(keys) => {
+            for (name, value) in keys {
+                match value {
+                    Node::Map(inner) if !inner.is_empty() => {
+                        text.push_str(&format!("{blank}{name}:\n"));
+                        write(value, depth + 1, text);
+                    }
+                    value => text.push_str(&format!("{blank}{name}: {}\n", inline(value))),
+                }
+            }
+        }
+        other => text.push_str(&format!("{blank}{}\n", inline(other))),
+    }
+}
+
+fn inline(node: &Node) -> String {
+    match node {
+        Node::Map(keys) => {
+            let keys: Vec<String> = keys.iter().map(|(name, value)| format!("{name}: {}", inline(value))).collect();
+            format!("{{{}}}", keys.join(", "))
+        }
+        Node::List(items) => format!("[{}]", items.iter().map(inline).collect::<Vec<_>>().join(", ")),
+        Node::Text(text) => quoted(text),
+        Node::Number(number) => number.to_string(),
+        Node::Flag(flag) => flag.to_string(),
+        Node::Nothing => "~".to_string(),
+    }
+}
+
+/// In double quotes, with what YAML escapes there.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().map(|letter| match letter {
+        '"' => "\\\"".to_string(),
+        '\\' => "\\\\".to_string(),
+        '\n' => "\\n".to_string(),
+        '\t' => "\\t".to_string(),
+        letter if letter.is_control() => format!("\\u{:04x}", u32::from(letter)),
+        letter => letter.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::document::Document;
+    use crate::design::entries::Purpose;
+    use crate::design::read::{read_design, read_design_changed};
+    use crate::design::{BarrierDesign, FlexibleNet};
+
+    const SMALL_NET: &str = include_str!("../../designs/small_net.yaml");
+
+    fn net(changes: &Changes) -> FlexibleNet {
+        let read =
+            read_design_changed(Purpose::Simulation, "x", SMALL_NET.as_bytes(), &|_| Err("none".into()), changes);
+        let design = read.unwrap_or_else(|problems| panic!("{problems}")).design;
+        let BarrierDesign::FlexibleNet(net) = design.barrier else { panic!("a net") };
+        *net
+    }
+
+    fn text(text: &str) -> Node {
+        Node::Text(text.into())
+    }
+
+    #[test]
+    fn a_change_stands_in_place_of_the_value_and_leaves_the_others() {
+        let asked = Changes::new(vec![("barrier.flexible_net.anchors.resistance".into(), text("321 kN"))]);
+        let [before, after] = [net(&Changes::default()), net(&asked)];
+        assert_eq!(after.anchor_designs.all.resistance.value(), 321e3);
+        assert_eq!(FlexibleNet { anchor_designs: before.anchor_designs.clone(), ..after }, before);
+        assert!(
+            asked.has("barrier.flexible_net.anchors.resistance") && !asked.has("barrier.flexible_net.anchors.resist")
+        );
+    }
+
+    /// Levels exclude the count of main ropes that the design gives.
+    #[test]
+    fn another_way_to_give_the_same_takes_its_place() {
+        let level =
+            |height: &str| Node::Map(vec![("height".into(), text(height)), ("ropes".into(), Node::Number(2.0))]);
+        let levels = Node::List(vec![level("0 m"), level("1.8 m")]);
+        let changed = net(&Changes::new(vec![("barrier.flexible_net.main_ropes.levels".into(), levels)]));
+        assert_eq!(changed.main_ropes.levels.iter().map(|level| level.ropes).collect::<Vec<_>>(), [2, 2]);
+    }
+
+    /// What is written is read as the same design.
+    #[test]
+    fn the_text_of_a_changed_design_is_that_design() {
+        let changes = Changes::new(vec![
+            ("barrier.flexible_net.anchors.resistance".into(), text("321 kN")),
+            ("project.name".into(), text("a \"b\" \\ # c: d")),
+        ]);
+        let root = Document::parse(SMALL_NET.as_bytes(), "").unwrap().root;
+        let written = changes.text_of(&root);
+        let read = read_design("x", written.as_bytes()).unwrap_or_else(|problems| panic!("{written}\n{problems}"));
+        let open: &dyn Fn(&str) -> Result<Vec<u8>, String> = &|_| Err("none".into());
+        let changed = read_design_changed(Purpose::Simulation, "x", SMALL_NET.as_bytes(), &open, &changes).unwrap();
+        assert_eq!(read.design, changed.design);
+        assert_eq!(read.design.project.name, "a \"b\" \\ # c: d");
+    }
+}

@@ -1,0 +1,123 @@
+//! The file of a study that seeks the cheapest barrier that passes.
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+use crate::studies::bill::Prices;
+use crate::studies::choices::{ChoiceText, Choices, MOST_COMBINATIONS};
+use crate::studies::sizing::Wanted;
+
+/// What decides whether a barrier passes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum By {
+    /// The equations first, then simulations as coarse as decide it.
+    #[default]
+    Simulation,
+    /// The equations alone, which never pass a net.
+    Equations,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SizePlan {
+    #[serde(rename = "kind")]
+    _kind: serde::de::IgnoredAny,
+    /// What the study is called.
+    pub name: String,
+    /// Design file, relative to the study's own.
+    pub design: PathBuf,
+    #[serde(default)]
+    by: By,
+    /// Share of what every check may use that is to be left, as 0.1 or 10 %.
+    #[serde(default)]
+    margin: Option<String>,
+    /// Further margins for each of which the cheapest is sought.
+    #[serde(default)]
+    front: Vec<String>,
+    pub choices: Vec<ChoiceText>,
+    #[serde(default)]
+    pub prices: Option<Prices>,
+    #[serde(default = "five")]
+    packings: u32,
+    #[serde(default = "many")]
+    most_simulated: usize,
+}
+
+fn five() -> u32 {
+    5
+}
+
+fn many() -> usize {
+    100
+}
+
+/// A share as 0.1 or 10 %.
+fn share(text: &str) -> Result<f64, String> {
+    let (number, per) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
+    let share = number.parse::<f64>().ok().map(|value| value / per);
+    share.filter(|share| (0.0..1.0).contains(share)).ok_or_else(|| format!("found {text}, allowed 0 % to 99 %"))
+}
+
+impl SizePlan {
+    pub fn prices(&self) -> Prices {
+        self.prices.clone().unwrap_or_default()
+    }
+
+    pub fn wanted(&self) -> Wanted {
+        Wanted {
+            margin: self.margin().unwrap_or(0.0),
+            by_equations: self.by == By::Equations,
+            packings: self.packings,
+            most_simulated: self.most_simulated,
+        }
+    }
+
+    fn margin(&self) -> Result<f64, String> {
+        self.margin.as_deref().map_or(Ok(0.0), share)
+    }
+
+    /// Margins for each of which the cheapest is sought besides.
+    pub fn front(&self) -> Vec<f64> {
+        self.front.iter().filter_map(|text| share(text).ok()).collect()
+    }
+
+    /// The choices; where one is wrong, nothing.
+    pub fn choices(&self) -> Choices {
+        Choices(self.choices.iter().filter_map(|choice| choice.choice().ok()).collect())
+    }
+
+    /// What is wrong, by the key where it stands.
+    pub fn wrong(&self) -> Vec<[String; 2]> {
+        let mut wrong = Vec::new();
+        wrong.extend(self.margin().err().map(|error| ["margin".into(), error]));
+        wrong.extend(self.front.iter().filter_map(|text| share(text).err()).map(|error| ["front".into(), error]));
+        if self.choices.is_empty() {
+            wrong.push(["choices".into(), "found none, allowed one at least".into()]);
+        }
+        for (number, choice) in self.choices.iter().enumerate() {
+            wrong.extend(choice.choice().err().map(|error| [format!("choices.{number}"), error]));
+        }
+        if self.choices().count().is_none_or(|count| count > MOST_COMBINATIONS) {
+            wrong.push(["choices".into(), format!("found more ways to combine them than {MOST_COMBINATIONS}")]);
+        }
+        if !(1..=100).contains(&self.packings) {
+            wrong.push(["packings".into(), format!("found {}, allowed 1 to 100", self.packings)]);
+        }
+        if !(1..=10_000).contains(&self.most_simulated) {
+            wrong.push(["most_simulated".into(), format!("found {}, allowed 1 to 10000", self.most_simulated)]);
+        }
+        for (number, item) in self.prices().items.iter().enumerate() {
+            // Asked so that what is not a number is refused.
+            if !(0.0..=1e9).contains(&item.price) {
+                let found = format!("found {}, allowed 0 to 1e9", item.price);
+                wrong.push([format!("prices.items.{number}.price"), found]);
+            }
+        }
+        if self.prices().items.is_empty() {
+            wrong.push(["prices.items".into(), "found none, allowed one at least".into()]);
+        }
+        wrong
+    }
+}
