@@ -112,6 +112,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "design",
             "fidelity",
             "guideline",
+            "pipeline",
             "problem",
             "quantities",
             "ring_law",

@@ -1,0 +1,121 @@
+//! The cheapest barrier that passes, as the program seeks it, against every way tried by hand.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("sizing").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn barrier_check(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_barrier-check")).args(arguments).current_dir(folder).output().expect("it runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+const SMALL_NET: &str = include_str!("../designs/small_net.yaml");
+/// The first is refuted by the equations, the second is close to its limit, and the last is that of the example.
+const ANCHORS: [&str; 4] = ["150 kN", "200 kN", "240 kN", "290 kN"];
+const PLAN: &str = "kind: size
+name: cheapest
+design: small_net.yaml
+packings: 5
+choices:
+  - key: barrier.flexible_net.anchors.resistance
+    values: [150 kN, 200 kN, 240 kN, 290 kN]
+prices:
+  currency: CHF
+  items:
+    - {of: anchor_resistance, price: 2, origin: a test}
+    - {of: steel_mass, price: 1}
+";
+
+#[test]
+fn the_cheapest_net_is_that_of_trying_them_all() {
+    let here = folder("net");
+    std::fs::write(here.join("small_net.yaml"), SMALL_NET).expect("a design");
+    std::fs::write(here.join("plan.yaml"), PLAN).expect("a plan");
+    let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
+    let said = text(&ran.stdout) + &text(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(0), "{said}");
+    let read = |name: &str| std::fs::read_to_string(here.join("found").join(name)).expect(name);
+    let json: serde_json::Value = serde_json::from_str(&read("size.json")).expect("JSON");
+    let number = json["cheapest"]["number"].as_u64().expect("a cheapest") as usize;
+    assert_eq!(json["cheapest"]["fate"]["is"], "passes");
+    assert_eq!(json["cheapest"]["fate"]["by"], "5 simulations");
+
+    // By hand: it passes, and none that costs less does.
+    let passes = |anchor: &str| {
+        let changed = SMALL_NET.replace("resistance: 290 kN", &format!("resistance: {anchor}"));
+        std::fs::write(here.join("one.yaml"), changed).expect("a design");
+        barrier_check(&here, &["one.yaml", "--seeds", "5", "--out", "one"]).status.code() == Some(0)
+    };
+    assert!(number > 0, "a choice in which something fails\n{}", read("size.csv"));
+    for cheaper in &ANCHORS[..number] {
+        assert!(!passes(cheaper), "{cheaper}\n{}", read("size.csv"));
+    }
+    assert!(passes(ANCHORS[number]), "{}", read("size.csv"));
+
+    // Four anchors at 2 CHF per kN, and the steel.
+    let price = json["cheapest"]["price"].as_f64().expect("a price");
+    let anchor: f64 = ANCHORS[number].trim_end_matches(" kN").parse().expect("a number");
+    assert!((price - 8.0 * anchor - 158.9).abs() < 0.1, "{price}");
+
+    // What is written as a design is that design: it costs and passes the same.
+    let written = read("cheapest.yaml");
+    assert!(written.contains(&format!("resistance: \"{}\"", ANCHORS[number])), "{written}");
+    std::fs::write(here.join("cheapest.yaml"), written).expect("a design");
+    assert_eq!(barrier_check(&here, &["loads", "cheapest.yaml", "--out", "loads"]).status.code(), Some(2));
+
+    // Nothing is simulated twice: with what is kept the search takes a moment, and finds the same.
+    let before = (read("size.csv"), read("size.json"));
+    let started = std::time::Instant::now();
+    let again = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
+    assert_eq!(again.status.code(), Some(0));
+    assert!(started.elapsed().as_secs_f64() < 3.0, "{:?}", started.elapsed());
+    assert_eq!((read("size.csv"), read("size.json")), before);
+    let page = read("size.html");
+    assert!(page.contains("The cheapest barrier that passes costs") && page.contains("CHF"));
+}
+
+/// By the equations alone a net never passes, and the study does not say that one does.
+#[test]
+fn the_equations_alone_end_undecided() {
+    let here = folder("equations");
+    std::fs::write(here.join("small_net.yaml"), SMALL_NET).expect("a design");
+    std::fs::write(here.join("plan.yaml"), PLAN.replace("packings: 5", "by: equations\nfront: [10 %, 99 %]"))
+        .expect("a plan");
+    let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
+    assert_eq!(ran.status.code(), Some(2), "{}", text(&ran.stderr));
+    let page = std::fs::read_to_string(here.join("found/size.md")).expect("a page");
+    assert!(page.contains("that the equations do not refute"), "{page}");
+    assert!(page.contains("| 99 % | none found |"), "{page}");
+}
+
+#[test]
+fn a_plan_that_is_wrong_is_told_with_all_that_is_wrong() {
+    let here = folder("wrong");
+    std::fs::write(here.join("small_net.yaml"), SMALL_NET).expect("a design");
+    let wrong = PLAN
+        .replace("packings: 5", "packings: 0\nmargin: much")
+        .replace("values: [150 kN, 200 kN, 240 kN, 290 kN]", "from: 100 kN\n    to: 50 kN\n    step: 10 kN");
+    std::fs::write(here.join("plan.yaml"), wrong).expect("a plan");
+    let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
+    let said = text(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(2));
+    for told in ["margin: found much, allowed 0 % to 99 %", "choices.0: found 100 kN to 50 kN", "packings: found 0"] {
+        assert!(said.contains(told), "{told}: {said}");
+    }
+    // A value that no design takes is no way, and is told.
+    std::fs::write(here.join("plan.yaml"), PLAN.replace("150 kN, 200 kN, 240 kN, 290 kN", "2 bananas"))
+        .expect("a plan");
+    let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
+    assert_eq!(ran.status.code(), Some(2));
+    let page = std::fs::read_to_string(here.join("found/size.md")).expect("a page");
+    assert!(page.contains("1 are no designs") && page.contains("bananas"), "{page}");
+}
