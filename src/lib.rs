@@ -32,7 +32,7 @@
 //! | a shape of surface | a file in [`dem::tables`] beside `surfaces` and `terrain`, and its lines in [`dem::tables::fixed`], which tells all others what a grain touches; where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
-//! | a load case that is simulated, or where a partial factor stands | [`load_cases`]; its runs in `pipeline::run_on`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
+//! | a load case that is simulated, or where a partial factor stands | [`load_cases`]; its runs in `pipeline::simulate_cases`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
 //! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
@@ -50,6 +50,9 @@
 //! | a scene of the bench | a line in `benches/throughput.rs`, its state in `benches/states` |
 //! | a row of the report | [`report::findings`] (simulation), [`report::reliability`] (how far it can be relied on), [`report::loads`] (equations), [`report::holding`] (what the barrier holds and how high it must be), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
 //! | a rung of the ladder | [`fidelity::ladder::RUNGS`] |
+//! | a kind of study | its plan in a file of [`studies`] and a line in `studies::plan`, what runs it in a file of [`commands`], its page in [`report`] |
+//! | a quantity that a price stands on | [`studies::bill::Measure`] |
+//! | a lattice of meshes or rings | a variant of [`lattice::Lattice`] |
 //! | a knob to study | a variant and its lines in [`studies::knobs`] |
 //! | a scene of the stability map | a function and a line in [`studies::stability_scenes::SCENES`] |
 //! | something a run depends on | a field that is kept with [`dem::simulation::Simulation`]; raise the `FORMAT` of [`checkpoint::file`] |

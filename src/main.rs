@@ -124,9 +124,9 @@ enum Command {
     },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
-    /// Runs scenes with each choice of the model changed alone: what it costs, what it changes
+    /// Makes many runs and what follows from them: the cheapest barrier that passes, what a choice of the model costs, where steps break
     Study {
-        /// Study file in YAML, for example designs/studies/speed_accuracy.yaml
+        /// Study file in YAML, for example designs/studies/size_gully.yaml
         file: PathBuf,
         /// Folder for the page and what is kept [default: out/studies/<name>]
         #[arg(long, value_name = "DIR")]
