@@ -11,7 +11,7 @@ use crate::checks::range::leave_open_outside_range;
 use crate::checks::ropes::leave_open_what_sockets_alone_hold;
 use crate::demand::Demands;
 use crate::design::read::DesignFile;
-use crate::design::{BarrierDesign, Design};
+use crate::design::{BarrierDesign, Design, FidelityWish};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, RungKind, Step, rung_of};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
@@ -197,11 +197,14 @@ pub fn climb_by(file: DesignFile, starts: u32, last: RungKind, by: &Simulate) ->
     Ok(now)
 }
 
-/// Runs a design as the rung of several packings has it, with so many: how accurate that is hangs on their number.
-pub fn confirm_by(file: DesignFile, starts: u32, by: &Simulate) -> Result<Run, RunError> {
+/// Runs a design with so many packings, modelled as it asks, or where it leaves that to the program as the rung of several packings does: how
+/// accurate that is hangs on their number.
+pub fn confirm_by(mut file: DesignFile, starts: u32, by: &Simulate) -> Result<Run, RunError> {
     let rung = RUNGS.iter().find(|rung| rung.kind == RungKind::Starts);
-    let design = rung.map_or_else(|| file.design.clone(), |rung| rung.of(&file.design));
-    run_by(None, DesignFile { design, ..file }, starts, by)
+    if let Some(rung) = rung.filter(|_| file.design.simulation.fidelity == FidelityWish::Auto) {
+        file.design = rung.of(&file.design);
+    }
+    run_by(None, file, starts, by)
 }
 
 /// The check that uses most of what it has, with how much.

@@ -1,7 +1,7 @@
 //! `barrier-check study FILE` of the kind size: prices, equations and simulations of all ways to put choices together.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
 use crate::commands::Failure;
@@ -17,14 +17,14 @@ use crate::fidelity::choose;
 use crate::fidelity::ladder::RungKind;
 use crate::pipeline::{Run, by_equations, climb_by, confirm_by, simulate_cases};
 use crate::report::folder::{Folder, ReportFile};
-use crate::report::size::{Sized, files};
+use crate::report::size::{Front, Sized, files};
 use crate::scene::event::Watch;
 use crate::simulated::{Detail, RunError, Simulated};
 use crate::starts::side_by_side;
 use crate::studies::bill::Prices;
 use crate::studies::choices::Choices;
 use crate::studies::size_plan::SizePlan;
-use crate::studies::sizing::{Fate, Wanted, Way, Ways, mechanics, search};
+use crate::studies::sizing::{Fate, Fault, Wanted, Way, Ways, mechanics, search};
 use crate::terminal;
 
 /// Of the design that is sized: its text, and files that it and its changes name.
@@ -63,21 +63,37 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
     };
     let wanted = plan.wanted();
     let found = search(&ways, &wanted)?;
+    if let Some(Fate::Impossible { why }) =
+        found.ways.first().map(|way| &way.fate).filter(|_| found.ways.iter().all(|way| way.price.is_none()))
+    {
+        return Err(
+            format!("no way to put the choices together is a design; the first is none because of {why}").into()
+        );
+    }
     let front = plan.front().into_iter().map(|margin| {
+        let _ = terminal::say(format_args!("with a margin of {:.0} %:", 100.0 * margin));
         let found = search(&ways, &Wanted { margin, ..wanted })?;
-        Ok((margin, found.cheapest.map(|place| found.ways[place].clone())))
+        Ok(Front {
+            margin,
+            cheapest: found.cheapest.map(|place| found.ways[place].clone()),
+            out_of_budget: found.out_of_budget,
+        })
     });
-    let front = front.collect::<Result<Vec<(f64, Option<Way>)>, String>>()?;
+    let front = front.collect::<Result<Vec<Front>, String>>()?;
     let cheapest = found.cheapest.map(|place| &found.ways[place]);
     let mut extra = Vec::new();
     if let Some(way) = cheapest {
         let root = Document::parse(&site.text, "").map_err(|problem| problem.found)?.root;
         let head = format!(
-            "# The cheapest of the study {}: {} with its choices put in. Files that it names are taken from the folder of that design.\n",
+            "# The cheapest of the study {}: {} with its choices put in. Files that it names are taken from its own folder.\n",
             plan.name,
             plan.design.display()
         );
         extra.push(ReportFile::new("cheapest.yaml", head + &choices.changes(way.number).text_of(&root)));
+        // Beside it, where their names lead to a place below.
+        let below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        let named = ways.read(way.number)?.attached.into_iter().filter(|(name, _)| below(name));
+        extra.extend(named.map(|(name, bytes)| ReportFile::new(name, bytes)));
     }
     let passes = cheapest.is_some_and(|way| matches!(way.fate, Fate::Passes { .. }));
     let sized = Sized {
@@ -130,6 +146,15 @@ impl Sizes<'_> {
     }
 }
 
+fn fault(error: RunError) -> Fault {
+    match error {
+        RunError::Interrupted => Fault::OfAll(
+            "the search was interrupted; what has been simulated is kept, and the study goes on there when it runs again".into(),
+        ),
+        error => Fault::OfTheWay(error.to_string()),
+    }
+}
+
 impl Ways for Sizes<'_> {
     fn count(&self) -> usize {
         self.choices.count().unwrap_or(0)
@@ -143,15 +168,14 @@ impl Ways for Sizes<'_> {
         self.read(number).map(by_equations)
     }
 
-    fn simulated_once(&self, number: usize) -> Result<Run, String> {
-        let file = self.read(number)?;
-        climb_by(file, 1, RungKind::Grains, &|design, starts| self.simulated(design, starts))
-            .map_err(|error| error.to_string())
+    fn simulated_once(&self, number: usize) -> Result<Run, Fault> {
+        let file = self.read(number).map_err(Fault::OfTheWay)?;
+        climb_by(file, 1, RungKind::Grains, &|design, starts| self.simulated(design, starts)).map_err(fault)
     }
 
-    fn confirmed(&self, number: usize, packings: u32) -> Result<Run, String> {
-        let file = self.read(number)?;
-        confirm_by(file, packings, &|design, starts| self.simulated(design, starts)).map_err(|error| error.to_string())
+    fn confirmed(&self, number: usize, packings: u32) -> Result<Run, Fault> {
+        let file = self.read(number).map_err(Fault::OfTheWay)?;
+        confirm_by(file, packings, &|design, starts| self.simulated(design, starts)).map_err(fault)
     }
 
     fn side_by_side<T: Send>(&self, numbers: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T> {

@@ -29,8 +29,15 @@ pub struct Sized<'a> {
     pub prices: &'a Prices,
     pub wanted: Wanted,
     pub found: &'a Found,
-    /// Margins, and the cheapest that keeps each.
-    pub front: &'a [(f64, Option<Way>)],
+    pub front: &'a [Front],
+}
+
+/// The cheapest that keeps a margin.
+pub struct Front {
+    pub margin: f64,
+    pub cheapest: Option<Way>,
+    /// Whether the search ended before because enough had been simulated.
+    pub out_of_budget: bool,
 }
 
 #[derive(Serialize)]
@@ -104,9 +111,10 @@ pub fn files(
         front: sized
             .front
             .iter()
-            .map(|(margin, way)| {
-                let price = way.as_ref().and_then(|way| way.price).map_or("none found".into(), money);
-                let options = way.as_ref().map_or(String::new(), |way| options(way).join(", "));
+            .map(|Front { margin, cheapest, out_of_budget }| {
+                let none = if *out_of_budget { "not found within most_simulated" } else { "none passes" };
+                let price = cheapest.as_ref().and_then(|way| way.price).map_or(none.into(), money);
+                let options = cheapest.as_ref().map_or(String::new(), |way| options(way).join(", "));
                 [format!("{:.0} %", 100.0 * margin), price, options]
             })
             .collect(),
@@ -155,7 +163,10 @@ fn result(sized: &Sized, cheapest: Option<&Way>, money: &impl Fn(f64) -> String)
                 "None found: {} ways were simulated, the most that the study allows (most_simulated), and none of them passes.",
                 sized.wanted.most_simulated
             ),
-            false => "No way to put the choices together passes.".into(),
+            false => match sized.found.ways.iter().any(|way| matches!(way.fate, Fate::Undecided { .. })) {
+                true => "No way to put the choices together passes; some are undecided.".into(),
+                false => "No way to put the choices together passes: all of them fail.".into(),
+            },
         };
     };
     let price = way.price.map_or(String::new(), money);
@@ -169,7 +180,7 @@ fn result(sized: &Sized, cheapest: Option<&Way>, money: &impl Fn(f64) -> String)
             100.0 * used
         ),
         _ => format!(
-            "The cheapest barrier that the equations do not refute{margin} costs {price}. They do not pass it either: some of its checks only a simulation can make."
+            "The cheapest barrier that the equations do not refute{margin} costs {price}. They need not pass it: what they leave open a simulation must decide."
         ),
     }
 }
@@ -181,19 +192,31 @@ fn reasons(sized: &Sized) -> Vec<String> {
     let impossible = count(&|fate| matches!(fate, Fate::Impossible { .. }));
     let refuted = count(&|fate| matches!(fate, Fate::Fails { by, .. } if by == BY_EQUATIONS));
     let failed = count(&|fate| matches!(fate, Fate::Fails { by, .. } if by != BY_EQUATIONS));
-    let before = sized.found.cheapest.unwrap_or(ways.len());
-    let undecided = ways[..before].iter().filter(|way| matches!(way.fate, Fate::Undecided { .. })).count();
-    let dearer = count(&|fate| matches!(fate, Fate::NotAsked));
+    let undecided = count(&|fate| matches!(fate, Fate::Undecided { .. }));
+    let not_asked = count(&|fate| matches!(fate, Fate::NotAsked));
     let mut told = vec![format!(
-        "{} ways to put the choices together: {impossible} are no designs, {refuted} fail by the equations, {failed} fail by simulation, {dearer} cost more and were not asked.",
+        "{} ways to put the choices together: {impossible} are no designs, {refuted} fail by the equations, {failed} fail by simulation, {undecided} are undecided, {not_asked} were not asked.",
         ways.len()
     )];
-    if sized.found.cheapest.is_some() {
-        told.push("They were asked in the order of their price, so that each that costs less has failed, is no design, or is listed as undecided.".into());
+    if let Some(place) = sized.found.cheapest {
+        told.push("They were asked in the order of their price: each that costs less has failed, is no design, or is listed as undecided.".into());
+        let price = ways[place].price;
+        let as_dear = ways.iter().filter(|way| way.price == price && matches!(way.fate, Fate::NotAsked)).count();
+        if as_dear > 0 {
+            told.push(format!(
+                "{as_dear} that were not asked cost the same: the prices do not tell them apart, and one of them may have more margin."
+            ));
+        }
     }
     if undecided > 0 {
+        told.push("What is undecided may pass: see why in the table. A limit that is not given, or a formula outside its range, leaves a check open whatever is simulated.".into());
+    }
+    let outside: Vec<&str> =
+        sized.choices.0.iter().flat_map(|choice| choice.keys()).filter(|key| !key.starts_with("barrier.")).collect();
+    if !outside.is_empty() {
         told.push(format!(
-            "{undecided} that cost less could not be decided, and may pass: see why in the table. A limit that is not given, or a formula outside its range, leaves a check open whatever is simulated."
+            "Not of the barrier, but of what is asked of it: {}. A lower price may come from a milder demand.",
+            outside.join(", ")
         ));
     }
     let first = ways.iter().find_map(|way| match &way.fate {
@@ -230,8 +253,9 @@ fn chart(sized: &Sized) -> Option<Chart> {
         Some(Dot { price, used, mark })
     };
     let mut dots: Vec<Dot> = sized.found.ways.iter().filter_map(dot).collect();
-    dots.extend(sized.front.iter().filter_map(|(_, way)| dot(way.as_ref()?)));
-    let front = sized.front.iter().filter_map(|(margin, way)| Some([way.as_ref()?.price?, 1.0 - margin])).collect();
+    dots.extend(sized.front.iter().filter_map(|front| dot(front.cheapest.as_ref()?)));
+    let front =
+        sized.front.iter().filter_map(|front| Some([front.cheapest.as_ref()?.price?, 1.0 - front.margin])).collect();
     (!dots.is_empty()).then(|| {
         let drawn = CostMargin { dots, front, limit: 1.0 - sized.wanted.margin, currency: sized.prices.currency.clone() };
         Chart::of(
@@ -304,6 +328,10 @@ fn json(sized: &Sized) -> serde_json::Result<String> {
         margin: sized.wanted.margin,
         cheapest: sized.found.cheapest.map(|place| &sized.found.ways[place]),
         ways: sized.found.ways.iter().map(|way| JsonWay { options: options(way), way }).collect(),
-        front: sized.front.iter().map(|(margin, way)| JsonFront { margin: *margin, cheapest: way.as_ref() }).collect(),
+        front: sized
+            .front
+            .iter()
+            .map(|front| JsonFront { margin: front.margin, cheapest: front.cheapest.as_ref() })
+            .collect(),
     })
 }

@@ -1,6 +1,6 @@
 //! What a study may change of a design: keys with their values, and all ways to put them together.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 use serde_yaml::Value;
@@ -94,7 +94,11 @@ fn of_range(key: &str, ends: [&str; 3]) -> Result<Choice, String> {
         let value = format!("{:.9}", from + number as f64 * step);
         let value = value.trim_end_matches('0').trim_end_matches('.');
         let label = format!("{value} {unit}").trim().to_string();
-        ChosenOption { changes: vec![(key.to_string(), Node::Text(label.clone()))], label }
+        let node = match value.parse::<f64>() {
+            Ok(number) if unit.is_empty() => Node::Number(number),
+            _ => Node::Text(label.clone()),
+        };
+        ChosenOption { changes: vec![(key.to_string(), node)], label }
     };
     named(key, (0..=(count + 1e-9) as usize).map(option).collect())
 }
@@ -154,6 +158,13 @@ fn shown(node: &Node) -> String {
     }
 }
 
+impl Choice {
+    /// Keys that its options set.
+    pub fn keys(&self) -> BTreeSet<&str> {
+        self.options.iter().flat_map(|option| option.changes.iter().map(|(path, _)| path.as_str())).collect()
+    }
+}
+
 /// All ways to put choices together.
 #[derive(Clone, Debug)]
 pub struct Choices(pub Vec<Choice>);
@@ -162,6 +173,18 @@ impl Choices {
     /// How many ways there are; nothing where these are more than can be counted.
     pub fn count(&self) -> Option<usize> {
         self.0.iter().try_fold(1_usize, |count, choice| count.checked_mul(choice.options.len()))
+    }
+
+    /// A key that two choices set, or of which one sets a key below it: the later one would take the place of the other.
+    pub fn set_twice(&self) -> Option<String> {
+        let within =
+            |key: &str, of: &str| key.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        self.0.iter().enumerate().find_map(|(number, choice)| {
+            let others = self.0[..number].iter().flat_map(Choice::keys);
+            others.into_iter().find_map(|other| {
+                choice.keys().into_iter().find(|key| within(key, other) || within(other, key)).map(String::from)
+            })
+        })
     }
 
     /// The options of one of them, the last choice turning fastest.
@@ -224,6 +247,9 @@ mod tests {
         let of = |number| choices.options(number).iter().map(|option| option.label.clone()).collect::<Vec<_>>();
         assert_eq!([of(0), of(1), of(2)], [["x", "one"], ["x", "3 m, 4"], ["y", "one"]]);
         let changes = choices.changes(1);
+        assert_eq!(choices.set_twice(), None);
+        let twice = Choices(vec![read("{key: a.b, values: [1]}").unwrap(), read("{key: a.b.c, values: [1]}").unwrap()]);
+        assert_eq!(twice.set_twice().as_deref(), Some("a.b.c"));
         assert!(changes.has("a") && changes.has("p") && changes.has("q") && !changes.has("label"));
     }
 }

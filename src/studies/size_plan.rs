@@ -99,6 +99,9 @@ impl SizePlan {
         for (number, choice) in self.choices.iter().enumerate() {
             wrong.extend(choice.choice().err().map(|error| [format!("choices.{number}"), error]));
         }
+        if let Some(key) = self.choices().set_twice() {
+            wrong.push(["choices".into(), format!("found `{key}` set by two of them, allowed each key in one")]);
+        }
         if self.choices().count().is_none_or(|count| count > MOST_COMBINATIONS) {
             wrong.push(["choices".into(), format!("found more ways to combine them than {MOST_COMBINATIONS}")]);
         }
@@ -108,7 +111,11 @@ impl SizePlan {
         if !(1..=10_000).contains(&self.most_simulated) {
             wrong.push(["most_simulated".into(), format!("found {}, allowed 1 to 10000", self.most_simulated)]);
         }
-        for (number, item) in self.prices().items.iter().enumerate() {
+        let items = self.prices().items;
+        if (1..items.len()).any(|number| items[..number].iter().any(|before| before.of == items[number].of)) {
+            wrong.push(["prices.items".into(), "found a quantity that is priced twice, allowed each once".into()]);
+        }
+        for (number, item) in items.iter().enumerate() {
             // Asked so that what is not a number is refused.
             if !(0.0..=1e9).contains(&item.price) {
                 let found = format!("found {}, allowed 0 to 1e9", item.price);

@@ -63,6 +63,15 @@ pub struct Way {
     pub fate: Fate,
 }
 
+/// Why a way has no run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// It cannot be simulated.
+    OfTheWay(String),
+    /// The search cannot go on.
+    OfAll(String),
+}
+
 /// What the search needs of the ways.
 pub trait Ways: Sync {
     fn count(&self) -> usize;
@@ -70,8 +79,8 @@ pub trait Ways: Sync {
     fn price(&self, number: usize) -> Result<f64, String>;
     fn by_equations(&self, number: usize) -> Result<Run, String>;
     /// By a single simulation, of coarse grains where these decide it, and with so many packings.
-    fn simulated_once(&self, number: usize) -> Result<Run, String>;
-    fn confirmed(&self, number: usize, packings: u32) -> Result<Run, String>;
+    fn simulated_once(&self, number: usize) -> Result<Run, Fault>;
+    fn confirmed(&self, number: usize, packings: u32) -> Result<Run, Fault>;
     /// Jobs side by side, their results in order.
     fn side_by_side<T: Send>(&self, numbers: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T>;
     /// How many jobs run at once.
@@ -211,13 +220,13 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
         simulated += wave.len();
         let runs = ways.side_by_side(&wave, |place| ways.simulated_once(found.ways[place].number));
         for (place, run) in wave.into_iter().zip(runs) {
-            let run = run?;
-            let mut fate = fate_of(&run, &rung_of(&run), wanted);
-            if found.cheapest.is_none() && several_may_pass(&run, &fate) {
-                let confirmed = ways.confirmed(found.ways[place].number, wanted.packings)?;
-                fate = fate_of(&confirmed, &rung_of(&confirmed), wanted);
+            let (mut fate, run) = told(run, wanted)?;
+            if found.cheapest.is_none() && run.is_some_and(|run| several_may_pass(&run, &fate)) {
+                let confirmed = ways.confirmed(found.ways[place].number, wanted.packings);
+                let (now, run) = told(confirmed, wanted)?;
+                fate = now;
                 if matches!(fate, Fate::Passes { .. }) {
-                    (found.cheapest, found.run) = (Some(place), Some(confirmed));
+                    (found.cheapest, found.run) = (Some(place), run);
                 }
             }
             found.ways[place].fate = fate;
@@ -225,6 +234,15 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
         }
     }
     Ok(found)
+}
+
+/// What a simulation says of a way; one that cannot be made leaves it undecided.
+fn told(run: Result<Run, Fault>, wanted: &Wanted) -> Result<(Fate, Option<Run>), String> {
+    match run {
+        Ok(run) => Ok((fate_of(&run, &rung_of(&run), wanted), Some(run))),
+        Err(Fault::OfTheWay(why)) => Ok((Fate::Undecided { by: "no simulation".into(), why, used: f64::NAN }, None)),
+        Err(Fault::OfAll(why)) => Err(why),
+    }
 }
 
 /// Whether several packings may pass what one simulation shows: it passes, or nothing is open that none of them can close.
@@ -312,12 +330,12 @@ mod tests {
             Ok(by_equations(self.file(number)))
         }
 
-        fn simulated_once(&self, _: usize) -> Result<Run, String> {
-            Err("nothing is simulated here".into())
+        fn simulated_once(&self, _: usize) -> Result<Run, Fault> {
+            Err(Fault::OfAll("nothing is simulated here".into()))
         }
 
-        fn confirmed(&self, _: usize, _: u32) -> Result<Run, String> {
-            Err("nothing is simulated here".into())
+        fn confirmed(&self, _: usize, _: u32) -> Result<Run, Fault> {
+            Err(Fault::OfAll("nothing is simulated here".into()))
         }
 
         fn side_by_side<T: Send>(&self, numbers: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T> {
