@@ -207,11 +207,15 @@ pub fn confirm_by(mut file: DesignFile, starts: u32, by: &Simulate) -> Result<Ru
     run_by(None, file, starts, by)
 }
 
-/// The check that uses most of what it has, with how much.
-pub fn governing(outcomes: &[Outcome]) -> String {
+/// The check that uses most of what it has, and how much.
+pub fn most_used(outcomes: &[Outcome]) -> Option<(f64, &Outcome)> {
     let used = outcomes.iter().filter_map(|outcome| Some((outcome.utilisation?, outcome)));
-    let most = used.max_by(|a, b| a.0.total_cmp(&b.0));
-    most.map_or(String::new(), |(used, outcome)| format!("{} ({:.0} %)", outcome.title, 100.0 * used))
+    used.max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The same in words.
+fn governing(outcomes: &[Outcome]) -> String {
+    most_used(outcomes).map_or(String::new(), |(used, outcome)| format!("{} ({:.0} %)", outcome.title, 100.0 * used))
 }
 
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.

@@ -116,7 +116,7 @@ fn a_plan_that_is_wrong_is_told_with_all_that_is_wrong() {
         .expect("a plan");
     let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
     let said = text(&ran.stderr);
-    assert!(ran.status.code() == Some(2) && said.contains("is a design") && said.contains("bananas"), "{said}");
+    assert!(ran.status.code() == Some(2) && said.contains("is a valid design") && said.contains("bananas"), "{said}");
     let twice = PLAN.replace("prices:", "  - {key: barrier.flexible_net.anchors.resistance, values: [1 kN]}\nprices:");
     std::fs::write(here.join("plan.yaml"), twice).expect("a plan");
     let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);

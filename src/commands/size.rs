@@ -40,7 +40,6 @@ struct Sizes<'a> {
     choices: &'a Choices,
     prices: &'a Prices,
     kept: &'a KeptResults,
-    currency: &'a str,
     /// Files that designs name, read once.
     attached: Mutex<BTreeMap<String, Result<Vec<u8>, String>>>,
 }
@@ -53,22 +52,14 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
     let site = Site { name: path.display().to_string(), path: path.clone(), text };
     let (choices, prices) = (plan.choices(), plan.prices());
     let kept = KeptResults::within(folder.path())?;
-    let ways = Sizes {
-        site: &site,
-        choices: &choices,
-        prices: &prices,
-        kept: &kept,
-        currency: &prices.currency,
-        attached: Mutex::new(BTreeMap::new()),
-    };
+    let ways =
+        Sizes { site: &site, choices: &choices, prices: &prices, kept: &kept, attached: Mutex::new(BTreeMap::new()) };
     let wanted = plan.wanted();
     let found = search(&ways, &wanted)?;
     if let Some(Fate::Impossible { why }) =
         found.ways.first().map(|way| &way.fate).filter(|_| found.ways.iter().all(|way| way.price.is_none()))
     {
-        return Err(
-            format!("no way to put the choices together is a design; the first is none because of {why}").into()
-        );
+        return Err(format!("no combination of the choices is a valid design; the first is refused: {why}").into());
     }
     let front = plan.front().into_iter().map(|margin| {
         let _ = terminal::say(format_args!("with a margin of {:.0} %:", 100.0 * margin));
@@ -188,7 +179,7 @@ impl Ways for Sizes<'_> {
 
     fn tell(&self, way: &Way) {
         let options: Vec<&str> = self.choices.options(way.number).iter().map(|option| option.label.as_str()).collect();
-        let price = way.price.map_or(String::new(), |price| format!("{price:.0} {}", self.currency));
+        let price = way.price.map_or(String::new(), |price| format!("{price:.0} {}", self.prices.currency));
         let said = match &way.fate {
             Fate::Passes { by, check, used } => format!("passes by {by}, {check} {:.0} %", 100.0 * used),
             Fate::Fails { by, check, used } => format!("fails by {by}, {check} {:.0} %", 100.0 * used),

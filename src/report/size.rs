@@ -160,12 +160,12 @@ fn result(sized: &Sized, cheapest: Option<&Way>, money: &impl Fn(f64) -> String)
     let Some(way) = cheapest else {
         return match sized.found.out_of_budget {
             true => format!(
-                "None found: {} ways were simulated, the most that the study allows (most_simulated), and none of them passes.",
+                "None found: {} combinations were simulated, the most that the study allows (most_simulated), and none of them passes.",
                 sized.wanted.most_simulated
             ),
             false => match sized.found.ways.iter().any(|way| matches!(way.fate, Fate::Undecided { .. })) {
-                true => "No way to put the choices together passes; some are undecided.".into(),
-                false => "No way to put the choices together passes: all of them fail.".into(),
+                true => "No combination of the choices passes; some are undecided.".into(),
+                false => "No combination of the choices passes: all of them fail, or lack the margin.".into(),
             },
         };
     };
@@ -195,16 +195,16 @@ fn reasons(sized: &Sized) -> Vec<String> {
     let undecided = count(&|fate| matches!(fate, Fate::Undecided { .. }));
     let not_asked = count(&|fate| matches!(fate, Fate::NotAsked));
     let mut told = vec![format!(
-        "{} ways to put the choices together: {impossible} are no designs, {refuted} fail by the equations, {failed} fail by simulation, {undecided} are undecided, {not_asked} were not asked.",
+        "Combinations of the choices: {}. Not valid as designs: {impossible}; ruled out by the equations: {refuted}; by simulation: {failed}; undecided: {undecided}; not evaluated: {not_asked}. What lacks the margin counts as ruled out.",
         ways.len()
     )];
     if let Some(place) = sized.found.cheapest {
-        told.push("They were asked in the order of their price: each that costs less has failed, is no design, or is listed as undecided.".into());
+        told.push("They were evaluated in the order of their price: every cheaper one has been ruled out, is not a valid design, or is listed as undecided.".into());
         let price = ways[place].price;
         let as_dear = ways.iter().filter(|way| way.price == price && matches!(way.fate, Fate::NotAsked)).count();
         if as_dear > 0 {
             told.push(format!(
-                "{as_dear} that were not asked cost the same: the prices do not tell them apart, and one of them may have more margin."
+                "{as_dear} that were not evaluated cost the same: the prices do not distinguish them, and one of them may have more margin."
             ));
         }
     }
@@ -215,7 +215,7 @@ fn reasons(sized: &Sized) -> Vec<String> {
         sized.choices.0.iter().flat_map(|choice| choice.keys()).filter(|key| !key.starts_with("barrier.")).collect();
     if !outside.is_empty() {
         told.push(format!(
-            "Not of the barrier, but of what is asked of it: {}. A lower price may come from a milder demand.",
+            "These choices change the demand and not the barrier: {}. A lower price may come from a milder demand.",
             outside.join(", ")
         ));
     }
@@ -223,7 +223,7 @@ fn reasons(sized: &Sized) -> Vec<String> {
         Fate::Impossible { why } => Some(why),
         _ => None,
     });
-    told.extend(first.map(|why| format!("The first that is no design: {why}.")));
+    told.extend(first.map(|why| format!("The first that is not a valid design: {why}.")));
     told
 }
 
@@ -261,7 +261,7 @@ fn chart(sized: &Sized) -> Option<Chart> {
         Chart::of(
             "Price against what the checks use",
             drawn.svg(),
-            "Each dot is a way that was asked: the largest share that a check uses, by the equations or by the last simulation. What uses more than twice its limit is drawn at the top.",
+            "Each dot is a combination that was evaluated, at the largest utilisation of its checks, by the equations or by its last simulation. What is above 200 % is drawn at the top.",
         )
     })
 }

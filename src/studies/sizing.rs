@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
 use crate::design::anchors::AnchorResistance;
 use crate::design::{BarrierDesign, Design, Project};
-use crate::pipeline::{Run, Verdict, governing};
+use crate::pipeline::{Run, Verdict, most_used};
 
 /// What is asked of the way that is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,18 +95,8 @@ pub struct Found {
     pub ways: Vec<Way>,
     /// The cheapest that passes, or by equations alone that they do not refute, by its place in that list.
     pub cheapest: Option<usize>,
-    /// The run that has confirmed it, or by equations the one that left it standing.
-    pub run: Option<Run>,
     /// Whether ways were left because enough had been simulated.
     pub out_of_budget: bool,
-}
-
-/// Largest share that a check uses, and which; of what is judged.
-pub fn most_used(outcomes: &[Outcome]) -> (f64, String) {
-    let judged = outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info);
-    let used = judged.filter_map(|outcome| Some((outcome.utilisation?, &outcome.title)));
-    let most = used.max_by(|a, b| a.0.total_cmp(&b.0));
-    most.map_or((f64::NAN, String::new()), |(used, title)| (used, title.clone()))
 }
 
 /// What refutes a way for certain: a check that fails by the equations, or one they judge and that uses more than the margin leaves.
@@ -126,10 +116,16 @@ fn refuted(run: &Run, wanted: &Wanted) -> Option<(String, f64)> {
 
 /// What a run says of a way, with the margin wanted.
 fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
-    let (used, check) = most_used(&run.outcomes);
+    let titled = |(used, outcome): (f64, &Outcome)| (used, outcome.title.clone());
+    let (used, check) = most_used(&run.outcomes).map_or((f64::NAN, String::new()), titled);
     let by = by.to_string();
     match run.verdict {
-        Verdict::Fail => Fate::Fails { by, check: failing(run).unwrap_or(check), used },
+        Verdict::Fail => {
+            let is_failed = |outcome: &&Outcome| outcome.verdict == CheckVerdict::Fail;
+            let failed: Vec<Outcome> = run.outcomes.iter().filter(is_failed).cloned().collect();
+            let worst = most_used(&failed).map(|(_, outcome)| outcome).or(failed.first());
+            Fate::Fails { by, check: worst.map_or(check, |outcome| outcome.title.clone()), used }
+        }
         Verdict::Undecided => {
             let open = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Open);
             let open: Vec<&Outcome> = open.collect();
@@ -143,15 +139,6 @@ fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
         Verdict::Pass if used <= 1.0 - wanted.margin => Fate::Passes { by, check, used },
         Verdict::Pass => Fate::Fails { by, check, used },
     }
-}
-
-/// The failed check that uses most.
-fn failing(run: &Run) -> Option<String> {
-    let failed: Vec<Outcome> =
-        run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail).cloned().collect();
-    let told = governing(&failed);
-    let title = failed.first().map(|outcome| outcome.title.clone());
-    if told.is_empty() { title } else { Some(most_used(&failed).1) }
 }
 
 /// The rung that decided a run, in words.
@@ -180,7 +167,7 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
         .collect();
     let order = |way: &Way| way.price.unwrap_or(f64::INFINITY);
     list.sort_by(|a, b| order(a).total_cmp(&order(b)).then(a.number.cmp(&b.number)));
-    let mut found = Found { ways: list, cheapest: None, run: None, out_of_budget: false };
+    let mut found = Found { ways: list, cheapest: None, out_of_budget: false };
     let mut simulated = 0;
     let possible = found.ways.iter().filter(|way| way.price.is_some()).count();
     let mut next = 0;
@@ -201,7 +188,7 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
                     None if wanted.by_equations => {
                         if found.cheapest.is_none() {
                             found.ways[place].fate = fate_of(&run, BY_EQUATIONS, wanted);
-                            (found.cheapest, found.run) = (Some(place), Some(run));
+                            found.cheapest = Some(place);
                         }
                     }
                     None => left.push(place),
@@ -223,10 +210,9 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
             let (mut fate, run) = told(run, wanted)?;
             if found.cheapest.is_none() && run.is_some_and(|run| several_may_pass(&run, &fate)) {
                 let confirmed = ways.confirmed(found.ways[place].number, wanted.packings);
-                let (now, run) = told(confirmed, wanted)?;
-                fate = now;
+                fate = told(confirmed, wanted)?.0;
                 if matches!(fate, Fate::Passes { .. }) {
-                    (found.cheapest, found.run) = (Some(place), run);
+                    found.cheapest = Some(place);
                 }
             }
             found.ways[place].fate = fate;
@@ -369,7 +355,7 @@ mod tests {
         assert!(stands.iter().flatten().count() > 100, "a choice worth searching");
         assert!((100..walls.count() / 2).contains(&asked), "{asked} asked");
         // The equations alone do not pass it: what is found is no verdict.
-        assert!(!matches!(found.ways[place].fate, Fate::Passes { .. }) || found.run.unwrap().verdict == Verdict::Pass);
+        assert!(matches!(found.ways[place].fate, Fate::Undecided { .. }), "{:?}", found.ways[place].fate);
     }
 
     /// Designs that differ in resistances alone are one to the simulation, and others are not.

@@ -121,7 +121,7 @@ mod tests {
         built_of(section, RINGS, "300 mm")
     }
 
-    /// Rings of six contacts, 288 mm apart: five rows of 249 mm fit a bay.
+    /// Rings of six contacts, 288 mm apart: a bay of 0.9 m takes four rows of 249 mm, pressed together by a tenth.
     fn built_of_six(section: Option<&str>) -> BuiltNet {
         built_of(section, &RINGS.replace("}}", SIX), "144 mm")
     }
@@ -141,20 +141,25 @@ mod tests {
         build(net, &design.channel, BarrierModel::SlidingRopes, 1)
     }
 
-    /// 3 m less two gaps take ten rings across, and a bay of 0.9 m three of them: each contact is of two rings, or of one and a rope.
-    #[test]
-    fn every_contact_is_shared() {
-        let net = built(None);
-        let rings = &net.barrier.net_rings;
-        assert_eq!(rings.len(), 10 * 6);
+    /// Each contact is of two rings, or of one and a rope.
+    fn contacts_are_shared(net: &BuiltNet) {
         let mut met = vec![0; net.barrier.nodes.len()];
-        for node in rings.iter().flat_map(|ring| &ring.nodes) {
+        for node in net.barrier.net_rings.iter().flat_map(|ring| &ring.nodes) {
             met[*node as usize] += 1;
         }
         let ropes: Vec<u32> = net.barrier.segments.iter().flat_map(|segment| segment.nodes).collect();
         for (node, met) in met.into_iter().enumerate() {
             assert!(met == 2 || ropes.contains(&(node as u32)) || met == 0, "contact {node} of {met} rings");
         }
+    }
+
+    /// 3 m less two gaps take ten rings across, and a bay of 0.9 m three of them: each contact is of two rings, or of one and a rope.
+    #[test]
+    fn every_contact_is_shared() {
+        let net = built(None);
+        let rings = &net.barrier.net_rings;
+        assert_eq!(rings.len(), 10 * 6);
+        contacts_are_shared(&net);
         // At rest nothing pulls, and the steel is that of the rings: 84.82 mm² round π 300 mm.
         let mut forces = vec![dem::Vec3::zeros(); net.barrier.nodes.len()];
         let stored: f64 = rings.iter().map(|ring| ring.pull(&net.barrier.nodes, &mut forces, 1e-4).stored).sum();
@@ -180,14 +185,7 @@ mod tests {
             [true, false].map(|whole| rings.iter().filter(|ring| (ring.bending > 0.0) == whole).count());
         assert_eq!((whole, half), (4 * 10 + 4 * 9, 4 * 2));
         assert!(rings.iter().all(|ring| ring.nodes.len() == if ring.bending > 0.0 { 6 } else { 4 }));
-        let mut met = vec![0; net.barrier.nodes.len()];
-        for node in rings.iter().flat_map(|ring| &ring.nodes) {
-            met[*node as usize] += 1;
-        }
-        let ropes: Vec<u32> = net.barrier.segments.iter().flat_map(|segment| segment.nodes).collect();
-        for (node, met) in met.into_iter().enumerate() {
-            assert!(met == 2 || ropes.contains(&(node as u32)) || met == 0, "contact {node} of {met} rings");
-        }
+        contacts_are_shared(&net);
         let mut forces = vec![dem::Vec3::zeros(); net.barrier.nodes.len()];
         let stored: f64 = rings.iter().map(|ring| ring.pull(&net.barrier.nodes, &mut forces, 1e-4).stored).sum();
         assert!(stored < 1e-20, "{stored}");
