@@ -74,13 +74,13 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
     let cheapest = found.cheapest.map(|place| &found.ways[place]);
     let mut extra = Vec::new();
     if let Some(way) = cheapest {
-        let root = Document::parse(&site.text, "").map_err(|problem| problem.found)?.root;
+        let document = Document::parse(&site.text, "").map_err(|problem| problem.found)?;
         let head = format!(
             "# The cheapest of the study {}: {} with its choices put in. Files that it names are taken from its own folder.\n",
             plan.name,
             plan.design.display()
         );
-        extra.push(ReportFile::new("cheapest.yaml", head + &choices.changes(way.number).text_of(&root)));
+        extra.push(ReportFile::new("cheapest.yaml", head + &choices.changes(way.number).text_of(&document)));
         // Beside it, where their names lead to a place below.
         let below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
         let named = ways.read(way.number)?.attached.into_iter().filter(|(name, _)| below(name));

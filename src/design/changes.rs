@@ -1,6 +1,6 @@
 //! Values that a study puts in place of those of a design.
 
-use crate::design::document::Node;
+use crate::design::document::{Document, Node};
 use crate::design::kit;
 
 /// Dotted paths of keys, and what stands there.
@@ -37,12 +37,17 @@ impl Changes {
         }
     }
 
-    /// The design as it is with them, as the text of a file without comments.
-    pub fn text_of(&self, root: &Node) -> String {
-        let mut root = root.clone();
+    /// The design as it is with them, as the text of a file without comments. What looks like a number stands as it was typed: a revision 1.10
+    /// is not 1.1.
+    pub fn text_of(&self, document: &Document) -> String {
+        let mut root = document.root.clone();
         self.put_onto(&mut root);
+        let as_typed = |path: &str, read: String| {
+            let plain = if self.has(path) { None } else { document.plain(path, &read) };
+            plain.map_or(read.clone(), String::from)
+        };
         let mut text = String::new();
-        write(&root, 0, &mut text);
+        write(&root, "", &as_typed, &mut text);
         text
     }
 }
@@ -54,35 +59,43 @@ fn in_the_order_of(mut keys: Vec<(String, Node)>, before: &Node) -> Vec<(String,
     keys
 }
 
-/// Writes a node in block style, its texts quoted where they could be read as something else.
-fn write(node: &Node, depth: usize, text: &mut String) {
-    let blank = "  ".repeat(depth);
-    match node {
-        Node::Map(keys) => {
-            for (name, value) in keys {
-                match value {
-                    Node::Map(inner) if !inner.is_empty() => {
-                        text.push_str(&format!("{blank}{name}:\n"));
-                        write(value, depth + 1, text);
-                    }
-                    value => text.push_str(&format!("{blank}{name}: {}\n", inline(value))),
-                }
+/// A number or truth value of a path as a file has it.
+type AsTyped<'a> = dyn Fn(&str, String) -> String + 'a;
+
+fn below(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
+}
+
+/// Writes groups in block style, with all else on the line of its key.
+fn write(node: &Node, path: &str, as_typed: &AsTyped, text: &mut String) {
+    let Node::Map(keys) = node else { return };
+    let depth = if path.is_empty() { 0 } else { path.split('.').count() };
+    for (name, value) in keys {
+        let (blank, path) = ("  ".repeat(depth), below(path, name));
+        match value {
+            Node::Map(inner) if !inner.is_empty() => {
+                text.push_str(&format!("{blank}{name}:\n"));
+                write(value, &path, as_typed, text);
             }
+            value => text.push_str(&format!("{blank}{name}: {}\n", inline(value, &path, as_typed))),
         }
-        other => text.push_str(&format!("{blank}{}\n", inline(other))),
     }
 }
 
-fn inline(node: &Node) -> String {
+fn inline(node: &Node, path: &str, as_typed: &AsTyped) -> String {
     match node {
         Node::Map(keys) => {
-            let keys: Vec<String> = keys.iter().map(|(name, value)| format!("{name}: {}", inline(value))).collect();
-            format!("{{{}}}", keys.join(", "))
+            let key =
+                |(name, value): &(String, Node)| format!("{name}: {}", inline(value, &below(path, name), as_typed));
+            format!("{{{}}}", keys.iter().map(key).collect::<Vec<_>>().join(", "))
         }
-        Node::List(items) => format!("[{}]", items.iter().map(inline).collect::<Vec<_>>().join(", ")),
+        Node::List(items) => {
+            let item = |(number, item): (usize, &Node)| inline(item, &below(path, &number.to_string()), as_typed);
+            format!("[{}]", items.iter().enumerate().map(item).collect::<Vec<_>>().join(", "))
+        }
         Node::Text(text) => quoted(text),
-        Node::Number(number) => number.to_string(),
-        Node::Flag(flag) => flag.to_string(),
+        Node::Number(number) => as_typed(path, number.to_string()),
+        Node::Flag(flag) => as_typed(path, flag.to_string()),
         Node::Nothing => "~".to_string(),
     }
 }
@@ -103,7 +116,6 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::document::Document;
     use crate::design::entries::Purpose;
     use crate::design::read::{read_design, read_design_changed};
     use crate::design::{BarrierDesign, FlexibleNet};
@@ -150,12 +162,14 @@ mod tests {
             ("barrier.flexible_net.anchors.resistance".into(), text("321 kN")),
             ("project.name".into(), text("a \"b\" \\ # c: d")),
         ]);
-        let root = Document::parse(SMALL_NET.as_bytes(), "").unwrap().root;
-        let written = changes.text_of(&root);
+        let typed = SMALL_NET.replace("revision: A  ", "revision: 1.10  ");
+        assert_ne!(typed, SMALL_NET);
+        let written = changes.text_of(&Document::parse(typed.as_bytes(), "").unwrap());
         let read = read_design("x", written.as_bytes()).unwrap_or_else(|problems| panic!("{written}\n{problems}"));
         let open: &dyn Fn(&str) -> Result<Vec<u8>, String> = &|_| Err("none".into());
-        let changed = read_design_changed(Purpose::Simulation, "x", SMALL_NET.as_bytes(), &open, &changes).unwrap();
+        let changed = read_design_changed(Purpose::Simulation, "x", typed.as_bytes(), &open, &changes).unwrap();
         assert_eq!(read.design, changed.design);
+        assert_eq!(read.design.project.revision, "1.10");
         assert_eq!(read.design.project.name, "a \"b\" \\ # c: d");
     }
 }
