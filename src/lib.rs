@@ -105,6 +105,7 @@ pub mod profile;
 mod program;
 pub mod quantities;
 pub(crate) mod raster;
+mod reliability;
 pub mod relief;
 pub mod report;
 pub mod ring_law;

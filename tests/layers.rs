@@ -24,6 +24,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("sources", &[]),
     ("section", &[]),
     ("starts", &[]),
+    ("reliability", &["larger", "starts"]),
     ("ring_law", &[]),
     ("lattice", &[]),
     ("yield_curve", &[]),
@@ -105,6 +106,8 @@ const LAYERS: &[(&str, &[&str])] = &[
     (
         "studies",
         &[
+            "arriving",
+            "larger",
             "lattice",
             "checks",
             "dem",
@@ -115,6 +118,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "pipeline",
             "problem",
             "quantities",
+            "reliability",
             "ring_law",
             "scene",
             "simulated",
@@ -138,6 +142,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "problem",
             "program",
             "profile",
+            "reliability",
             "relief",
             "section",
             "quantities",

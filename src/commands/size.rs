@@ -4,27 +4,25 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
-use crate::commands::Failure;
+use crate::commands::{ExitCode, Failure};
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
+use crate::commands::kept_simulations::simulated;
 use crate::commands::output::put;
-use crate::commands::signals::{listen, stop};
-use crate::design::Design;
+use crate::commands::signals::listen;
 use crate::design::document::Document;
 use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, read_design_changed};
-use crate::fidelity::choose;
 use crate::fidelity::ladder::RungKind;
-use crate::pipeline::{Run, by_equations, climb_by, confirm_by, simulate_cases};
+use crate::pipeline::{Run, by_equations, climb_by, confirm_by};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::size::{Front, Sized, files};
-use crate::scene::event::Watch;
-use crate::simulated::{Detail, RunError, Simulated};
+use crate::simulated::RunError;
 use crate::starts::side_by_side;
 use crate::studies::bill::Prices;
 use crate::studies::choices::Choices;
 use crate::studies::size_plan::SizePlan;
-use crate::studies::sizing::{Fate, Fault, Wanted, Way, Ways, mechanics, search};
+use crate::studies::sizing::{Fate, Fault, Wanted, Way, Ways, search};
 use crate::terminal;
 
 /// Of the design that is sized: its text, and files that it and its changes name.
@@ -45,7 +43,7 @@ struct Sizes<'a> {
 }
 
 /// Searches, writes the page, and returns it with whether the cheapest passes.
-pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathBuf, bool), Failure> {
+pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathBuf, ExitCode), Failure> {
     listen();
     let path = beside.join(&plan.design);
     let text = input::read(&path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
@@ -100,7 +98,8 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
         files(&sized, |number| ways.read(number).map(|file| file.design)).map_err(|error| error.to_string())?;
     all.extend(extra);
     put(&mut folder, &all)?;
-    Ok((folder.path().join("size.html"), passes))
+    let code = if passes { ExitCode::Pass } else { ExitCode::Undecided };
+    Ok((folder.path().join("size.html"), code))
 }
 
 impl Sizes<'_> {
@@ -118,22 +117,6 @@ impl Sizes<'_> {
                 told.unwrap_or_else(|| "it cannot be read".into())
             },
         )
-    }
-
-    /// What simulations of a design show, each kept by what it hangs on.
-    fn simulated(&self, design: &Design, starts: u32) -> Result<Simulated, RunError> {
-        let bare = mechanics(design);
-        let of = format!("{bare:?} {:?} {starts}", choose(&bare));
-        if let Some(kept) = self.kept.get::<Simulated>(&[of.as_bytes()]) {
-            return Ok(Simulated { fidelity: choose(design), ..kept });
-        }
-        let watch = Watch { progress: &|_| (), stop: stop(), store: None };
-        let simulated = simulate_cases(design, starts, Detail::Observed, &watch)?;
-        // What cannot be kept is made again.
-        if let Err(error) = self.kept.put(&[of.as_bytes()], &simulated) {
-            terminal::warn(format_args!("note: a result could not be kept: {error}"));
-        }
-        Ok(simulated)
     }
 }
 
@@ -161,12 +144,12 @@ impl Ways for Sizes<'_> {
 
     fn simulated_once(&self, number: usize) -> Result<Run, Fault> {
         let file = self.read(number).map_err(Fault::OfTheWay)?;
-        climb_by(file, 1, RungKind::Grains, &|design, starts| self.simulated(design, starts)).map_err(fault)
+        climb_by(file, 1, RungKind::Grains, &|design, starts| simulated(self.kept, design, starts)).map_err(fault)
     }
 
     fn confirmed(&self, number: usize, packings: u32) -> Result<Run, Fault> {
         let file = self.read(number).map_err(Fault::OfTheWay)?;
-        confirm_by(file, packings, &|design, starts| self.simulated(design, starts)).map_err(fault)
+        confirm_by(file, packings, &|design, starts| simulated(self.kept, design, starts)).map_err(fault)
     }
 
     fn side_by_side<T: Send>(&self, numbers: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T> {

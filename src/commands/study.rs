@@ -11,6 +11,7 @@ use crate::commands::check::load;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::output::{put, tell_of_replaced};
+use crate::commands::reliability::reliability;
 use crate::commands::signals::{listen, stop};
 use crate::commands::size::size;
 use crate::design::read::DesignFile;
@@ -31,9 +32,9 @@ use crate::terminal;
 /// Runs what is not kept yet, and writes the page below `out`.
 pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
     match run(path, out) {
-        Ok((page, found)) => {
+        Ok((page, code)) => {
             terminal::say(format_args!("study: {}", page.display()));
-            if found { ExitCode::Pass } else { ExitCode::Undecided }
+            code
         }
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
@@ -42,8 +43,8 @@ pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
     }
 }
 
-/// The page, and whether what was sought was found.
-fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, bool), Failure> {
+/// The page, and what the study ends with.
+fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, ExitCode), Failure> {
     let bytes = input::read(path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{}: it is not text in UTF-8", path.display()))?;
     let study = Study::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
@@ -57,8 +58,9 @@ fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, bool), Failure> {
     let beside = path.parent().unwrap_or(Path::new("."));
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,
-        Study::Stability(plan) => return Ok((stability_map(&plan, folder_of(&plan.name)?)?, true)),
+        Study::Stability(plan) => return Ok((stability_map(&plan, folder_of(&plan.name)?)?, ExitCode::Pass)),
         Study::Size(plan) => return size(&plan, beside, folder_of(&plan.name)?),
+        Study::Reliability(plan) => return reliability(&plan, beside, folder_of(&plan.name)?),
     };
     let scenes = plan
         .scenes
@@ -69,7 +71,7 @@ fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, bool), Failure> {
     let kept = KeptResults::within(folder.path())?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
     put(&mut folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
-    Ok((folder.path().join("study.html"), true))
+    Ok((folder.path().join("study.html"), ExitCode::Pass))
 }
 
 /// Maps every scene that is not kept, side by side, and writes the page.

@@ -62,62 +62,89 @@ pub fn read_design_changed(
     open: Open,
     changes: &Changes,
 ) -> Result<DesignFile, Problems> {
-    let refuse = |list: Vec<Problem>| Problems { file: file.to_string(), list };
-    let mut document = Document::parse(bytes, KEYS).map_err(|problem| refuse(vec![problem]))?;
-    let mut problems = Vec::new();
-    changes.put_onto(&mut document.root);
-    let kit = kit::take(&mut document.root, open, &mut problems);
-    if let Some(mut broken) = problems.pop() {
-        // What it should have said would be missing everywhere.
-        broken.position = document.position(&broken.path);
-        return Err(refuse(vec![broken]));
+    Source::parse(file, bytes)?.read(purpose, open, changes)
+}
+
+/// The text of a design, parsed once, to be read with one set of changes after the other.
+#[derive(Clone, Debug)]
+pub struct Source {
+    file: String,
+    bytes: Vec<u8>,
+    sha256: String,
+    document: Document,
+}
+
+impl Source {
+    pub fn parse(file: &str, bytes: &[u8]) -> Result<Self, Problems> {
+        let document =
+            Document::parse(bytes, KEYS).map_err(|problem| Problems { file: file.to_string(), list: vec![problem] })?;
+        Ok(Self { file: file.to_string(), bytes: bytes.to_vec(), sha256: sha256(bytes), document })
     }
-    let mut entries = read(&document.root, DESIGN, purpose, &mut problems);
-    if let Some(kit) = kit.as_ref().filter(|_| changes.is_empty()) {
-        kit.tell_origins(&mut entries, |document, bytes, path| {
-            let text = String::from_utf8_lossy(bytes);
-            let line = text.lines().nth(document.position(path)?.line.checked_sub(1)?)?;
-            comment(line).map(String::from)
-        });
+
+    pub fn document(&self) -> &Document {
+        &self.document
     }
-    if changes.is_empty() {
-        take_remarks(&mut entries, &document, bytes);
-    }
-    problems.extend(keep_texts_as_typed(&mut entries, &document, kit.as_ref(), changes));
-    make_harmless(&mut entries);
-    let mut attached = read_attached(&mut entries, open, &mut problems);
-    attached.extend(kit.iter().map(|kit| (kit.name.clone(), kit.bytes.clone())));
-    factor_sets::apply(&mut entries);
-    grain_lengths::put_lengths(&mut entries, &mut problems);
-    problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
-    problems.extend(dissipator_rules::are_sound(&entries));
-    if purpose == Purpose::Simulation {
-        problems.extend(GRAIN_RULES.iter().filter_map(|rule| rule(&entries)));
-    }
-    if problems.is_empty() {
-        if let Some(design) = resolve(&entries) {
-            let (name, sha256, text) = (stem(file), sha256(bytes), bytes.to_vec());
-            return Ok(DesignFile { name, sha256, text, design, entries, attached });
+
+    /// The design with changes. On failure returns every problem that was found.
+    pub fn read(&self, purpose: Purpose, open: Open, changes: &Changes) -> Result<DesignFile, Problems> {
+        let refuse = |list: Vec<Problem>| Problems { file: self.file.clone(), list };
+        let document = &self.document;
+        let mut root = document.root.clone();
+        let mut problems = Vec::new();
+        changes.put_onto(&mut root);
+        let kit = kit::take(&mut root, open, &mut problems);
+        if let Some(mut broken) = problems.pop() {
+            // What it should have said would be missing everywhere.
+            broken.position = document.position(&broken.path);
+            return Err(refuse(vec![broken]));
         }
-        problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
+        let mut entries = read(&root, DESIGN, purpose, &mut problems);
+        if let Some(kit) = kit.as_ref().filter(|_| changes.is_empty()) {
+            kit.tell_origins(&mut entries, |document, bytes, path| {
+                let text = String::from_utf8_lossy(bytes);
+                let line = text.lines().nth(document.position(path)?.line.checked_sub(1)?)?;
+                comment(line).map(String::from)
+            });
+        }
+        if changes.is_empty() {
+            take_remarks(&mut entries, document, &self.bytes);
+        }
+        problems.extend(keep_texts_as_typed(&mut entries, document, kit.as_ref(), changes));
+        make_harmless(&mut entries);
+        let mut attached = read_attached(&mut entries, open, &mut problems);
+        attached.extend(kit.iter().map(|kit| (kit.name.clone(), kit.bytes.clone())));
+        factor_sets::apply(&mut entries);
+        grain_lengths::put_lengths(&mut entries, &mut problems);
+        problems.extend(RULES.iter().filter_map(|rule| rule(&entries)));
+        problems.extend(dissipator_rules::are_sound(&entries));
+        if purpose == Purpose::Simulation {
+            problems.extend(GRAIN_RULES.iter().filter_map(|rule| rule(&entries)));
+        }
+        if problems.is_empty() {
+            if let Some(design) = resolve(&entries) {
+                let (name, sha256, text) = (stem(&self.file), self.sha256.clone(), self.bytes.clone());
+                return Ok(DesignFile { name, sha256, text, design, entries, attached });
+            }
+            problems.push(Problem::new("", "a design that cannot be put together", "all required keys"));
+        }
+        let more = problems.len().saturating_sub(MOST_PROBLEMS);
+        problems.truncate(MOST_PROBLEMS);
+        for problem in problems.iter_mut().filter(|_| changes.is_empty()) {
+            kit.iter().for_each(|kit| kit.tell_of(problem));
+            problem.position = problem.position.or_else(|| match problem.again {
+                true => document.position_again(&problem.path),
+                false => nearest_position(document, &problem.path),
+            });
+        }
+        problems.sort_by_key(|problem| problem.position);
+        if more > 0 {
+            problems.push(
+                Problem::new("", format!("more than {MOST_PROBLEMS} problems"), "a design")
+                    .hint("mend these first: the rest is told then"),
+            );
+        }
+        Err(refuse(problems))
     }
-    let more = problems.len().saturating_sub(MOST_PROBLEMS);
-    problems.truncate(MOST_PROBLEMS);
-    for problem in problems.iter_mut().filter(|_| changes.is_empty()) {
-        kit.iter().for_each(|kit| kit.tell_of(problem));
-        problem.position = problem.position.or_else(|| match problem.again {
-            true => document.position_again(&problem.path),
-            false => nearest_position(&document, &problem.path),
-        });
-    }
-    problems.sort_by_key(|problem| problem.position);
-    if more > 0 {
-        problems.push(
-            Problem::new("", format!("more than {MOST_PROBLEMS} problems"), "a design")
-                .hint("mend these first: the rest is told then"),
-        );
-    }
-    Err(refuse(problems))
 }
 
 /// Hands every value the comment that stands on its line. A value that stands in several places of the design, by an alias or a merge, stands

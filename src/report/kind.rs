@@ -22,6 +22,7 @@ const TOLD_BY: &[(&str, Kind)] = &[
     ("study.html", Kind::Study),
     ("stability.html", Kind::Study),
     ("size.html", Kind::Study),
+    ("reliability.html", Kind::Study),
     ("histories.csv", Kind::Simulation),
     ("report.html", Kind::Equations),
 ];

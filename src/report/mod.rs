@@ -16,6 +16,8 @@ pub(crate) mod numbers;
 pub(crate) mod pictures;
 pub(crate) mod plots;
 pub(crate) mod posts;
+pub(crate) mod probability;
+pub(crate) mod probability_json;
 pub mod recording;
 pub(crate) mod reliability;
 pub mod render;

@@ -7,6 +7,7 @@ use serde_yaml::Value;
 
 use crate::design::changes::Changes;
 use crate::design::document::Node;
+use crate::studies::amount::Amount;
 
 /// One choice as a study file has it: a key with its values or with a range of them, or options that set several keys at once.
 #[derive(Clone, Debug, Deserialize)]
@@ -71,18 +72,11 @@ fn of_values(key: &str, values: &[Value]) -> Result<Choice, String> {
 
 /// From one end to the other, both included, in the unit that all three have.
 fn of_range(key: &str, ends: [&str; 3]) -> Result<Choice, String> {
-    let parsed = ends.map(|text| {
-        let text = text.trim();
-        let end =
-            text.find(|letter: char| !(letter.is_ascii_digit() || "+-.eE".contains(letter))).unwrap_or(text.len());
-        // The e of a unit is none of the number.
-        let number = text[..end].trim_end_matches(['e', 'E']);
-        number.parse::<f64>().ok().filter(|value| value.is_finite()).map(|value| (value, text[number.len()..].trim()))
-    });
-    let [Some((from, unit)), Some((to, other)), Some((step, third))] = parsed else {
+    let [Some(first), Some(last), Some(by)] = ends.map(Amount::parse) else {
         return Err(format!("found {}, {} and {}, allowed numbers with one unit", ends[0], ends[1], ends[2]));
     };
-    if unit != other || unit != third {
+    let (from, to, step, unit) = (first.value, last.value, by.value, first.unit);
+    if unit != last.unit || unit != by.unit {
         return Err(format!("found {}, {} and {}, allowed the same unit in all three", ends[0], ends[1], ends[2]));
     }
     let count = (to - from) / step;

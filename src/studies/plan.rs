@@ -8,6 +8,7 @@ use serde::Deserialize;
 use crate::design::document::{Document, Node};
 use crate::problem::Problem;
 use crate::studies::knobs::Knob;
+use crate::studies::reliability_plan::ReliabilityPlan;
 use crate::studies::size_plan::SizePlan;
 
 /// What a study is of.
@@ -16,6 +17,7 @@ pub enum Study {
     SpeedAccuracy(Plan),
     Stability(StabilityPlan),
     Size(Box<SizePlan>),
+    Reliability(Box<ReliabilityPlan>),
 }
 
 /// The same as the file names it.
@@ -25,6 +27,7 @@ enum Kind {
     SpeedAccuracy,
     Stability,
     Size,
+    Reliability,
 }
 
 /// The key that tells what the others are; these are not looked at.
@@ -53,12 +56,14 @@ impl Study {
             Kind::SpeedAccuracy => serde_yaml::from_str(text).map(Self::SpeedAccuracy),
             Kind::Stability => serde_yaml::from_str(text).map(Self::Stability),
             Kind::Size => serde_yaml::from_str(text).map(|plan| Self::Size(Box::new(plan))),
+            Kind::Reliability => serde_yaml::from_str(text).map(|plan| Self::Reliability(Box::new(plan))),
         };
         let study = study.map_err(misread)?;
         let wrong = match &study {
             Self::SpeedAccuracy(plan) => plan.wrong(),
             Self::Stability(plan) => plan.wrong(),
             Self::Size(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
+            Self::Reliability(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
         };
         if wrong.is_empty() {
             return Ok(study);
@@ -235,7 +240,7 @@ mod tests {
             (
                 "kind: speed_accuracy",
                 "kind: speed",
-                "kind: unknown value `speed`, expected one of `speed_accuracy`, `stability`, `size` at line ",
+                "kind: unknown value `speed`, expected one of `speed_accuracy`, `stability`, `size`, `reliability` at line ",
             ),
             ("step: [", "step: [0.1, fast, ", "knobs.step[1]: found the text \"fast\", expected a number at line "),
         ] {

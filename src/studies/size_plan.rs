@@ -54,7 +54,7 @@ fn many() -> usize {
 }
 
 /// A share as 0.1 or 10 %.
-fn share(text: &str) -> Result<f64, String> {
+pub fn share(text: &str) -> Result<f64, String> {
     let (number, per) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
     let share = number.parse::<f64>().ok().map(|value| value / per);
     share.filter(|share| (0.0..1.0).contains(share)).ok_or_else(|| format!("found {text}, allowed 0 % to 99 %"))

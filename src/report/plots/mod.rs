@@ -3,6 +3,7 @@
 pub(crate) mod cost_margin;
 pub(crate) mod cross_section;
 pub(crate) mod elevation;
+pub(crate) mod importance;
 pub(crate) mod line_chart;
 pub(crate) mod long_profile;
 pub(crate) mod pareto;

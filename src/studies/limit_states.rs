@@ -1,0 +1,195 @@
+//! The checks of a design as limit states: how much of what each may use is used, where inputs take other values.
+
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::arriving;
+use crate::checks::check_all;
+use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
+use crate::checks::range::leave_open_outside_range;
+use crate::demand::Demands;
+use crate::design::changes::Changes;
+use crate::design::entries::Purpose;
+use crate::design::read::{DesignFile, Source};
+use crate::design::{BarrierDesign, Design, FidelityWish};
+use crate::fidelity::ladder::{RUNGS, RungKind};
+use crate::guideline::guideline;
+use crate::larger::larger_or_nan;
+use crate::problem::Problems;
+use crate::reliability::inputs::Inputs;
+use crate::simulated::Simulated;
+use crate::studies::amount::Amount;
+use crate::studies::reliability_plan::{FactorsWish, Input};
+
+/// A design whose inputs scatter.
+pub struct LimitStates<'a> {
+    pub source: &'a Source,
+    /// Opens a file that the design names.
+    pub open: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),
+    pub inputs: &'a [Input],
+    pub together: &'a Inputs,
+    pub factors: FactorsWish,
+    /// Ids of the checks that are asked of; all where none is named.
+    pub only: &'a [String],
+    pub tally: Tally,
+}
+
+/// What happened to samples on the way.
+#[derive(Default)]
+pub struct Tally {
+    /// Samples that are no valid design, by what refused them.
+    refused: Mutex<BTreeMap<String, usize>>,
+    /// Samples in which the formula of a check was used outside its range.
+    outside: AtomicUsize,
+}
+
+impl Tally {
+    /// What has been counted so far; counting begins anew.
+    pub fn take(&self) -> (BTreeMap<String, usize>, usize) {
+        let refused = self.refused.lock().map(|mut refused| std::mem::take(&mut *refused)).unwrap_or_default();
+        (refused, self.outside.swap(0, Ordering::Relaxed))
+    }
+}
+
+/// A check that is asked of, with how much it uses where every input has its median.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    pub id: String,
+    pub title: String,
+    pub at_medians: f64,
+    /// What about it the route leaves open.
+    pub partly: Option<String>,
+}
+
+/// What can be asked of a design, and what cannot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Asked {
+    pub checks: Vec<Judged>,
+    /// Title of each check that the route does not judge, and why.
+    pub unjudged: Vec<[String; 2]>,
+}
+
+impl LimitStates<'_> {
+    /// The design with its inputs at independent standard normal numbers.
+    pub fn design(&self, u: &[f64]) -> Result<DesignFile, Problems> {
+        let values = self.together.at(u).into_iter().zip(self.inputs);
+        let changes =
+            values.map(|(value, input)| (input.key.clone(), Amount { value, unit: input.unit.clone() }.node()));
+        let mut file = self.source.read(Purpose::Simulation, self.open, &Changes::new(changes.collect()))?;
+        if self.factors == FactorsWish::None {
+            let given = |key: &str| self.inputs.iter().any(|input| input.key == key);
+            without_factors(&mut file.design, &given);
+        }
+        Ok(file)
+    }
+
+    /// The outcomes of its checks by the equations, or beside a simulation.
+    fn outcomes(&self, design: &Design, simulated: Option<&Simulated>) -> Vec<Outcome> {
+        let guideline = guideline(design);
+        let seen = simulated.map(Simulated::seen).unwrap_or_default();
+        let mut demands = Demands::meet(&guideline, &seen, &design.factors);
+        demands.leave_out_guideline_where_simulated();
+        let mut outcomes = check_all(design, &demands);
+        outcomes.retain(|outcome| self.only.is_empty() || self.only.contains(&outcome.id));
+        leave_open_outside_range(design, &guideline, &mut outcomes);
+        outcomes
+    }
+
+    /// Which checks are judged; `simulated` is what a simulation of that design showed, if one is asked.
+    pub fn asked(&self, design: &Design, simulated: Option<&Simulated>) -> Asked {
+        let mut asked = Asked::default();
+        for outcome in self.outcomes(design, simulated) {
+            let open = outcome.open.as_ref().filter(|open| !matches!(open, Opening::OutOfRange(_)));
+            let why = open.map(|open| open.words().to_string());
+            match outcome.utilisation.filter(|used| used.is_finite()) {
+                Some(at_medians) => {
+                    asked.checks.push(Judged { id: outcome.id, title: outcome.title, at_medians, partly: why });
+                }
+                None if outcome.verdict == CheckVerdict::Open => {
+                    asked.unjudged.push([outcome.title, why.unwrap_or_default()]);
+                }
+                None => {}
+            }
+        }
+        asked
+    }
+
+    /// Utilisations of the checks that are asked of, and last of any other that is judged.
+    fn used(&self, design: &Design, simulated: Option<&Simulated>, checks: &[Judged]) -> Vec<f64> {
+        let outcomes = self.outcomes(design, simulated);
+        if outcomes.iter().any(|outcome| matches!(outcome.open, Some(Opening::OutOfRange(_)))) {
+            self.tally.outside.fetch_add(1, Ordering::Relaxed);
+        }
+        let of = |check: &Judged| {
+            let outcome = outcomes.iter().find(|outcome| outcome.id == check.id);
+            outcome.and_then(|outcome| outcome.utilisation).unwrap_or(f64::NAN)
+        };
+        let mut used: Vec<f64> = checks.iter().map(of).collect();
+        let others = outcomes.iter().filter(|outcome| checks.iter().all(|check| check.id != outcome.id));
+        let other = others.filter_map(|outcome| outcome.utilisation);
+        used.push(other.fold(f64::NEG_INFINITY, larger_or_nan));
+        used
+    }
+
+    /// The same by the equations at standard normal numbers. A sample that is no valid design is not judged.
+    pub fn by_equations(&self, u: &[f64], checks: &[Judged]) -> Vec<f64> {
+        match self.design(u) {
+            Ok(file) => self.used(&file.design, None, checks),
+            Err(problems) => {
+                if let (Some(problem), Ok(mut refused)) = (problems.list.first(), self.tally.refused.lock()) {
+                    *refused.entry(format!("{}: allowed {}", problem.path, problem.allowed)).or_default() += 1;
+                }
+                vec![f64::NAN; checks.len() + 1]
+            }
+        }
+    }
+
+    /// The same by a simulation of a design; nothing where it cannot be relied on. What the simulation does not show is by the equations.
+    pub fn by_simulation(&self, design: &Design, simulated: &Simulated, checks: &[Judged]) -> Option<Vec<f64>> {
+        let reliable = simulated.numerics.broke_down.is_none()
+            && simulated.doubts.is_empty()
+            && arriving::doubts(design, simulated).is_empty();
+        reliable.then(|| self.used(design, Some(simulated), checks))
+    }
+}
+
+/// The design as coarsely modelled as decides most, where it leaves that to the program.
+pub fn coarse(design: &Design) -> Design {
+    let rung = RUNGS.iter().find(|rung| rung.kind == RungKind::Grains);
+    match rung.filter(|_| design.simulation.fidelity == FidelityWish::Auto) {
+        Some(rung) => rung.of(design),
+        None => design.clone(),
+    }
+}
+
+/// Sets every partial factor and share of use to 1 but those whose key is given as an input. What a part physically is stays: the share of a rope's
+/// strength that its ends hold, the overstrength of a dissipator that its tests show.
+fn without_factors(design: &mut Design, given: &dyn Fn(&str) -> bool) {
+    let one = |key: &str, factor: &mut f64| {
+        if !given(key) {
+            *factor = 1.0;
+        }
+    };
+    let factors = &mut design.factors;
+    one("factors.load", &mut factors.load);
+    one("factors.rope", &mut factors.rope);
+    one("factors.anchor", &mut factors.anchor);
+    one("factors.post", &mut factors.post);
+    if !factors.overstrength_given {
+        // By default it is the factor on loads.
+        factors.overstrength = factors.load;
+    }
+    let limits = &mut design.limits;
+    one("limits.rope_utilisation", &mut limits.rope_utilisation);
+    one("limits.anchor_utilisation", &mut limits.anchor_utilisation);
+    one("limits.dissipator_utilisation", &mut limits.dissipator_utilisation);
+    if let BarrierDesign::RigidWall(wall) = &mut design.barrier {
+        one("barrier.rigid_wall.resistance_factor", &mut wall.resistance_factor);
+        if let Some(stability) = &mut wall.stability {
+            one("barrier.rigid_wall.stability.sliding_factor", &mut stability.sliding_factor);
+            one("barrier.rigid_wall.stability.overturning_factor", &mut stability.overturning_factor);
+            one("barrier.rigid_wall.stability.bearing_factor", &mut stability.bearing_factor);
+        }
+    }
+}

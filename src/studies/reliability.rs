@@ -1,0 +1,205 @@
+//! How probable it is that a barrier fails in its event, which inputs that hangs on, and how it grows with the event.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::reliability::form::{DesignPoint, NoPoint, form};
+use crate::reliability::monte_carlo::{self, Counted, monte_carlo};
+use crate::reliability::sobol::{Indices, sobol};
+use crate::reliability::subset::{self, Found, subset};
+use crate::reliability::surrogate::{self, Learned, Surrogate, learn};
+use crate::reliability::{LimitStates, Probability, largest};
+use crate::studies::limit_states::{Judged, Tally};
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted<'a> {
+    /// Samples of a Monte Carlo run at the most.
+    pub samples: usize,
+    pub accuracy: f64,
+    /// Simulations at the most, and packings at the medians.
+    pub runs: usize,
+    pub packings: usize,
+    pub seed: u64,
+    /// Standard normal numbers of the first input at which the probability is told.
+    pub events: &'a [f64],
+    pub independent: bool,
+    pub workers: usize,
+}
+
+/// How the probability was found.
+#[derive(Debug)]
+pub enum Way {
+    /// By the equations: samples, and where few of them fail, subset simulation.
+    Equations { counted: Counted, rare: Option<Found> },
+    /// By simulations and a surrogate.
+    Simulations(Box<Learned>),
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Assessed {
+    pub way: Way,
+    /// That any check fails.
+    pub probability: Probability,
+    pub checks: Vec<OfCheck>,
+    /// Of the largest utilisation; nothing where inputs hang together, or it does not vary.
+    pub importance: Option<Vec<Indices>>,
+    pub fragility: Vec<Probability>,
+    /// Samples that are no valid design, by what refused them; they count as failed.
+    pub refused: BTreeMap<String, usize>,
+    /// Samples in which a formula was used outside its range.
+    pub outside: usize,
+    /// Evaluations of the equations or the surrogate in all.
+    pub samples: usize,
+}
+
+#[derive(Debug)]
+pub struct OfCheck {
+    pub check: Judged,
+    pub probability: Probability,
+    pub point: Result<DesignPoint, NoPoint>,
+}
+
+/// What a probability is to a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    NotAsked,
+    Meets,
+    Exceeds,
+    Undecided,
+}
+
+/// Failed samples below which subset simulation is asked as well.
+const FEW: usize = 100;
+/// Samples of a level and repeats of subset simulation.
+const LEVEL: usize = 1000;
+const REPEATS: usize = 10;
+/// Samples for the indices of each input, and those of one event.
+const OF_INDICES: usize = 500;
+const OF_EVENT: usize = 4000;
+/// A utilisation beyond this is taken as this where the variance is told: a wall that tips has no bound.
+const FAR_BEYOND: f64 = 5.0;
+
+/// By the equations.
+pub fn by_equations(dimensions: usize, states: &LimitStates, checks: &[Judged], tally: &Tally, wanted: &Wanted) -> Assessed {
+    tally.take();
+    let asked = monte_carlo::Asked {
+        samples: wanted.samples,
+        variation: wanted.accuracy,
+        seed: wanted.seed,
+        workers: wanted.workers,
+    };
+    let counted = monte_carlo(dimensions, states, &asked);
+    let (refused, outside) = tally.take();
+    let rare = (counted.failed < FEW).then(|| {
+        let asked =
+            subset::Asked { samples: LEVEL, repeats: REPEATS, seed: wanted.seed, workers: wanted.workers };
+        subset(dimensions, states, &asked)
+    });
+    let probability = rare.as_ref().map_or_else(|| counted.probability(), |rare| rare.probability);
+    let of_check = |(number, check): (usize, &Judged)| OfCheck {
+        check: check.clone(),
+        probability: counted.of_check(number),
+        point: form(dimensions, &|u| states(u)[number]),
+    };
+    Assessed {
+        probability,
+        checks: checks.iter().enumerate().map(of_check).collect(),
+        importance: importance(dimensions, states, wanted),
+        fragility: fragility(dimensions, states, wanted),
+        refused,
+        outside,
+        samples: counted.samples + rare.as_ref().map_or(0, |rare| rare.evaluations),
+        way: Way::Equations { counted, rare },
+    }
+}
+
+/// By simulations.
+pub fn by_simulations(
+    dimensions: usize,
+    runs: &surrogate::Runs,
+    checks: &[Judged],
+    wanted: &Wanted,
+) -> Result<Assessed, String> {
+    let asked = surrogate::Asked {
+        runs: wanted.runs,
+        repeats: wanted.packings,
+        variation: wanted.accuracy,
+        seed: wanted.seed,
+        workers: wanted.workers,
+    };
+    let learned = learn(dimensions, runs, &asked)?;
+    let surrogate: &Surrogate = &learned.surrogate;
+    let states = |u: &[f64]| surrogate.used(u);
+    let of_check = |(number, check): (usize, &Judged)| OfCheck {
+        check: check.clone(),
+        probability: learned.of_checks[number],
+        point: form(dimensions, &|u| states(u)[number]),
+    };
+    Ok(Assessed {
+        probability: learned.probability,
+        checks: checks.iter().enumerate().map(of_check).collect(),
+        importance: importance(dimensions, &states, wanted),
+        fragility: surrogate.at_events(wanted.events, &asked),
+        refused: BTreeMap::new(),
+        outside: 0,
+        samples: learned.runs,
+        way: Way::Simulations(Box::new(learned)),
+    })
+}
+
+fn importance(dimensions: usize, states: &LimitStates, wanted: &Wanted) -> Option<Vec<Indices>> {
+    let output = |u: &[f64]| largest(&states(u)).min(FAR_BEYOND);
+    wanted.independent.then(|| sobol(dimensions, &output, OF_INDICES, wanted.seed, wanted.workers)).flatten()
+}
+
+/// The probability at each event: the first number is fixed, all others scatter.
+fn fragility(dimensions: usize, states: &LimitStates, wanted: &Wanted) -> Vec<Probability> {
+    let at = |event: &f64| {
+        let states = |rest: &[f64]| states(&[&[*event], rest].concat());
+        let asked = monte_carlo::Asked {
+            samples: OF_EVENT.min(wanted.samples),
+            variation: 0.05,
+            seed: wanted.seed,
+            workers: wanted.workers,
+        };
+        monte_carlo(dimensions - 1, &states, &asked).probability()
+    };
+    wanted.events.iter().map(at).collect()
+}
+
+impl Assessed {
+    /// What the probability is to a target, where `unjudged` says whether some check is not in it.
+    pub fn answer(&self, target: Option<f64>, unjudged: bool) -> Answer {
+        let Some(target) = target else { return Answer::NotAsked };
+        let whole = !unjudged && self.lost() == 0 && self.checks.iter().all(|check| check.check.partly.is_none());
+        if self.probability.low > target {
+            Answer::Exceeds
+        } else if whole && self.outside == 0 && self.probability.high <= target {
+            // Asked so that what is not a number does not meet it.
+            Answer::Meets
+        } else {
+            Answer::Undecided
+        }
+    }
+
+    /// Simulations that could not be relied on.
+    pub fn lost(&self) -> usize {
+        match &self.way {
+            Way::Equations { .. } => 0,
+            Way::Simulations(learned) => learned.unjudged,
+        }
+    }
+
+    /// The check that is most likely to fail.
+    pub fn governing(&self) -> Option<&OfCheck> {
+        let order = |check: &&OfCheck| (check.probability.value, check.check.at_medians);
+        self.checks.iter().max_by(|a, b| {
+            let (a, b) = (order(a), order(b));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })
+    }
+}

@@ -1,0 +1,342 @@
+//! The file of a study that asks how probable a failure is.
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+use serde_yaml::Value;
+
+use crate::reliability::distribution::{Bounded, Distribution};
+use crate::reliability::inputs::{Correlation, Inputs};
+use crate::studies::amount::{Amount, as_typed};
+use crate::studies::size_plan::{By, share};
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReliabilityPlan {
+    #[serde(rename = "kind")]
+    _kind: serde::de::IgnoredAny,
+    /// What the study is called.
+    pub name: String,
+    /// Design file, relative to the study's own.
+    pub design: PathBuf,
+    #[serde(default)]
+    pub by: By,
+    #[serde(default)]
+    pub factors: FactorsWish,
+    pub inputs: Vec<InputText>,
+    #[serde(default)]
+    correlations: Vec<CorrelationText>,
+    /// Checks, by their id in result.json, that are asked of; all where none is named.
+    #[serde(default)]
+    pub checks: Vec<String>,
+    #[serde(default)]
+    target: Option<f64>,
+    #[serde(default)]
+    fragility: Option<FragilityText>,
+    #[serde(default = "samples")]
+    pub samples: usize,
+    #[serde(default)]
+    accuracy: Option<String>,
+    #[serde(default = "runs")]
+    pub runs: usize,
+    #[serde(default = "packings")]
+    pub packings: usize,
+    #[serde(default = "seed")]
+    pub seed: u64,
+}
+
+fn samples() -> usize {
+    20_000
+}
+
+fn runs() -> usize {
+    60
+}
+
+fn packings() -> usize {
+    5
+}
+
+fn seed() -> u64 {
+    1
+}
+
+/// What becomes of the partial factors of the design.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FactorsWish {
+    /// All are 1, and every resistance may be used up: what they allow for is in the distributions.
+    #[default]
+    None,
+    /// They stay, and the probability is that of a check that fails as it is written.
+    AsDesigned,
+}
+
+/// An input with its distribution, as the file has it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InputText {
+    pub key: String,
+    normal: Option<MomentsText>,
+    lognormal: Option<MomentsText>,
+    gumbel: Option<MomentsText>,
+    uniform: Option<EndsText>,
+    triangular: Option<TriangleText>,
+    table: Option<TableText>,
+    least: Option<Value>,
+    most: Option<Value>,
+    #[serde(default)]
+    pub origin: String,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MomentsText {
+    mean: Value,
+    deviation: Option<Value>,
+    /// Standard deviation over mean.
+    variation: Option<Value>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EndsText {
+    from: Value,
+    to: Value,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TriangleText {
+    from: Value,
+    mode: Value,
+    to: Value,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TableText {
+    values: Vec<Value>,
+    cumulative: Vec<f64>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CorrelationText {
+    between: [String; 2],
+    rank: f64,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FragilityText {
+    key: String,
+    values: Vec<Value>,
+}
+
+/// An input as it is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    pub key: String,
+    pub of: Bounded,
+    pub unit: String,
+    pub origin: String,
+}
+
+/// Turns values of one input into numbers of its one unit.
+#[derive(Default)]
+struct Units(Option<String>);
+
+impl Units {
+    fn take(&mut self, value: &Value) -> Result<f64, String> {
+        let allowed = || format!("found {}, allowed a number with its unit, as in the design", as_typed(value));
+        let amount = Amount::of(value).ok_or_else(allowed)?;
+        match self.0.get_or_insert_with(|| amount.unit.clone()) {
+            unit if *unit == amount.unit => Ok(amount.value),
+            unit => Err(format!("found {}, allowed the unit of the other values, {unit}", as_typed(value))),
+        }
+    }
+}
+
+impl InputText {
+    /// The input, or what is wrong with it.
+    pub fn input(&self) -> Result<Input, String> {
+        if self.key.split('.').any(str::is_empty) {
+            return Err(format!("found the key `{}`, allowed one such as flow.arrival.surge.velocity", self.key));
+        }
+        let mut units = Units::default();
+        let mut found = Vec::new();
+        if let Some(text) = &self.normal {
+            let [mean, deviation] = text.moments(&mut units)?;
+            found.push(Distribution::Normal { mean, deviation });
+        }
+        if let Some(text) = &self.lognormal {
+            let [mean, deviation] = text.moments(&mut units)?;
+            found.push(Distribution::Lognormal { mean, deviation });
+        }
+        if let Some(text) = &self.gumbel {
+            let [mean, deviation] = text.moments(&mut units)?;
+            found.push(Distribution::Gumbel { mean, deviation });
+        }
+        if let Some(text) = &self.uniform {
+            found.push(Distribution::Uniform { from: units.take(&text.from)?, to: units.take(&text.to)? });
+        }
+        if let Some(text) = &self.triangular {
+            let [from, mode, to] = [units.take(&text.from)?, units.take(&text.mode)?, units.take(&text.to)?];
+            found.push(Distribution::Triangular { from, mode, to });
+        }
+        if let Some(text) = &self.table {
+            if text.values.len() != text.cumulative.len() {
+                let [values, shares] = [text.values.len(), text.cumulative.len()];
+                return Err(format!("found {values} values and {shares} cumulative probabilities, allowed as many of both"));
+            }
+            let values = text.values.iter().map(|value| units.take(value)).collect::<Result<Vec<_>, _>>()?;
+            let rows = values.into_iter().zip(&text.cumulative).map(|(value, share)| [value, *share]);
+            found.push(Distribution::Table(rows.collect()));
+        }
+        let [of] = <[Distribution; 1]>::try_from(found).map_err(|found| {
+            format!(
+                "found {} distributions, allowed one of normal, lognormal, gumbel, uniform, triangular, table",
+                found.len()
+            )
+        })?;
+        let mut bound = |value: &Option<Value>| value.as_ref().map(|value| units.take(value)).transpose();
+        let of = Bounded { of, least: bound(&self.least)?, most: bound(&self.most)? };
+        if let Some(allowed) = of.wrong() {
+            return Err(format!("found a distribution that is none, allowed {allowed}"));
+        }
+        let unit = units.0.unwrap_or_default();
+        Ok(Input { key: self.key.clone(), of, unit, origin: self.origin.clone() })
+    }
+}
+
+impl MomentsText {
+    /// Mean and standard deviation.
+    fn moments(&self, units: &mut Units) -> Result<[f64; 2], String> {
+        let mean = units.take(&self.mean)?;
+        match (&self.deviation, &self.variation) {
+            (Some(deviation), None) => Ok([mean, units.take(deviation)?]),
+            (None, Some(variation)) => Ok([mean, share(&as_typed(variation))? * mean.abs()]),
+            _ => Err("found a mean without its scatter, or with two, allowed one of deviation and variation".into()),
+        }
+    }
+}
+
+impl ReliabilityPlan {
+    /// The inputs, that of the fragility first, so that what hangs on it follows it; where one is wrong, nothing.
+    pub fn list(&self) -> Vec<Input> {
+        let first = |input: &Input| self.fragility.as_ref().is_none_or(|fragility| fragility.key != input.key);
+        let mut list: Vec<Input> = self.inputs.iter().filter_map(|input| input.input().ok()).collect();
+        list.sort_by_key(first);
+        list
+    }
+
+    /// Their distributions together; nothing where their correlations cannot be.
+    pub fn together(&self) -> Option<Inputs> {
+        let list = self.list();
+        let place = |key: &String| list.iter().position(|input| input.key == *key);
+        let pair = |text: &CorrelationText| Some((place(&text.between[0])?, place(&text.between[1])?, text.rank));
+        let pairs: Vec<Correlation> = self.correlations.iter().filter_map(pair).collect();
+        Inputs::new(list.into_iter().map(|input| input.of).collect(), &pairs)
+    }
+
+    /// Correlations as the report lists them.
+    pub fn pairs(&self) -> Vec<([String; 2], f64)> {
+        self.correlations.iter().map(|text| (text.between.clone(), text.rank)).collect()
+    }
+
+    /// Probability that must not be exceeded.
+    pub fn target(&self) -> Option<f64> {
+        self.target
+    }
+
+    /// Coefficient of variation, or half the width of the interval, that is enough.
+    pub fn accuracy(&self) -> f64 {
+        self.accuracy.as_deref().and_then(|text| share(text).ok()).unwrap_or(0.1)
+    }
+
+    /// Values of the first input for which the probability is told; none where no fragility is asked for.
+    pub fn events(&self) -> Vec<f64> {
+        let values = self.fragility.iter().flat_map(|fragility| &fragility.values);
+        values.filter_map(|value| Amount::of(value).map(|amount| amount.value)).collect()
+    }
+
+    /// What is wrong, by the key where it stands.
+    pub fn wrong(&self) -> Vec<[String; 2]> {
+        let mut wrong = Vec::new();
+        if self.inputs.is_empty() || self.inputs.len() > MOST_INPUTS {
+            wrong.push(["inputs".into(), format!("found {}, allowed 1 to {MOST_INPUTS}", self.inputs.len())]);
+        }
+        for (number, input) in self.inputs.iter().enumerate() {
+            wrong.extend(input.input().err().map(|error| [format!("inputs.{number}"), error]));
+            let within = |key: &str, of: &str| key.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+            let before = self.inputs[..number].iter().map(|before| &before.key);
+            if before.into_iter().any(|before| within(before, &input.key) || within(&input.key, before)) {
+                wrong.push([format!("inputs.{number}"), format!("found `{}` twice, allowed each key once", input.key)]);
+            }
+        }
+        self.wrong_correlations(&mut wrong);
+        self.wrong_fragility(&mut wrong);
+        if self.target.is_some_and(|target| !(target > 0.0 && target < 1.0)) {
+            wrong.push(["target".into(), "found no probability, allowed one above 0 and below 1".into()]);
+        }
+        let accuracy = self.accuracy.as_deref().map(share);
+        if accuracy.as_ref().is_some_and(|share| !share.as_ref().is_ok_and(|share| *share >= 0.01)) {
+            wrong.push(["accuracy".into(), "found no share, allowed 1 % to 99 %".into()]);
+        }
+        let ranges = [
+            ("samples", self.samples, 100, 100_000_000),
+            ("runs", self.runs, 15, 10_000),
+            ("packings", self.packings, 2, 50),
+        ];
+        for (key, found, least, most) in ranges {
+            if !(least..=most).contains(&found) {
+                wrong.push([key.into(), format!("found {found}, allowed {least} to {most}")]);
+            }
+        }
+        wrong
+    }
+
+    fn wrong_correlations(&self, wrong: &mut Vec<[String; 2]>) {
+        for (number, text) in self.correlations.iter().enumerate() {
+            let [one, other] = &text.between;
+            let known = |key: &String| self.inputs.iter().any(|input| input.key == *key);
+            if one == other || !known(one) || !known(other) {
+                wrong.push([format!("correlations.{number}"), format!("found {one} and {other}, allowed two of the inputs")]);
+            }
+            // Asked so that what is not a number is refused.
+            if !(-1.0..=1.0).contains(&text.rank) {
+                wrong.push([format!("correlations.{number}.rank"), format!("found {}, allowed -1 to 1", text.rank)]);
+            }
+        }
+        if wrong.is_empty() && self.together().is_none() {
+            wrong.push([
+                "correlations".into(),
+                "found correlations that no inputs can have at once, or of two inputs that are one, allowed a positive definite matrix".into(),
+            ]);
+        }
+    }
+
+    fn wrong_fragility(&self, wrong: &mut Vec<[String; 2]>) {
+        let Some(fragility) = &self.fragility else { return };
+        let Some(Ok(input)) = self.inputs.iter().find(|input| input.key == fragility.key).map(InputText::input) else {
+            wrong.push(["fragility.key".into(), format!("found {}, allowed one of the inputs", fragility.key)]);
+            return;
+        };
+        if fragility.values.is_empty() || fragility.values.len() > MOST_EVENTS {
+            let found = fragility.values.len();
+            wrong.push(["fragility.values".into(), format!("found {found}, allowed 1 to {MOST_EVENTS}")]);
+        }
+        for (number, value) in fragility.values.iter().enumerate() {
+            let amount = Amount::of(value).filter(|amount| amount.unit == input.unit);
+            if amount.is_none_or(|amount| !input.of.score(amount.value).is_finite()) {
+                let found = as_typed(value);
+                let allowed = format!("found {found}, allowed a value of its distribution with the unit {}", input.unit);
+                wrong.push([format!("fragility.values.{number}"), allowed]);
+            }
+        }
+    }
+}
+
+const MOST_INPUTS: usize = 30;
+const MOST_EVENTS: usize = 50;
