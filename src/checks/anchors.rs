@@ -114,7 +114,7 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands) -> Opt
         }
     };
     let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation);
-    let outcome = outcome.whatever_the_pressures();
+    let outcome = outcome.between_parts();
     let outcome = match tied {
         true => outcome
             .only_by_simulation("the lateral ropes are tied to the anchors, and the equations do not know their load"),

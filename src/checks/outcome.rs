@@ -187,6 +187,8 @@ pub struct Outcome {
     pub rope: Option<usize>,
     /// Whether the guideline's demand follows from its pressures.
     pub rests_on_pressures: bool,
+    /// Whether it holds parts against each other, whatever the event: a rule of design, not a failure in the event.
+    pub of_parts: bool,
     pub kind: Kind,
     /// How the demand grows with the load of the flow.
     pub growth: Growth,
@@ -291,6 +293,11 @@ impl Outcome {
         Self { rests_on_pressures: false, ..self }
     }
 
+    /// The check holds parts against each other, whatever the event.
+    pub fn between_parts(self) -> Self {
+        Self { of_parts: true, ..self.whatever_the_pressures() }
+    }
+
     pub fn leave_open(&mut self, why: Opening) {
         (self.verdict, self.open) = (CheckVerdict::Open, Some(why));
     }
@@ -383,6 +390,7 @@ impl Outcome {
             stands_despite: Vec::new(),
             rope: None,
             rests_on_pressures: true,
+            of_parts: false,
             kind: Kind::Any,
             growth: Growth::default(),
             beside: 0.0,

@@ -181,7 +181,7 @@ fn against_plateau(design: &Design, given: &Posts) -> Vec<Outcome> {
     let resistance = Resistance { characteristic: given.retaining.anchor_resistance, factor: design.factors.anchor };
     let name = name("retaining_anchor_plateau", title, ANCHOR_FACTOR);
     let anchor = Outcome::at_most(name, own, resistance, design.limits.anchor_utilisation);
-    [rope, anchor].map(|outcome| open_without_overstrength(design, outcome.whatever_the_pressures())).to_vec()
+    [rope, anchor].map(|outcome| open_without_overstrength(design, outcome.between_parts())).to_vec()
 }
 
 #[cfg(test)]

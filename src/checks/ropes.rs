@@ -161,7 +161,7 @@ pub fn check_plateau(design: &Design, _: &Demands) -> Vec<Outcome> {
     let of = |(index, level): (usize, &Level)| {
         let more = if net.runs_over_posts(index) { over_heads } else { 1.0 };
         let demand = Demand { guideline: own.guideline.map(|pull| more * pull), ..own };
-        check(design, &level.rope, name.clone(), demand).whatever_the_pressures()
+        check(design, &level.rope, name.clone(), demand).between_parts()
     };
     let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(f64::NAN);
     free.map(of).max_by(|a, b| used(a).total_cmp(&used(b))).into_iter().collect()

@@ -115,20 +115,17 @@ fn of_equations(states: &LimitStates, wanted: &Wanted) -> Result<(Asked, Assesse
     Ok((asked, assessed))
 }
 
-fn of_simulations(
-    states: &LimitStates,
-    wanted: &Wanted,
-    kept: &KeptResults,
-) -> Result<(Asked, Assessed), String> {
+fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> Result<(Asked, Assessed), String> {
     let run = |u: &[f64], packing: u32| -> Result<Option<(crate::design::Design, Simulated)>, String> {
         let Ok(file) = states.design(u) else { return Ok(None) };
         let mut design = coarse(&file.design);
         design.simulation.seed = design.simulation.seed.wrapping_add(u64::from(packing));
         match simulated(kept, &design, 1) {
             Ok(simulated) => Ok(Some((design, simulated))),
-            Err(RunError::Interrupted) => {
-                Err("the study was interrupted; what has been simulated is kept, and it goes on there when it runs again".into())
-            }
+            Err(RunError::Interrupted) => Err(
+                "the study was interrupted; what has been simulated is kept, and it goes on there when it runs again"
+                    .into(),
+            ),
             Err(_) => Ok(None),
         }
     };

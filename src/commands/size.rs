@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
-use crate::commands::{ExitCode, Failure};
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::kept_simulations::simulated;
 use crate::commands::output::put;
 use crate::commands::signals::listen;
+use crate::commands::{ExitCode, Failure};
 use crate::design::document::Document;
 use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, read_design_changed};

@@ -194,7 +194,7 @@ fn read_ropes(
             attached.insert(name, bytes);
         }
     }
-    ropes.extend(rope_table::built_in());
+    ropes.extend_from_slice(rope_table::built_in());
     Some(ropes)
 }
 

@@ -1,5 +1,7 @@
 //! Wire ropes by name: a table that comes with the program, and one that a design may name.
 
+use std::sync::LazyLock;
+
 use crate::design::table_file::{Wrong, factor, name_and_unit, reader, without_unit};
 use crate::units::Dimension;
 
@@ -29,9 +31,10 @@ const MOST_ROPES: usize = 2000;
 /// What a good table looks like.
 const EXAMPLE: &str = "the file is a table like `name,diameter (mm),breaking_load (kN),modulus (GPa),source` / `top rope,22,305,60,certificate 17`, with the modulus on the full circle";
 
-/// The table that comes with the program.
-pub fn built_in() -> Vec<Listed> {
-    parse(include_bytes!("ropes.csv")).unwrap_or_default()
+/// The table that comes with the program, parsed once.
+pub fn built_in() -> &'static [Listed] {
+    static ROPES: LazyLock<Vec<Listed>> = LazyLock::new(|| parse(include_bytes!("ropes.csv")).unwrap_or_default());
+    &ROPES
 }
 
 /// A name as it is compared: small letters and single spaces.

@@ -25,6 +25,8 @@ impl DesignPoint {
 pub enum NoPoint {
     /// The limit state does not change with the inputs, or is not a number.
     Flat,
+    /// No failure lies within ten standard deviations of the medians in the direction that the search took.
+    TooFar,
     /// The search did not settle.
     NotFound,
 }
@@ -33,6 +35,7 @@ impl NoPoint {
     pub fn words(self) -> &'static str {
         match self {
             Self::Flat => "the check does not change with the inputs near their medians",
+            Self::TooFar => "no failure within ten standard deviations",
             Self::NotFound => "the search for the design point did not settle",
         }
     }
@@ -87,7 +90,10 @@ pub fn form(dimensions: usize, used: &dyn Fn(&[f64]) -> f64) -> Result<DesignPoi
             let reached = reserve(&there);
             let inside = norm(&there) <= FARTHEST;
             if reached.is_finite() && inside && merit(&there, reached) < before || length < 1e-3 {
-                if norm(&there) > FARTHEST || !reached.is_finite() {
+                if !inside {
+                    return Err(NoPoint::TooFar);
+                }
+                if !reached.is_finite() {
                     return Err(NoPoint::NotFound);
                 }
                 (u, here) = (there, reached);
@@ -96,7 +102,7 @@ pub fn form(dimensions: usize, used: &dyn Fn(&[f64]) -> f64) -> Result<DesignPoi
             length *= 0.5;
         }
     }
-    Err(NoPoint::NotFound)
+    Err(if norm(&u) > 0.9 * FARTHEST { NoPoint::TooFar } else { NoPoint::NotFound })
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -123,6 +129,7 @@ mod tests {
         assert_relative_eq!(failed.index, -1.0, max_relative = 1e-6);
         assert_eq!(form(2, &|_: &[f64]| 0.4), Err(NoPoint::Flat));
         assert_eq!(form(2, &|_: &[f64]| f64::NAN), Err(NoPoint::Flat));
+        assert_eq!(form(2, &|u: &[f64]| 0.1 + 0.01 * u[0]), Err(NoPoint::TooFar));
     }
 
     /// Strength and load, both lognormal, as ln R − ln S: β = (μ_r − μ_s)/√(σ_r² + σ_s²), where the ratio of the two is far from a plane.

@@ -33,10 +33,6 @@ impl Inputs {
         lower.diagonal().iter().all(|value| *value > 1e-6).then_some(Self { each, lower: Some(lower) })
     }
 
-    pub fn count(&self) -> usize {
-        self.each.len()
-    }
-
     pub fn independent(&self) -> bool {
         self.lower.is_none()
     }

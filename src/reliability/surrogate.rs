@@ -56,8 +56,11 @@ pub struct Learned {
 /// Added to a utilisation before its logarithm is taken: a stroke that is not used at all has one as well.
 const OFFSET: f64 = 0.1;
 
+/// A utilisation beyond this is as good as any: what is used up without a measure of how far is infinite.
+const FAR_BEYOND: f64 = 5.0;
+
 fn transformed(used: f64) -> f64 {
-    libm::log(used.max(0.0) + OFFSET)
+    if used.is_nan() { f64::NAN } else { libm::log(used.clamp(0.0, FAR_BEYOND) + OFFSET) }
 }
 
 fn back(value: f64) -> f64 {

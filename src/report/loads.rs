@@ -133,7 +133,7 @@ fn working(case: &LoadCase) -> String {
         String::new()
     };
     let result = with_unit(case.force_per_width(), "N/m");
-    format!("{}R = {}{drag} = {result}", case.working.pressures, case.working.force)
+    format!("{}R = {}{drag} = {result}", case.working.pressures(), case.working.force())
 }
 
 fn remark(run: &Run, case: &LoadCase) -> String {

@@ -86,7 +86,9 @@ pub fn files(told: &Told) -> Result<Vec<ReportFile>, Box<dyn std::error::Error>>
         unjudged: asked.unjudged.clone(),
         governing: governing.map_or(String::new(), |check| check.check.title.clone()),
         point_note: governing.map_or(String::new(), point_note),
-        point: governing.and_then(|check| check.point.as_ref().ok()).map_or_else(Vec::new, |point| design_point(told, point)),
+        point: governing
+            .and_then(|check| check.point.as_ref().ok())
+            .map_or_else(Vec::new, |point| design_point(told, point)),
         indices: indices(told),
         charts: charts(told),
         event: told.inputs.first().map_or(String::new(), |input| words(&input.key)),
@@ -198,14 +200,23 @@ fn notes(told: &Told) -> Vec<String> {
         FactorsWish::None => "All partial factors are 1 and every resistance may be used up to its full value: failure is meant, not the loss of a margin. Inputs that are not listed have the values of the design, characteristic ones where these are characteristic; a resistance that is given as a design value keeps the factor in it.".into(),
         FactorsWish::AsDesigned => "Partial factors stay as in the design: the probability is that a check fails as it is written, not that the barrier does.".into(),
     });
-    notes.push("The probability is that of one event. For a period, it is to be combined with how often the event comes.".into());
+    notes.push(
+        "The probability is that of one event. For a period, it is to be combined with how often the event comes."
+            .into(),
+    );
     if !plan.checks.is_empty() {
-        notes.push(format!("Asked of these checks alone: {}. Others are not in the probability.", plan.checks.join(", ")));
+        notes.push(format!(
+            "Asked of these checks alone: {}. Others are not in the probability.",
+            plan.checks.join(", ")
+        ));
     }
     let partly: Vec<&str> =
         asked.checks.iter().filter(|check| check.partly.is_some()).map(|check| check.title.as_str()).collect();
     if !partly.is_empty() {
-        notes.push(format!("Judged only in part, because the equations cannot make these checks whole: {}.", partly.join(", ")));
+        notes.push(format!(
+            "Judged only in part, because the equations cannot make these checks whole: {}.",
+            partly.join(", ")
+        ));
     }
     if !asked.unjudged.is_empty() {
         notes.push("Some checks are not judged this way and are not in the probability; they are listed below. The true probability is larger.".into());
@@ -453,9 +464,14 @@ mod tests {
 
     #[test]
     fn probabilities_have_two_figures() {
-        for (value, text) in
-            [(0.0, "0"), (0.5234, "0.52"), (0.0523, "0.052"), (0.00123, "0.0012"), (3.42e-5, "3.4e-5"), (f64::NAN, "not known")]
-        {
+        for (value, text) in [
+            (0.0, "0"),
+            (0.5234, "0.52"),
+            (0.0523, "0.052"),
+            (0.00123, "0.0012"),
+            (3.42e-5, "3.4e-5"),
+            (f64::NAN, "not known"),
+        ] {
             assert_eq!(shown(value), text);
         }
         assert_eq!(words("flow.arrival.surge.velocity"), "surge velocity");

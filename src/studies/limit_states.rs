@@ -91,7 +91,11 @@ impl LimitStates<'_> {
         let mut demands = Demands::meet(&guideline, &seen, &design.factors);
         demands.leave_out_guideline_where_simulated();
         let mut outcomes = check_all(design, &demands);
-        outcomes.retain(|outcome| self.only.is_empty() || self.only.contains(&outcome.id));
+        // What parts are to each other is no failure in the event, unless it is asked for.
+        outcomes.retain(|outcome| match self.only.is_empty() {
+            true => !outcome.of_parts,
+            false => self.only.contains(&outcome.id),
+        });
         leave_open_outside_range(design, &guideline, &mut outcomes);
         outcomes
     }
@@ -121,15 +125,19 @@ impl LimitStates<'_> {
         if outcomes.iter().any(|outcome| matches!(outcome.open, Some(Opening::OutOfRange(_)))) {
             self.tally.outside.fetch_add(1, Ordering::Relaxed);
         }
+        // A dissipator that is used up fails without a share that tells how far.
+        let used = |outcome: &Outcome| match (outcome.verdict, outcome.utilisation) {
+            (CheckVerdict::Fail, None) => Some(f64::INFINITY),
+            (_, used) => used,
+        };
         let of = |check: &Judged| {
             let outcome = outcomes.iter().find(|outcome| outcome.id == check.id);
-            outcome.and_then(|outcome| outcome.utilisation).unwrap_or(f64::NAN)
+            outcome.and_then(used).unwrap_or(f64::NAN)
         };
-        let mut used: Vec<f64> = checks.iter().map(of).collect();
+        let mut all: Vec<f64> = checks.iter().map(of).collect();
         let others = outcomes.iter().filter(|outcome| checks.iter().all(|check| check.id != outcome.id));
-        let other = others.filter_map(|outcome| outcome.utilisation);
-        used.push(other.fold(f64::NEG_INFINITY, larger_or_nan));
-        used
+        all.push(others.filter_map(used).fold(f64::NEG_INFINITY, larger_or_nan));
+        all
     }
 
     /// The same by the equations at standard normal numbers. A sample that is no valid design is not judged.
@@ -150,7 +158,8 @@ impl LimitStates<'_> {
         let reliable = simulated.numerics.broke_down.is_none()
             && simulated.doubts.is_empty()
             && arriving::doubts(design, simulated).is_empty();
-        reliable.then(|| self.used(design, Some(simulated), checks))
+        let used = reliable.then(|| self.used(design, Some(simulated), checks))?;
+        used.iter().all(|used| !used.is_nan()).then_some(used)
     }
 }
 

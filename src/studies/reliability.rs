@@ -84,7 +84,13 @@ const OF_EVENT: usize = 4000;
 const FAR_BEYOND: f64 = 5.0;
 
 /// By the equations.
-pub fn by_equations(dimensions: usize, states: &LimitStates, checks: &[Judged], tally: &Tally, wanted: &Wanted) -> Assessed {
+pub fn by_equations(
+    dimensions: usize,
+    states: &LimitStates,
+    checks: &[Judged],
+    tally: &Tally,
+    wanted: &Wanted,
+) -> Assessed {
     tally.take();
     let asked = monte_carlo::Asked {
         samples: wanted.samples,
@@ -95,8 +101,7 @@ pub fn by_equations(dimensions: usize, states: &LimitStates, checks: &[Judged], 
     let counted = monte_carlo(dimensions, states, &asked);
     let (refused, outside) = tally.take();
     let rare = (counted.failed < FEW).then(|| {
-        let asked =
-            subset::Asked { samples: LEVEL, repeats: REPEATS, seed: wanted.seed, workers: wanted.workers };
+        let asked = subset::Asked { samples: LEVEL, repeats: REPEATS, seed: wanted.seed, workers: wanted.workers };
         subset(dimensions, states, &asked)
     });
     let probability = rare.as_ref().map_or_else(|| counted.probability(), |rare| rare.probability);

@@ -188,7 +188,9 @@ impl InputText {
         if let Some(text) = &self.table {
             if text.values.len() != text.cumulative.len() {
                 let [values, shares] = [text.values.len(), text.cumulative.len()];
-                return Err(format!("found {values} values and {shares} cumulative probabilities, allowed as many of both"));
+                return Err(format!(
+                    "found {values} values and {shares} cumulative probabilities, allowed as many of both"
+                ));
             }
             let values = text.values.iter().map(|value| units.take(value)).collect::<Result<Vec<_>, _>>()?;
             let rows = values.into_iter().zip(&text.cumulative).map(|(value, share)| [value, *share]);
@@ -269,7 +271,8 @@ impl ReliabilityPlan {
         }
         for (number, input) in self.inputs.iter().enumerate() {
             wrong.extend(input.input().err().map(|error| [format!("inputs.{number}"), error]));
-            let within = |key: &str, of: &str| key.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+            let within =
+                |key: &str, of: &str| key.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
             let before = self.inputs[..number].iter().map(|before| &before.key);
             if before.into_iter().any(|before| within(before, &input.key) || within(&input.key, before)) {
                 wrong.push([format!("inputs.{number}"), format!("found `{}` twice, allowed each key once", input.key)]);
@@ -302,7 +305,10 @@ impl ReliabilityPlan {
             let [one, other] = &text.between;
             let known = |key: &String| self.inputs.iter().any(|input| input.key == *key);
             if one == other || !known(one) || !known(other) {
-                wrong.push([format!("correlations.{number}"), format!("found {one} and {other}, allowed two of the inputs")]);
+                wrong.push([
+                    format!("correlations.{number}"),
+                    format!("found {one} and {other}, allowed two of the inputs"),
+                ]);
             }
             // Asked so that what is not a number is refused.
             if !(-1.0..=1.0).contains(&text.rank) {
@@ -331,7 +337,8 @@ impl ReliabilityPlan {
             let amount = Amount::of(value).filter(|amount| amount.unit == input.unit);
             if amount.is_none_or(|amount| !input.of.score(amount.value).is_finite()) {
                 let found = as_typed(value);
-                let allowed = format!("found {found}, allowed a value of its distribution with the unit {}", input.unit);
+                let allowed =
+                    format!("found {found}, allowed a value of its distribution with the unit {}", input.unit);
                 wrong.push([format!("fragility.values.{number}"), allowed]);
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::loads::cases::later_surge;
 use crate::loads::cases::load_case::LoadCase;
-use crate::loads::cases::working::at_rest;
+use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 
@@ -15,7 +15,7 @@ pub fn case(input: &GuidelineInput) -> LoadCase {
         deposit: height,
         moving: 0.0,
         one_of_the_stages: false,
-        working: at_rest(input, &diagram),
+        working: Working::AtRest { input: *input, diagram },
         diagram,
         formula: "R = ½ K ρ g' H²",
         ..later_surge::case(input, height)

@@ -1,7 +1,7 @@
 //! A surge over a deposit of height H_d: K ρ g' (H_d + h − z), and λ ρ v² between H_d and H_d + h, as far as the barrier stands.
 
 use crate::loads::cases::load_case::{Certainty, LoadCase};
-use crate::loads::cases::working::of_a_surge;
+use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 use crate::sources::VOLKWEIN_2014;
@@ -25,7 +25,7 @@ pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
         moving,
         one_of_the_stages: true,
         not_simulated: None,
-        working: of_a_surge(input, &diagram, deposit, moving),
+        working: Working::OfASurge { input: *input, diagram, deposit, moving },
         diagram,
         shear: 0.0,
         shear_certainty: Certainty::Derived,

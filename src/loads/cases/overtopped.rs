@@ -5,7 +5,7 @@
 
 use crate::loads::cases::full;
 use crate::loads::cases::load_case::{Certainty, Extras, LoadCase};
-use crate::loads::cases::working::overtopped;
+use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 
@@ -26,7 +26,7 @@ pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
         deposit: height,
         moving: depth,
         not_simulated: extras.overflow_depth.map(|_| "the flow over the full barrier"),
-        working: overtopped(input, &diagram, depth),
+        working: Working::Overtopped { input: *input, diagram, depth },
         diagram,
         shear,
         shear_certainty: if extras.overflow_drag.is_some() { Certainty::Given } else { Certainty::Memory },

@@ -2,7 +2,7 @@
 
 use crate::loads::cases::full;
 use crate::loads::cases::load_case::{Certainty, LoadCase};
-use crate::loads::cases::working::even;
+use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 
@@ -14,7 +14,7 @@ pub fn case(input: &GuidelineInput, pressure: f64) -> LoadCase {
         title: "Snow",
         deposit: 0.0,
         not_simulated: Some("the snow"),
-        working: even(&diagram),
+        working: Working::Even { diagram },
         diagram,
         formula: "R = p H",
         certainty: Certainty::Given,

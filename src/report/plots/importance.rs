@@ -41,8 +41,11 @@ impl Importance {
             let top = TOP + row * number as f64;
             let middle = top + 0.5 * (row - GAP) + 4.0;
             let label = escape(&input.label);
-            let _ =
-                write!(out, r#"<text class="tick" text-anchor="end" x="{}" y="{middle:.1}">{label}</text>"#, LABEL - 8.0);
+            let _ = write!(
+                out,
+                r#"<text class="tick" text-anchor="end" x="{}" y="{middle:.1}">{label}</text>"#,
+                LABEL - 8.0
+            );
             for (bar, share) in input.shares.iter().enumerate() {
                 let (y, wide) = (top + BAR * bar as f64, (WIDTH - LABEL - RIGHT) * share.clamp(0.0, 1.0));
                 let _ = write!(
@@ -70,7 +73,8 @@ mod tests {
     #[test]
     fn bars_are_as_long_as_their_shares() {
         let row = |label: &str, shares: [f64; 2]| Row { label: label.into(), shares: shares.to_vec() };
-        let drawn = Importance { of: vec!["alone", "in all"], rows: vec![row("a<b", [0.25, 0.5]), row("c", [-0.01, 1.3])] };
+        let drawn =
+            Importance { of: vec!["alone", "in all"], rows: vec![row("a<b", [0.25, 0.5]), row("c", [-0.01, 1.3])] };
         let svg = drawn.svg();
         let full = WIDTH - LABEL - RIGHT;
         for part in [format!(r#"width="{:.1}""#, 0.25 * full), format!(r#"width="{full:.1}""#), "a&lt;b".into()] {
