@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use barrier_check::commands::check::{MOST_STARTS, Options, check, dry_run, loads, resume};
 use barrier_check::commands::compare::compare;
+use barrier_check::commands::engines::Engine;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::{design_schema, result_schema};
-use barrier_check::commands::study::study;
+use barrier_check::commands::study::{Mode, study};
 use barrier_check::commands::validate::{Selection, validate};
 use barrier_check::terminal;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -131,9 +132,39 @@ enum Command {
         /// Folder for the page and what is kept [default: out/studies/<name>]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        #[command(flatten)]
+        runs: RunsArguments,
     },
     /// Runs validation cases: scenes with known answers
     Validate(ValidateArguments),
+}
+
+/// What is done with the runs of a sweep.
+#[derive(Args)]
+struct RunsArguments {
+    /// Where the runs of a sweep are made
+    #[arg(long, value_enum, value_name = "ENGINE", default_value_t = Engine::Local, conflicts_with_all = ["list", "collect", "only"])]
+    on: Engine,
+    /// Prints a command for each run of a sweep that has not been made, for GNU parallel or anything else
+    #[arg(long, conflicts_with_all = ["collect", "only"])]
+    list: bool,
+    /// Writes the page of the runs of a sweep that have been made
+    #[arg(long, conflicts_with = "only")]
+    collect: bool,
+    /// Makes the runs of a sweep with these names, as --list prints them
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    only: Vec<String>,
+}
+
+impl RunsArguments {
+    fn mode(self) -> Mode {
+        match self {
+            Self { list: true, .. } => Mode::List,
+            Self { collect: true, .. } => Mode::Collect,
+            Self { only, .. } if !only.is_empty() => Mode::Only(only),
+            Self { on, .. } => Mode::On(on),
+        }
+    }
 }
 
 #[derive(Args)]
@@ -209,7 +240,7 @@ fn run() -> i32 {
         Some(Command::Resume { folder, threads, keep }) => {
             resume(&folder, threads.map(usize::from), keep.every()) as i32
         }
-        Some(Command::Study { file, out }) => study(&file, out.as_deref()) as i32,
+        Some(Command::Study { file, out, runs }) => study(&file, out.as_deref(), &runs.mode()) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }

@@ -51,20 +51,31 @@ impl KeptResults {
         let place = self.place(of);
         // Somebody may have removed it in the meantime.
         std::fs::create_dir_all(&self.folder)?;
-        // First beside it, so that nobody reads half a result.
-        let half = place.with_extension("tmp");
-        create(&half, &seal(NAME, FORMAT, &body))
-            .and_then(|()| std::fs::rename(&half, &place))
-            .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", half.display())))
+        // First beside it, so that nobody reads half a result; under a name of its own, as another may keep the same result at the same time.
+        let half = place.with_extension(format!("{:016x}.tmp", fastrand::u64(..)));
+        create(&half, &seal(NAME, FORMAT, &body)).and_then(|()| std::fs::rename(&half, &place)).map_err(|error| {
+            let _ = std::fs::remove_file(&half);
+            io::Error::new(error.kind(), format!("{}: {error}", half.display()))
+        })
     }
 
-    fn place(&self, of: &[&[u8]]) -> PathBuf {
+    /// The name of a result.
+    pub fn id(&self, of: &[&[u8]]) -> String {
         let mut hash = sha2::Sha256::new_with_prefix(self.program);
         for part in of {
             hash.update(part.len().to_le_bytes());
             hash.update(part);
         }
-        self.folder.join(format!("{}.bin", hexadecimal(&hash.finalize()[..DIGITS])))
+        hexadecimal(&hash.finalize()[..DIGITS])
+    }
+
+    /// The folder of the results.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    fn place(&self, of: &[&[u8]]) -> PathBuf {
+        self.folder.join(format!("{}.bin", self.id(of)))
     }
 }
 

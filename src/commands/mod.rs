@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod compare;
+pub mod engines;
 pub(crate) mod input;
 pub(crate) mod kept;
 mod kept_simulations;
@@ -13,6 +14,7 @@ pub mod schema;
 pub(crate) mod signals;
 mod size;
 pub mod study;
+mod sweep;
 pub mod validate;
 
 /// How the program ends.

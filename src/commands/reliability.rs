@@ -38,15 +38,16 @@ pub fn reliability(plan: &ReliabilityPlan, beside: &Path, mut folder: Folder) ->
         attached.entry(name.to_string()).or_insert_with(|| input::beside(&path, name)).clone()
     };
     let as_it_is = source
-        .read(Purpose::Simulation, &open, &Changes::default())
+        .read(Purpose::Simulation, &open, &Changes::new(plan.set()))
         .map_err(|problems| format!("the design is not valid\n{problems}"))?;
-    let inputs = plan.list();
+    let (inputs, set) = (plan.list(), plan.set());
     let together = plan.together().ok_or("correlations that no inputs can have at once")?;
     let states = LimitStates {
         source: &source,
         open: &open,
         inputs: &inputs,
         together: &together,
+        set: &set,
         factors: plan.factors,
         only: &plan.checks,
         tally: Tally::default(),

@@ -8,12 +8,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::check::load;
+use crate::commands::engines::Engine;
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::output::{put, tell_of_replaced};
 use crate::commands::reliability::reliability;
 use crate::commands::signals::{listen, stop};
 use crate::commands::size::size;
+use crate::commands::sweep::sweep;
 use crate::design::read::DesignFile;
 use crate::report::folder::{Folder, Named, Refusal, folder_name};
 use crate::report::kind::Kind;
@@ -29,11 +31,26 @@ use crate::studies::stability::{Mapped, map};
 use crate::studies::stability_scenes::SCENES;
 use crate::terminal;
 
+/// What is done with the runs of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Those that are not kept are made, and the page is written.
+    On(Engine),
+    /// A command for each that is not kept is printed.
+    List,
+    /// The page of those that are kept is written.
+    Collect,
+    /// Those with these names are made.
+    Only(Vec<String>),
+}
+
 /// Runs what is not kept yet, and writes the page below `out`.
-pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
-    match run(path, out) {
+pub fn study(path: &Path, out: Option<&Path>, mode: &Mode) -> ExitCode {
+    match run(path, out, mode) {
         Ok((page, code)) => {
-            terminal::say(format_args!("study: {}", page.display()));
+            if let Some(page) = page {
+                terminal::say(format_args!("study: {}", page.display()));
+            }
             code
         }
         Err(error) => {
@@ -44,23 +61,35 @@ pub fn study(path: &Path, out: Option<&Path>) -> ExitCode {
 }
 
 /// The page, and what the study ends with.
-fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, ExitCode), Failure> {
+fn run(path: &Path, out: Option<&Path>, mode: &Mode) -> Result<(Option<PathBuf>, ExitCode), Failure> {
     let bytes = input::read(path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{}: it is not text in UTF-8", path.display()))?;
     let study = Study::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
+    let place_of =
+        |name: &str| out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
     let folder_of = |name: &str| {
         let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
-        let folder = out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
-        let folder = Folder::claim(&folder, Some(path), named)?.for_kind(Kind::Study)?;
+        let folder = Folder::claim(&place_of(name), Some(path), named)?.for_kind(Kind::Study)?;
         tell_of_replaced(&folder, Kind::Study);
         Ok::<_, Refusal>(folder)
     };
     let beside = path.parent().unwrap_or(Path::new("."));
+    if let Study::Sweep(plan) = &study {
+        return sweep(plan, path, &place_of(&plan.name), mode, || Ok(folder_of(&plan.name)?));
+    }
+    if *mode != Mode::On(Engine::Local) {
+        return Err(
+            "only the runs of a study of the kind sweep are known beforehand: the others decide on their next runs by the last ones, and run here"
+                .into(),
+        );
+    }
+    let page = |(page, code)| (Some(page), code);
     let plan = match study {
         Study::SpeedAccuracy(plan) => plan,
-        Study::Stability(plan) => return Ok((stability_map(&plan, folder_of(&plan.name)?)?, ExitCode::Pass)),
-        Study::Size(plan) => return size(&plan, beside, folder_of(&plan.name)?),
-        Study::Reliability(plan) => return reliability(&plan, beside, folder_of(&plan.name)?),
+        Study::Stability(plan) => return Ok((Some(stability_map(&plan, folder_of(&plan.name)?)?), ExitCode::Pass)),
+        Study::Size(plan) => return size(&plan, beside, folder_of(&plan.name)?).map(page),
+        Study::Reliability(plan) => return reliability(&plan, beside, folder_of(&plan.name)?).map(page),
+        Study::Sweep(_) => return Err("a sweep has its own way".into()),
     };
     let scenes = plan
         .scenes
@@ -71,7 +100,7 @@ fn run(path: &Path, out: Option<&Path>) -> Result<(PathBuf, ExitCode), Failure> 
     let kept = KeptResults::within(folder.path())?;
     let points = all_points(&tasks(&plan, &scenes), &scenes, &kept)?;
     put(&mut folder, &files(&plan.name, &gather(&plan, &scenes, points)).map_err(|error| error.to_string())?)?;
-    Ok((folder.path().join("study.html"), ExitCode::Pass))
+    Ok((Some(folder.path().join("study.html")), ExitCode::Pass))
 }
 
 /// Maps every scene that is not kept, side by side, and writes the page.

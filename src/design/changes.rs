@@ -23,6 +23,14 @@ impl Changes {
         self.0.iter().any(|(of, _)| below(of))
     }
 
+    /// Values that are texts, as the name of a file is.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|(_, node)| match node {
+            Node::Text(text) => Some(text.as_str()),
+            _ => None,
+        })
+    }
+
     /// Puts them onto the tree of a design. A list is taken as a whole, and where the same thing can be given in different ways, the way of the
     /// change stands alone.
     pub fn put_onto(&self, root: &mut Node) {

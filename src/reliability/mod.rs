@@ -14,6 +14,8 @@ pub(crate) mod form;
 pub(crate) mod inputs;
 pub(crate) mod monte_carlo;
 pub(crate) mod normal;
+#[cfg(test)]
+mod published;
 pub(crate) mod sobol;
 pub(crate) mod subset;
 pub(crate) mod surrogate;

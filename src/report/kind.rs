@@ -23,6 +23,7 @@ const TOLD_BY: &[(&str, Kind)] = &[
     ("stability.html", Kind::Study),
     ("size.html", Kind::Study),
     ("reliability.html", Kind::Study),
+    ("sweep.html", Kind::Study),
     ("histories.csv", Kind::Simulation),
     ("report.html", Kind::Equations),
 ];

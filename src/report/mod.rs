@@ -2,6 +2,7 @@
 
 pub(crate) mod anchors;
 pub(crate) mod chart;
+pub(crate) mod columns;
 pub(crate) mod compare;
 pub(crate) mod dissipators;
 pub(crate) mod findings;
@@ -31,6 +32,7 @@ pub(crate) mod stability_map;
 pub(crate) mod statements;
 pub(crate) mod study;
 pub(crate) mod surges;
+pub(crate) mod sweep;
 pub(crate) mod table;
 pub mod validation;
 pub mod view;

@@ -14,7 +14,7 @@ use crate::report::plots::importance::{Importance, Row};
 use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::probability_json::json;
 use crate::report::render::{Rendered, render_as};
-use crate::studies::amount::Amount;
+use crate::studies::amount::{Amount, shown as shown_value};
 use crate::studies::limit_states::Asked;
 use crate::studies::reliability::{Answer, Assessed, OfCheck, Way};
 use crate::studies::reliability_plan::{FactorsWish, Input, ReliabilityPlan};
@@ -204,6 +204,11 @@ fn notes(told: &Told) -> Vec<String> {
         "The probability is that of one event. For a period, it is to be combined with how often the event comes."
             .into(),
     );
+    let set = plan.set();
+    if !set.is_empty() {
+        let each: Vec<String> = set.iter().map(|(key, value)| format!("{key}: {}", shown_value(value))).collect();
+        notes.push(format!("Other than in the design: {}.", each.join("; ")));
+    }
     if !plan.checks.is_empty() {
         notes.push(format!(
             "Asked of these checks alone: {}. Others are not in the probability.",
@@ -232,11 +237,11 @@ fn notes(told: &Told) -> Vec<String> {
         ));
     }
     for (why, count) in assessed.refused.iter().take(5) {
-        notes.push(format!("{count} samples are no valid design and count as failed ({why}). Bounds of the inputs (least, most) avoid that."));
+        notes.push(format!("Samples that are no valid design and count as failed: {count} ({why}). Bounds of the inputs (least, most) avoid that."));
     }
     if assessed.lost() > 0 {
         notes.push(format!(
-            "{} simulations could not be relied on. They are left out, and the surrogate stands for them: the probability rests on the others.",
+            "Simulations that could not be relied on: {}. What happens in events like these is not known; the upper end of the interval takes all of them as failures.",
             assessed.lost()
         ));
     }

@@ -1,20 +1,15 @@
 //! `histories.csv` and `histories.parquet`: the time series, one row per sample, units in the names of the columns.
 
-use std::fmt::Write;
-use std::sync::Arc;
-
-use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::parser::parse_message_type;
+
+use crate::report::columns::{self, Column};
 
 use dem::recorders::CHANNELS;
 use dem::recorders::channels::{Channel, Rows};
 use dem::recorders::histories::Histories;
 
 /// Columns by name, each with its values.
-fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
+fn numbers(histories: &Histories) -> Vec<(String, Column)> {
     let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
     let mut add = |name: String, values: Vec<f64>| columns.push((name, values));
     add("time_s".into(), histories.time.clone());
@@ -69,40 +64,15 @@ fn columns(histories: &Histories) -> Vec<(String, Vec<f64>)> {
     for (_, values) in &mut columns {
         values.resize(histories.time.len(), 0.0);
     }
-    columns
+    columns.into_iter().map(|(name, values)| (name, Column::Numbers(values))).collect()
 }
 
 /// The text of `histories.csv`.
 pub fn csv(histories: &Histories) -> String {
-    let columns = columns(histories);
-    let mut out = columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(",");
-    out.push('\n');
-    for row in 0..histories.time.len() {
-        for (index, (_, values)) in columns.iter().enumerate() {
-            let comma = if index > 0 { "," } else { "" };
-            // With a point even where the value is whole: readers take the type of a column from what they see.
-            let _ = write!(out, "{comma}{:?}", values[row]);
-        }
-        out.push('\n');
-    }
-    out
+    columns::csv(&numbers(histories))
 }
 
-/// The bytes of `histories.parquet`: the same columns, each of doubles.
+/// The bytes of `histories.parquet`: the same columns.
 pub fn parquet(histories: &Histories) -> Result<Vec<u8>, ParquetError> {
-    let columns = columns(histories);
-    let fields: String = columns.iter().map(|(name, _)| format!("REQUIRED DOUBLE {name};\n")).collect();
-    let schema = Arc::new(parse_message_type(&format!("message histories {{\n{fields}}}"))?);
-    let mut bytes = Vec::new();
-    let mut writer = SerializedFileWriter::new(&mut bytes, schema, Arc::new(WriterProperties::builder().build()))?;
-    let mut rows = writer.next_row_group()?;
-    for (_, values) in &columns {
-        if let Some(mut column) = rows.next_column()? {
-            column.typed::<DoubleType>().write_batch(values, None, None)?;
-            column.close()?;
-        }
-    }
-    rows.close()?;
-    writer.close()?;
-    Ok(bytes)
+    columns::parquet("histories", &numbers(histories))
 }

@@ -1,4 +1,4 @@
-//! Numbers with a unit, as a study file has them.
+//! Values of a study file: numbers with a unit, and what a design has in their place.
 
 use serde_yaml::Value;
 
@@ -44,11 +44,36 @@ impl Amount {
     }
 }
 
-/// A value of a study file as a message shows it.
-pub fn as_typed(value: &Value) -> String {
-    match Amount::of(value) {
-        Some(Amount { value, unit }) => format!("{value} {unit}").trim().to_string(),
-        None => serde_yaml::to_string(value).map_or_else(|_| "something else".into(), |text| text.trim().to_string()),
+/// A value of a study file as a design has it.
+pub fn node(value: &Value) -> Node {
+    match value {
+        Value::Null => Node::Nothing,
+        Value::Bool(flag) => Node::Flag(*flag),
+        Value::Number(number) => Node::Number(number.as_f64().unwrap_or(f64::NAN)),
+        Value::String(text) => Node::Text(text.clone()),
+        Value::Sequence(items) => Node::List(items.iter().map(node).collect()),
+        Value::Mapping(keys) => {
+            let key = |key: &Value| match node(key) {
+                Node::Text(text) => text,
+                other => shown(&other),
+            };
+            Node::Map(keys.iter().map(|(name, value)| (key(name), node(value))).collect())
+        }
+        Value::Tagged(tagged) => node(&tagged.value),
+    }
+}
+
+/// A value as a table shows it.
+pub fn shown(node: &Node) -> String {
+    match node {
+        Node::Text(text) => text.clone(),
+        Node::Number(number) => number.to_string(),
+        Node::Flag(flag) => flag.to_string(),
+        Node::Nothing => "nothing".into(),
+        Node::List(items) => items.iter().map(shown).collect::<Vec<_>>().join(", "),
+        Node::Map(keys) => {
+            keys.iter().map(|(name, value)| format!("{name} {}", shown(value))).collect::<Vec<_>>().join(", ")
+        }
     }
 }
 

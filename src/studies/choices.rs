@@ -7,7 +7,7 @@ use serde_yaml::Value;
 
 use crate::design::changes::Changes;
 use crate::design::document::Node;
-use crate::studies::amount::Amount;
+use crate::studies::amount::{Amount, node, shown};
 
 /// One choice as a study file has it: a key with its values or with a range of them, or options that set several keys at once.
 #[derive(Clone, Debug, Deserialize)]
@@ -119,36 +119,10 @@ fn named(name: &str, options: Vec<ChosenOption>) -> Result<Choice, String> {
     Ok(Choice { name: name.to_string(), options })
 }
 
-/// A value of a study file as a design has it.
-fn node(value: &Value) -> Node {
-    match value {
-        Value::Null => Node::Nothing,
-        Value::Bool(flag) => Node::Flag(*flag),
-        Value::Number(number) => Node::Number(number.as_f64().unwrap_or(f64::NAN)),
-        Value::String(text) => Node::Text(text.clone()),
-        Value::Sequence(items) => Node::List(items.iter().map(node).collect()),
-        Value::Mapping(keys) => {
-            let key = |key: &Value| match node(key) {
-                Node::Text(text) => text,
-                other => shown(&other),
-            };
-            Node::Map(keys.iter().map(|(name, value)| (key(name), node(value))).collect())
-        }
-        Value::Tagged(tagged) => node(&tagged.value),
-    }
-}
-
-/// A value as a table shows it.
-fn shown(node: &Node) -> String {
-    match node {
-        Node::Text(text) => text.clone(),
-        Node::Number(number) => number.to_string(),
-        Node::Flag(flag) => flag.to_string(),
-        Node::Nothing => "nothing".into(),
-        Node::List(items) => items.iter().map(shown).collect::<Vec<_>>().join(", "),
-        Node::Map(keys) => {
-            keys.iter().map(|(name, value)| format!("{name} {}", shown(value))).collect::<Vec<_>>().join(", ")
-        }
+impl ChosenOption {
+    /// What it changes, by key.
+    pub fn changes(&self) -> &[(String, Node)] {
+        &self.changes
     }
 }
 

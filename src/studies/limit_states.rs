@@ -10,6 +10,7 @@ use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::changes::Changes;
+use crate::design::document::Node;
 use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, Source};
 use crate::design::{BarrierDesign, Design, FidelityWish};
@@ -29,6 +30,8 @@ pub struct LimitStates<'a> {
     pub open: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),
     pub inputs: &'a [Input],
     pub together: &'a Inputs,
+    /// Values of the design that are others here.
+    pub set: &'a [(String, Node)],
     pub factors: FactorsWish,
     /// Ids of the checks that are asked of; all where none is named.
     pub only: &'a [String],
@@ -76,7 +79,8 @@ impl LimitStates<'_> {
         let values = self.together.at(u).into_iter().zip(self.inputs);
         let changes =
             values.map(|(value, input)| (input.key.clone(), Amount { value, unit: input.unit.clone() }.node()));
-        let mut file = self.source.read(Purpose::Simulation, self.open, &Changes::new(changes.collect()))?;
+        let changes = Changes::new(self.set.iter().cloned().chain(changes).collect());
+        let mut file = self.source.read(Purpose::Simulation, self.open, &changes)?;
         if self.factors == FactorsWish::None {
             let given = |key: &str| self.inputs.iter().any(|input| input.key == key);
             without_factors(&mut file.design, &given);

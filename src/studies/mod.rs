@@ -13,3 +13,5 @@ pub(crate) mod sizing;
 pub(crate) mod speed_accuracy;
 pub(crate) mod stability;
 pub(crate) mod stability_scenes;
+pub(crate) mod sweep;
+pub(crate) mod sweep_plan;

@@ -10,6 +10,7 @@ use crate::problem::Problem;
 use crate::studies::knobs::Knob;
 use crate::studies::reliability_plan::ReliabilityPlan;
 use crate::studies::size_plan::SizePlan;
+use crate::studies::sweep_plan::SweepPlan;
 
 /// What a study is of.
 #[derive(Clone, Debug)]
@@ -18,6 +19,7 @@ pub enum Study {
     Stability(StabilityPlan),
     Size(Box<SizePlan>),
     Reliability(Box<ReliabilityPlan>),
+    Sweep(Box<SweepPlan>),
 }
 
 /// The same as the file names it.
@@ -28,6 +30,7 @@ enum Kind {
     Stability,
     Size,
     Reliability,
+    Sweep,
 }
 
 /// The key that tells what the others are; these are not looked at.
@@ -57,6 +60,7 @@ impl Study {
             Kind::Stability => serde_yaml::from_str(text).map(Self::Stability),
             Kind::Size => serde_yaml::from_str(text).map(|plan| Self::Size(Box::new(plan))),
             Kind::Reliability => serde_yaml::from_str(text).map(|plan| Self::Reliability(Box::new(plan))),
+            Kind::Sweep => serde_yaml::from_str(text).map(|plan| Self::Sweep(Box::new(plan))),
         };
         let study = study.map_err(misread)?;
         let wrong = match &study {
@@ -64,6 +68,7 @@ impl Study {
             Self::Stability(plan) => plan.wrong(),
             Self::Size(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
             Self::Reliability(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
+            Self::Sweep(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
         };
         if wrong.is_empty() {
             return Ok(study);
@@ -240,7 +245,7 @@ mod tests {
             (
                 "kind: speed_accuracy",
                 "kind: speed",
-                "kind: unknown value `speed`, expected one of `speed_accuracy`, `stability`, `size`, `reliability` at line ",
+                "kind: unknown value `speed`, expected one of `speed_accuracy`, `stability`, `size`, `reliability`, `sweep` at line ",
             ),
             ("step: [", "step: [0.1, fast, ", "knobs.step[1]: found the text \"fast\", expected a number at line "),
         ] {

@@ -1,13 +1,15 @@
 //! The file of a study that asks how probable a failure is.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Deserialize;
 use serde_yaml::Value;
 
+use crate::design::document::Node;
 use crate::reliability::distribution::{Bounded, Distribution};
 use crate::reliability::inputs::{Correlation, Inputs};
-use crate::studies::amount::{Amount, as_typed};
+use crate::studies::amount::{Amount, node, shown};
 use crate::studies::size_plan::{By, share};
 
 #[derive(Clone, Debug, Deserialize)]
@@ -21,6 +23,9 @@ pub struct ReliabilityPlan {
     pub design: PathBuf,
     #[serde(default)]
     pub by: By,
+    /// Values of the design that are others here.
+    #[serde(default)]
+    set: BTreeMap<String, Value>,
     #[serde(default)]
     pub factors: FactorsWish,
     pub inputs: Vec<InputText>,
@@ -149,11 +154,11 @@ struct Units(Option<String>);
 
 impl Units {
     fn take(&mut self, value: &Value) -> Result<f64, String> {
-        let allowed = || format!("found {}, allowed a number with its unit, as in the design", as_typed(value));
+        let allowed = || format!("found {}, allowed a number with its unit, as in the design", shown(&node(value)));
         let amount = Amount::of(value).ok_or_else(allowed)?;
         match self.0.get_or_insert_with(|| amount.unit.clone()) {
             unit if *unit == amount.unit => Ok(amount.value),
-            unit => Err(format!("found {}, allowed the unit of the other values, {unit}", as_typed(value))),
+            unit => Err(format!("found {}, allowed the unit of the other values, {unit}", shown(&node(value)))),
         }
     }
 }
@@ -218,7 +223,7 @@ impl MomentsText {
         let mean = units.take(&self.mean)?;
         match (&self.deviation, &self.variation) {
             (Some(deviation), None) => Ok([mean, units.take(deviation)?]),
-            (None, Some(variation)) => Ok([mean, share(&as_typed(variation))? * mean.abs()]),
+            (None, Some(variation)) => Ok([mean, share(&shown(&node(variation)))? * mean.abs()]),
             _ => Err("found a mean without its scatter, or with two, allowed one of deviation and variation".into()),
         }
     }
@@ -231,6 +236,11 @@ impl ReliabilityPlan {
         let mut list: Vec<Input> = self.inputs.iter().filter_map(|input| input.input().ok()).collect();
         list.sort_by_key(first);
         list
+    }
+
+    /// Values of the design that are others here.
+    pub fn set(&self) -> Vec<(String, Node)> {
+        self.set.iter().map(|(key, value)| (key.clone(), node(value))).collect()
     }
 
     /// Their distributions together; nothing where their correlations cannot be.
@@ -277,6 +287,9 @@ impl ReliabilityPlan {
             if before.into_iter().any(|before| within(before, &input.key) || within(&input.key, before)) {
                 wrong.push([format!("inputs.{number}"), format!("found `{}` twice, allowed each key once", input.key)]);
             }
+        }
+        if let Some(key) = self.set.keys().find(|key| self.inputs.iter().any(|input| input.key == **key)) {
+            wrong.push([format!("set.{key}"), "found an input, allowed a key that does not scatter".into()]);
         }
         self.wrong_correlations(&mut wrong);
         self.wrong_fragility(&mut wrong);
@@ -336,7 +349,7 @@ impl ReliabilityPlan {
         for (number, value) in fragility.values.iter().enumerate() {
             let amount = Amount::of(value).filter(|amount| amount.unit == input.unit);
             if amount.is_none_or(|amount| !input.of.score(amount.value).is_finite()) {
-                let found = as_typed(value);
+                let found = shown(&node(value));
                 let allowed =
                     format!("found {found}, allowed a value of its distribution with the unit {}", input.unit);
                 wrong.push([format!("fragility.values.{number}"), allowed]);

@@ -33,6 +33,18 @@ pub fn with_widest<W: Work>(work: W) -> W::Output {
     work.run::<Plain>()
 }
 
+/// The vectors that work is done with here, by their name.
+pub fn instructions() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::is_x86_feature_detected as has;
+        if has!("avx2") {
+            return if has!("avx512f") && has!("avx512vl") { "AVX-512" } else { "AVX2" };
+        }
+    }
+    "none"
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx2")]
 fn with_avx512<W: Work>(work: W) -> W::Output {

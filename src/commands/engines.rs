@@ -1,0 +1,82 @@
+//! Where the runs of a study are made: by this program side by side, by lines for a shell, or by a scheduler that exists. None of them is a
+//! scheduler of its own: a run is a command that is safe to give twice, and its result is kept by what it hangs on.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// An engine by its name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Engine {
+    /// This machine's cores
+    #[default]
+    Local,
+    /// HyperQueue, by its Python client; a server that runs, or one of this machine
+    #[value(name = "hyperqueue")]
+    HyperQueue,
+    /// Slurm, as an array of jobs
+    Slurm,
+}
+
+const HYPERQUEUE: &str = include_str!("../../templates/engines/hyperqueue.py");
+const SLURM: &str = include_str!("../../templates/engines/slurm.sh");
+
+/// Tasks of an array at the most: what Slurm allows without being told.
+const LARGEST_ARRAY: usize = 1000;
+
+/// Text as one word of a shell.
+pub fn word(text: &str) -> String {
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "/._-+=:,@%".contains(letter);
+    if !text.is_empty() && text.chars().all(plain) {
+        text.to_string()
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
+}
+
+/// Gives the lines to an engine and waits until it has done with them. Which of them succeeded is told by what is kept.
+pub fn give(engine: Engine, lines: &[String], folder: &Path) -> Result<(), String> {
+    let put = |name: &str, text: &str| -> io::Result<PathBuf> {
+        let place = folder.join(name);
+        std::fs::write(&place, text)?;
+        Ok(place)
+    };
+    let failed = |error: io::Error| format!("the runs could not be given to the engine: {error}");
+    let list = put("runs.txt", &(lines.join("\n") + "\n")).map_err(failed)?;
+    let mut command = match engine {
+        Engine::Local => return Ok(()),
+        Engine::HyperQueue => {
+            let mut command = Command::new("python3");
+            command.arg(put("hyperqueue.py", HYPERQUEUE).map_err(failed)?).arg(&list);
+            command
+        }
+        Engine::Slurm => {
+            let tasks = lines.len().clamp(1, LARGEST_ARRAY);
+            let mut command = Command::new("sbatch");
+            let array = format!("--array=0-{}", tasks - 1);
+            command.args(["--wait", "--quiet", "--ntasks=1", "--cpus-per-task=1", "--output=/dev/null", &array]);
+            command.arg(put("slurm.sh", SLURM).map_err(failed)?).arg(&list).arg(tasks.to_string());
+            command
+        }
+    };
+    let program = command.get_program().to_string_lossy().into_owned();
+    let status = command.status().map_err(|error| format!("{program} could not be started: {error}"))?;
+    // A task that failed leaves nothing kept, which is told when results are gathered.
+    if !status.success() {
+        crate::terminal::warn(format_args!("note: {program} ended with {status}"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_of_a_shell_stays_one() {
+        assert_eq!(word("/a/b-c_1.yaml"), "/a/b-c_1.yaml");
+        assert_eq!(word("a b"), "'a b'");
+        assert_eq!(word("it's $HOME"), r"'it'\''s $HOME'");
+        assert_eq!(word(""), "''");
+    }
+}
