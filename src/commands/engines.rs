@@ -5,6 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::report::folder::OF_ENGINES;
+
 /// An engine by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Engine {
@@ -18,8 +20,8 @@ pub enum Engine {
     Slurm,
 }
 
-const HYPERQUEUE: &str = include_str!("../../templates/engines/hyperqueue.py");
-const SLURM: &str = include_str!("../../templates/engines/slurm.sh");
+const HYPERQUEUE: &str = include_str!("../../templates/engines/on_hyperqueue.py");
+const SLURM: &str = include_str!("../../templates/engines/on_slurm.sh");
 
 /// Tasks of an array at the most: what Slurm allows without being told.
 const LARGEST_ARRAY: usize = 1000;
@@ -36,18 +38,19 @@ pub fn word(text: &str) -> String {
 
 /// Gives the lines to an engine and waits until it has done with them. Which of them succeeded is told by what is kept.
 pub fn give(engine: Engine, lines: &[String], folder: &Path) -> Result<(), String> {
+    let [list, hyperqueue, slurm] = OF_ENGINES;
     let put = |name: &str, text: &str| -> io::Result<PathBuf> {
         let place = folder.join(name);
         std::fs::write(&place, text)?;
         Ok(place)
     };
     let failed = |error: io::Error| format!("the runs could not be given to the engine: {error}");
-    let list = put("runs.txt", &(lines.join("\n") + "\n")).map_err(failed)?;
+    let list = put(list, &(lines.join("\n") + "\n")).map_err(failed)?;
     let mut command = match engine {
         Engine::Local => return Ok(()),
         Engine::HyperQueue => {
             let mut command = Command::new("python3");
-            command.arg(put("hyperqueue.py", HYPERQUEUE).map_err(failed)?).arg(&list);
+            command.arg(put(hyperqueue, HYPERQUEUE).map_err(failed)?).arg(&list);
             command
         }
         Engine::Slurm => {
@@ -55,7 +58,7 @@ pub fn give(engine: Engine, lines: &[String], folder: &Path) -> Result<(), Strin
             let mut command = Command::new("sbatch");
             let array = format!("--array=0-{}", tasks - 1);
             command.args(["--wait", "--quiet", "--ntasks=1", "--cpus-per-task=1", "--output=/dev/null", &array]);
-            command.arg(put("slurm.sh", SLURM).map_err(failed)?).arg(&list).arg(tasks.to_string());
+            command.arg(put(slurm, SLURM).map_err(failed)?).arg(&list).arg(tasks.to_string());
             command
         }
     };

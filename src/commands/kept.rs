@@ -12,10 +12,9 @@ use sha2::Digest;
 
 use crate::commands::input;
 use crate::container::{seal, unseal};
-use crate::report::folder::{KEPT_BY_STUDIES, create, inner};
+use crate::report::folder::{KEPT_BY_STUDIES, OF_A_RESULT, create, inner};
 use crate::report::manifest::hexadecimal;
 
-const NAME: &[u8; 8] = b"bc-study";
 const FORMAT: u32 = 1;
 
 /// Bytes of a result at the most.
@@ -42,7 +41,7 @@ impl KeptResults {
     /// What was kept of a result; nothing where it was not, or where the file is not what was written.
     pub fn get<T: DeserializeOwned>(&self, of: &[&[u8]]) -> Option<T> {
         let bytes = input::read(&self.place(of), LARGEST, b"").ok()?;
-        postcard::from_bytes(unseal(NAME, FORMAT, &bytes).ok()?).ok()
+        postcard::from_bytes(unseal(OF_A_RESULT, FORMAT, &bytes).ok()?).ok()
     }
 
     /// Keeps a result.
@@ -53,10 +52,12 @@ impl KeptResults {
         std::fs::create_dir_all(&self.folder)?;
         // First beside it, so that nobody reads half a result; under a name of its own, as another may keep the same result at the same time.
         let half = place.with_extension(format!("{:016x}.tmp", fastrand::u64(..)));
-        create(&half, &seal(NAME, FORMAT, &body)).and_then(|()| std::fs::rename(&half, &place)).map_err(|error| {
-            let _ = std::fs::remove_file(&half);
-            io::Error::new(error.kind(), format!("{}: {error}", half.display()))
-        })
+        create(&half, &seal(OF_A_RESULT, FORMAT, &body)).and_then(|()| std::fs::rename(&half, &place)).map_err(
+            |error| {
+                let _ = std::fs::remove_file(&half);
+                io::Error::new(error.kind(), format!("{}: {error}", half.display()))
+            },
+        )
     }
 
     /// The name of a result.

@@ -77,6 +77,7 @@ pub fn reliability(plan: &ReliabilityPlan, beside: &Path, mut folder: Folder) ->
         asked: &asked,
         assessed: &assessed,
         answer,
+        doubts: &states.tally.doubts(),
         took: started.elapsed().as_secs_f64(),
     };
     put(&mut folder, &files(&told).map_err(|error| error.to_string())?)?;
@@ -127,7 +128,10 @@ fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> 
                 "the study was interrupted; what has been simulated is kept, and it goes on there when it runs again"
                     .into(),
             ),
-            Err(_) => Ok(None),
+            Err(error) => {
+                states.tally.doubt(error.to_string());
+                Ok(None)
+            }
         }
     };
     let medians = vec![0.0; states.inputs.len()];

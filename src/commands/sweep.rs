@@ -60,6 +60,14 @@ impl<'a> Sweep<'a> {
         self.sites.len() * self.ways
     }
 
+    /// Runs that one task of an engine makes: a scheduler takes longer over a task than the equations over a design.
+    fn at_once(&self) -> usize {
+        match self.plan.by {
+            By::Equations => 100,
+            By::Simulation => 1,
+        }
+    }
+
     fn changes(&self, run: usize) -> Changes {
         self.plan.changes(&self.choices, run % self.ways)
     }
@@ -163,8 +171,8 @@ pub fn sweep(
     }
     if *mode == Mode::List {
         let sweep = Sweep::read(plan, beside, folder)?;
-        let missing = (0..sweep.count()).filter(|run| sweep.kept(*run).is_none());
-        for line in lines(&sweep, missing, file, folder)? {
+        let missing: Vec<usize> = (0..sweep.count()).filter(|run| sweep.kept(*run).is_none()).collect();
+        for line in lines(&sweep, &missing, file, folder, 1)? {
             // Nobody reads on.
             if !terminal::say(line) {
                 break;
@@ -182,7 +190,7 @@ pub fn sweep(
             made.into_iter().collect::<Result<(), String>>()?;
         }
         Mode::On(engine) => {
-            let lines = lines(&sweep, missing.into_iter(), file, claimed.path())?;
+            let lines = lines(&sweep, &missing, file, claimed.path(), sweep.at_once())?;
             if !lines.is_empty() {
                 give(*engine, &lines, &sweep.kept.folder())?;
             }
@@ -192,12 +200,17 @@ pub fn sweep(
     gather(&sweep, &mut claimed)
 }
 
-/// A command for each run, which a shell, a scheduler or a person may give, once or twice, here or on another machine that sees the folder.
-fn lines(sweep: &Sweep, runs: impl Iterator<Item = usize>, file: &Path, folder: &Path) -> Result<Vec<String>, Failure> {
+/// Commands that make so many runs each, which a shell, a scheduler or a person may give, once or twice, here or on another machine that sees the
+/// folder.
+fn lines(sweep: &Sweep, runs: &[usize], file: &Path, folder: &Path, each: usize) -> Result<Vec<String>, Failure> {
     let program = std::env::current_exe()?;
     let (file, folder) = (std::path::absolute(file)?, std::path::absolute(folder)?);
     let [program, file, folder] = [&program, &file, &folder].map(|path| word(&path.to_string_lossy()));
-    Ok(runs.map(|run| format!("{program} study {file} --out {folder} --only {}", sweep.id(run))).collect())
+    let line = |runs: &[usize]| {
+        let ids: Vec<String> = runs.iter().map(|run| sweep.id(*run)).collect();
+        format!("{program} study {file} --out {folder} --only {}", ids.join(" "))
+    };
+    Ok(runs.chunks(each).map(line).collect())
 }
 
 /// Makes runs by their names.

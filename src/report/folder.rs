@@ -27,6 +27,12 @@ const LARGEST: u64 = 4 << 30;
 /// Folder of what a study has computed so far, below that of its report.
 pub const KEPT_BY_STUDIES: &str = "kept";
 
+/// With which every result that a study keeps begins.
+pub const OF_A_RESULT: &[u8; 8] = b"bc-study";
+
+/// What lies beside them for the engines that make runs: the list of runs, and what hands it to HyperQueue and to Slurm.
+pub const OF_ENGINES: [&str; 3] = ["runs.txt", "on_hyperqueue.py", "on_slurm.sh"];
+
 /// What the program puts into a folder besides the files of a report.
 pub const OWN_NAMES: [&str; 4] = [manifest::FILE, lock::FILE, checkpoint::FOLDER, KEPT_BY_STUDIES];
 
@@ -227,13 +233,25 @@ impl Folder {
         if fs::symlink_metadata(&place).is_ok() {
             foreign.push(manifest::FILE.to_string());
         }
+        let results = self.keeps_results();
         foreign.retain(|name| (name != recording::FILE || recorded.is_none()) && (name != checkpoint::FOLDER || !kept));
+        foreign.retain(|name| name != KEPT_BY_STUDIES || !results);
         if !foreign.is_empty() {
             return Err(Refusal::Foreign(self.path.display().to_string(), listed(&foreign)));
         }
         let files = recorded.map(|digest| (recording::FILE.to_string(), digest)).into_iter().collect();
         self.manifest = Manifest { files, ..Manifest::default() };
         Ok(())
+    }
+
+    /// Whether runs of a study have been kept here before its page was written, as workers on other machines do.
+    fn keeps_results(&self) -> bool {
+        let Ok(kept) = inner(&self.path, KEPT_BY_STUDIES) else { return false };
+        let mut files = fs::read_dir(kept).into_iter().flatten().flatten().map(|entry| entry.path());
+        let of_engines =
+            |file: &Path| file.file_name().is_some_and(|name| OF_ENGINES.iter().any(|known| name == *known));
+        let half = |file: &Path| file.extension().is_some_and(|end| end == "tmp");
+        files.all(|file| starts_with(&file, OF_A_RESULT) || half(&file) || of_engines(&file))
     }
 
     /// What lies in the folder besides the lock, the manifest and what a killed program has left.

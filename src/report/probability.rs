@@ -35,6 +35,8 @@ pub struct Told<'a> {
     pub asked: &'a Asked,
     pub assessed: &'a Assessed,
     pub answer: Answer,
+    /// Why simulations could not be relied on.
+    pub doubts: &'a [String],
     /// Wall-clock time (s).
     pub took: f64,
 }
@@ -241,8 +243,9 @@ fn notes(told: &Told) -> Vec<String> {
     }
     if assessed.lost() > 0 {
         notes.push(format!(
-            "Simulations that could not be relied on: {}. What happens in events like these is not known; the upper end of the interval takes all of them as failures.",
-            assessed.lost()
+            "Simulations that could not be relied on: {}. What happens in events like these is not known; the upper end of the interval takes all of them as failures. Why, for example: {}.",
+            assessed.lost(),
+            told.doubts.iter().take(3).map(String::as_str).collect::<Vec<_>>().join("; ")
         ));
     }
     if let Way::Simulations(learned) = &assessed.way

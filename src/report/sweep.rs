@@ -62,7 +62,9 @@ struct RowOfARun {
 
 /// Page, charts, and tables.
 pub fn files(swept: &Swept) -> Result<Vec<ReportFile>, Box<dyn std::error::Error>> {
-    let charts: Vec<Chart> = swept.choices.0.iter().enumerate().filter_map(|(key, _)| chart(swept, key)).collect();
+    let keys = 0..swept.choices.0.len();
+    let charts: Vec<Chart> =
+        keys.flat_map(|key| SHOWN.iter().filter_map(move |shown| chart(swept, key, shown))).collect();
     let page = Page {
         name: swept.plan.name.clone(),
         designs: (0..swept.plan.designs.len()).map(|design| name_of(swept, design)).collect(),
@@ -135,7 +137,7 @@ fn row(swept: &Swept, run: usize) -> RowOfARun {
 }
 
 /// The largest force by the simulation, among what is measured.
-const PEAK: &str = "total_force_peak_n";
+const PEAK: &str = "force_total_peak_n";
 
 fn measured(ran: &Ran, name: &str) -> Option<f64> {
     ran.measured.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
@@ -153,9 +155,41 @@ fn numbers(swept: &Swept, key: usize) -> Option<(Vec<f64>, String)> {
     (alike && rising).then_some((values, unit))
 }
 
-/// What the checks use along one key, a line for each design: the mean over all values of the other keys.
-fn chart(swept: &Swept, key: usize) -> Option<Chart> {
-    const TITLES: [&str; 6] = ["Key 1", "Key 2", "Key 3", "Key 4", "Key 5", "Key 6"];
+/// What a chart shows of a run.
+struct Shown {
+    title: &'static str,
+    /// Of the first keys; more charts are not drawn.
+    titles: [&'static str; 4],
+    unit: &'static str,
+    factor: f64,
+    limit: Option<f64>,
+    of: fn(&Ran) -> Option<f64>,
+    note: &'static str,
+}
+
+const SHOWN: [Shown; 2] = [
+    Shown {
+        title: "Largest utilisation",
+        titles: ["Utilisation, key 1", "Utilisation, key 2", "Utilisation, key 3", "Utilisation, key 4"],
+        unit: "%",
+        factor: 100.0,
+        limit: Some(1.0),
+        of: |ran| ran.used_in_the_event,
+        note: "Largest utilisation of the checks that hang on the event",
+    },
+    Shown {
+        title: "Largest force",
+        titles: ["Force, key 1", "Force, key 2", "Force, key 3", "Force, key 4"],
+        unit: "kN",
+        factor: 1e-3,
+        limit: None,
+        of: |ran| measured(ran, PEAK).or(ran.guideline_force),
+        note: "Largest force on the barrier",
+    },
+];
+
+/// What runs show along one key, a line for each design: the mean over all values of the other keys.
+fn chart(swept: &Swept, key: usize, shown: &Shown) -> Option<Chart> {
     let (values, unit) = numbers(swept, key)?;
     let choice = &swept.choices.0[key];
     let of_design = |design: usize| -> Option<Vec<f64>> {
@@ -163,36 +197,39 @@ fn chart(swept: &Swept, key: usize) -> Option<Chart> {
             let label = &choice.options[option].label;
             let runs =
                 (design * swept.ways..(design + 1) * swept.ways).filter(|run| labels(swept, *run)[key] == *label);
-            let used: Vec<f64> =
-                runs.filter_map(|run| swept.runs[run].as_ref()?.used).filter(|used| used.is_finite()).collect();
-            (!used.is_empty()).then(|| used.iter().sum::<f64>() / used.len() as f64)
+            let known: Vec<f64> = runs.filter_map(|run| (shown.of)(swept.runs[run].as_ref()?)).collect();
+            let known: Vec<f64> = known.into_iter().filter(|value| value.is_finite()).collect();
+            (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
         };
         (0..values.len()).map(at).collect()
     };
-    let lines: Vec<(usize, Vec<f64>)> =
-        (0..swept.plan.designs.len().min(6)).filter_map(|design| Some((design, of_design(design)?))).collect();
+    let designs = 0..swept.plan.designs.len().min(MOST_LINES);
+    let lines: Vec<(usize, Vec<f64>)> = designs.filter_map(|design| Some((design, of_design(design)?))).collect();
     if lines.is_empty() {
         return None;
     }
     let series = lines
         .iter()
-        .map(|(design, values)| Series { label: name_of(swept, *design), values, colour: design % 6 })
+        .map(|(design, values)| Series { label: name_of(swept, *design), values, colour: design % MOST_LINES })
         .collect();
     let along = format!("{} ({unit})", choice.name.rsplit('.').next().unwrap_or("").replace('_', " "));
     let drawn = LineChart {
-        title: "Largest utilisation",
-        unit: "%",
-        factor: 100.0,
+        title: shown.title,
+        unit: shown.unit,
+        factor: shown.factor,
         along: &along,
         time: &values,
         series,
-        levels: vec![Level { label: "limit".into(), value: 1.0 }],
+        levels: shown.limit.map(|value| Level { label: "limit".into(), value }).into_iter().collect(),
         band: None,
     };
     let others = if swept.choices.0.len() > 1 { ", the mean over the values of the other keys" } else { "" };
-    let note = format!("Largest utilisation of the checks along {}{others}; one line for each design.", choice.name);
-    Some(Chart::of(TITLES.get(key)?, drawn.svg(), note))
+    let note = format!("{} along {}{others}; one line for each design.", shown.note, choice.name);
+    Some(Chart::of(shown.titles.get(key)?, drawn.svg(), note))
 }
+
+/// Designs that a chart can tell apart.
+const MOST_LINES: usize = 6;
 
 /// A name that CSV and Parquet take.
 fn column_name(text: &str) -> String {

@@ -45,6 +45,8 @@ pub struct Tally {
     refused: Mutex<BTreeMap<String, usize>>,
     /// Samples in which the formula of a check was used outside its range.
     outside: AtomicUsize,
+    /// Why simulations could not be relied on.
+    doubts: Mutex<Vec<String>>,
 }
 
 impl Tally {
@@ -52,6 +54,21 @@ impl Tally {
     pub fn take(&self) -> (BTreeMap<String, usize>, usize) {
         let refused = self.refused.lock().map(|mut refused| std::mem::take(&mut *refused)).unwrap_or_default();
         (refused, self.outside.swap(0, Ordering::Relaxed))
+    }
+
+    /// Takes down why a simulation could not be relied on.
+    pub fn doubt(&self, why: String) {
+        if let Ok(mut doubts) = self.doubts.lock() {
+            doubts.push(why);
+        }
+    }
+
+    /// Why simulations could not be relied on, each reason once.
+    pub fn doubts(&self) -> Vec<String> {
+        let mut doubts = self.doubts.lock().map(|doubts| doubts.clone()).unwrap_or_default();
+        doubts.sort();
+        doubts.dedup();
+        doubts
     }
 }
 
@@ -159,10 +176,13 @@ impl LimitStates<'_> {
 
     /// The same by a simulation of a design; nothing where it cannot be relied on. What the simulation does not show is by the equations.
     pub fn by_simulation(&self, design: &Design, simulated: &Simulated, checks: &[Judged]) -> Option<Vec<f64>> {
-        let reliable = simulated.numerics.broke_down.is_none()
-            && simulated.doubts.is_empty()
-            && arriving::doubts(design, simulated).is_empty();
-        let used = reliable.then(|| self.used(design, Some(simulated), checks))?;
+        let numerics = simulated.numerics.broke_down.iter().map(|broke| format!("{broke:?}"));
+        let doubts = numerics.chain(simulated.doubts.iter().cloned()).chain(arriving::doubts(design, simulated)).next();
+        if let Some(doubt) = doubts {
+            self.tally.doubt(doubt);
+            return None;
+        }
+        let used = self.used(design, Some(simulated), checks);
         used.iter().all(|used| !used.is_nan()).then_some(used)
     }
 }

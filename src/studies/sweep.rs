@@ -17,6 +17,8 @@ pub struct Ran {
     /// The check that uses most of what it has, and how much.
     pub governing: String,
     pub used: Option<f64>,
+    /// The same without checks that hold parts against each other, whatever the event.
+    pub used_in_the_event: Option<f64>,
     pub checks: Vec<CheckRan>,
     /// Largest force of the guideline (N).
     pub guideline_force: Option<f64>,
@@ -44,6 +46,7 @@ impl Ran {
     /// What a run came to.
     pub fn of(run: &Run) -> Self {
         let governing = most_used(&run.outcomes);
+        let of_the_event: Vec<Outcome> = run.outcomes.iter().filter(|outcome| !outcome.of_parts).cloned().collect();
         let why = run.doubts.first().cloned().or_else(|| first_open(&run.outcomes));
         let check = |outcome: &Outcome| CheckRan {
             id: outcome.id.clone(),
@@ -64,6 +67,7 @@ impl Ran {
             why: why.unwrap_or_default(),
             governing: governing.map_or(String::new(), |(_, outcome)| outcome.title.clone()),
             used: governing.map(|(used, _)| used),
+            used_in_the_event: most_used(&of_the_event).map(|(used, _)| used),
             checks: run.outcomes.iter().map(check).collect(),
             guideline_force: Some(run.guideline.face_force),
             measured: measured.collect(),
