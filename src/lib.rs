@@ -51,6 +51,9 @@
 //! | a row of the report | [`report::findings`] (simulation), [`report::reliability`] (how far it can be relied on), [`report::loads`] (equations), [`report::holding`] (what the barrier holds and how high it must be), [`report::statements`] (assumptions); [`report::view`] gathers them, the templates loop over them |
 //! | a rung of the ladder | [`fidelity::ladder::RUNGS`] |
 //! | a kind of study | its plan in a file of [`studies`] and a line in `studies::plan`, what runs it in a file of [`commands`], its page in [`report`] |
+//! | a distribution of an input | a variant of [`reliability::distribution::Distribution`], its key in `studies::reliability_plan`, its word in `report::probability` |
+//! | a method that works out a probability | a file in [`reliability`], its use in [`studies::reliability`], what the page says of it in `report::probability` |
+//! | an engine that makes runs | a variant of [`commands::engines::Engine`] and its script in `templates/engines` |
 //! | a quantity that a price stands on | [`studies::bill::Measure`] |
 //! | a lattice of meshes or rings | a variant of [`lattice::Lattice`] |
 //! | a knob to study | a variant and its lines in [`studies::knobs`] |

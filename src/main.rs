@@ -6,13 +6,13 @@ use std::time::Duration;
 
 use barrier_check::commands::check::{MOST_STARTS, Options, check, dry_run, loads, resume};
 use barrier_check::commands::compare::compare;
-use barrier_check::commands::engines::Engine;
+use barrier_check::commands::engines::{Engine, Mode};
 use barrier_check::commands::report::report;
-use barrier_check::commands::schema::{design_schema, result_schema};
-use barrier_check::commands::study::{Mode, study};
+use barrier_check::commands::schema::SchemaOf;
+use barrier_check::commands::study::study;
 use barrier_check::commands::validate::{Selection, validate};
 use barrier_check::terminal;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 
 /// Checks a debris-flow barrier: guideline loads, granular-flow simulation, limits, report.
 #[derive(Parser)]
@@ -125,7 +125,7 @@ enum Command {
     },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
-    /// Makes many runs and what follows from them: the cheapest barrier that passes, what a choice of the model costs, where steps break
+    /// Makes many runs and what follows from them: a table over values of keys, the cheapest barrier that passes, the probability that it fails, what a choice of the model costs, where steps break
     Study {
         /// Study file in YAML, for example designs/studies/size_gully.yaml
         file: PathBuf,
@@ -179,12 +179,6 @@ struct ValidateArguments {
     out: PathBuf,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum SchemaOf {
-    Design,
-    Result,
-}
-
 /// Bytes of stack that the program needs, whatever the shell allows the first thread.
 const STACK: usize = 16 << 20;
 
@@ -223,11 +217,7 @@ fn run() -> i32 {
     };
     match arguments.command {
         Some(Command::Schema { of }) => {
-            let schema = match of {
-                SchemaOf::Design => design_schema(),
-                SchemaOf::Result => result_schema(),
-            };
-            if terminal::say(format_args!("{schema:#}")) {
+            if terminal::say(format_args!("{:#}", of.schema())) {
                 0
             } else {
                 terminal::warn("error: the schema could not be written to standard output");

@@ -25,7 +25,13 @@ fn study(folder: &Path, plan: &str, threads: &str) -> Output {
 
 fn json(folder: &Path) -> serde_json::Value {
     let text = std::fs::read_to_string(folder.join("found/reliability.json")).expect("a result");
-    serde_json::from_str(&text).expect("JSON")
+    let json = serde_json::from_str(&text).expect("JSON");
+    let schema =
+        Command::new(env!("CARGO_BIN_EXE_barrier-check")).args(["schema", "reliability"]).output().expect("it runs");
+    let schema = serde_json::from_slice(&schema.stdout).expect("a schema");
+    let valid = jsonschema::validator_for(&schema).expect("a schema");
+    valid.validate(&json).unwrap_or_else(|error| panic!("{error}"));
+    json
 }
 
 fn said(ran: &Output) -> String {

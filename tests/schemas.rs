@@ -107,7 +107,7 @@ fn the_schemas_are_plain() {
             _ => {}
         }
     }
-    for of in ["design", "result"] {
+    for of in ["design", "result", "size", "reliability", "sweep"] {
         let schema = schema(of);
         assert_eq!(schema["$schema"], json!("http://json-schema.org/draft-07/schema#"));
         walk(&schema, &mut |map| {

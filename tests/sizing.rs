@@ -92,6 +92,10 @@ fn the_equations_alone_end_undecided() {
         .expect("a plan");
     let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
     assert_eq!(ran.status.code(), Some(2), "{}", text(&ran.stderr));
+    let json = std::fs::read_to_string(here.join("found/size.json")).expect("a result");
+    let schema = barrier_check(&here, &["schema", "size"]).stdout;
+    let [json, schema] = [json.as_bytes(), &schema].map(|text| serde_json::from_slice(text).expect("JSON"));
+    jsonschema::validator_for(&schema).expect("a schema").validate(&json).unwrap_or_else(|error| panic!("{error}"));
     let page = std::fs::read_to_string(here.join("found/size.md")).expect("a page");
     assert!(page.contains("that the equations do not refute"), "{page}");
     assert!(page.contains("| 99 % | none passes |"), "{page}");

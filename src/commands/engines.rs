@@ -20,6 +20,19 @@ pub enum Engine {
     Slurm,
 }
 
+/// What is done with the runs of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Those that are not kept are made, and the page is written.
+    On(Engine),
+    /// A command for each that is not kept is printed.
+    List,
+    /// The page of those that are kept is written.
+    Collect,
+    /// Those with these names are made.
+    Only(Vec<String>),
+}
+
 const HYPERQUEUE: &str = include_str!("../../templates/engines/on_hyperqueue.py");
 const SLURM: &str = include_str!("../../templates/engines/on_slurm.sh");
 

@@ -1,20 +1,51 @@
-//! `barrier-check schema`: JSON Schemas of the design file and of `result.json`.
+//! `barrier-check schema`: JSON Schemas of the design file and of what the program writes for other programs.
 
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
 use crate::design::key::{Key, Kind, Need};
 use crate::design::schema::{DESIGN, EITHER, Either};
 use crate::report::json::ResultFile;
+use crate::report::probability_json::ReliabilityFile;
+use crate::report::size::SizeFile;
+use crate::report::sweep::SweepFile;
 use crate::units::Dimension;
 
 /// The draft that validators know without being told.
 const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
 
-/// Schema of `result.json`.
-pub fn result_schema() -> Value {
+/// What a schema is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum SchemaOf {
+    /// A design file
+    Design,
+    /// result.json of a run
+    Result,
+    /// size.json of a study
+    Size,
+    /// reliability.json of a study
+    Reliability,
+    /// sweep.json of a study
+    Sweep,
+}
+
+impl SchemaOf {
+    pub fn schema(self) -> Value {
+        match self {
+            Self::Design => design_schema(),
+            Self::Result => of_a_file::<ResultFile>(),
+            Self::Size => of_a_file::<SizeFile>(),
+            Self::Reliability => of_a_file::<ReliabilityFile>(),
+            Self::Sweep => of_a_file::<SweepFile>(),
+        }
+    }
+}
+
+/// Schema of a file that the program writes.
+fn of_a_file<T: JsonSchema>() -> Value {
     let generator = SchemaSettings::draft07().into_generator();
-    let mut schema = generator.into_root_schema_for::<ResultFile>().to_value();
+    let mut schema = generator.into_root_schema_for::<T>().to_value();
     plain(&mut schema);
     schema
 }
@@ -37,7 +68,7 @@ fn plain(schema: &mut Value) {
 }
 
 /// Schema of the design file, from the same tables that reading uses.
-pub fn design_schema() -> Value {
+fn design_schema() -> Value {
     let mut schema = section(DESIGN);
     schema["$schema"] = json!(DRAFT);
     schema["title"] = json!("barrier-check design");

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::check::load;
-use crate::commands::engines::Engine;
+use crate::commands::engines::{Engine, Mode};
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::output::{put, tell_of_replaced};
@@ -30,19 +30,6 @@ use crate::studies::speed_accuracy::{Point, Setting, Task, make, tasks};
 use crate::studies::stability::{Mapped, map};
 use crate::studies::stability_scenes::SCENES;
 use crate::terminal;
-
-/// What is done with the runs of a study.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// Those that are not kept are made, and the page is written.
-    On(Engine),
-    /// A command for each that is not kept is printed.
-    List,
-    /// The page of those that are kept is written.
-    Collect,
-    /// Those with these names are made.
-    Only(Vec<String>),
-}
 
 /// Runs what is not kept yet, and writes the page below `out`.
 pub fn study(path: &Path, out: Option<&Path>, mode: &Mode) -> ExitCode {

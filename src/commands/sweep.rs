@@ -5,12 +5,11 @@ use std::time::Instant;
 
 use sha2::Digest;
 
-use crate::commands::engines::{Engine, give, word};
+use crate::commands::engines::{Engine, Mode, give, word};
 use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::output::put;
 use crate::commands::signals::{listen, stop};
-use crate::commands::study::Mode;
 use crate::commands::{ExitCode, Failure};
 use crate::design::changes::Changes;
 use crate::design::entries::Purpose;
@@ -28,7 +27,6 @@ use crate::studies::size_plan::By;
 use crate::studies::sweep::Ran;
 use crate::studies::sweep_plan::SweepPlan;
 use crate::terminal;
-use dem::simd::widest::instructions;
 
 /// A design of the study.
 struct Site {
@@ -99,9 +97,7 @@ impl<'a> Sweep<'a> {
             return Ok(());
         }
         let started = Instant::now();
-        let mut ran = self.ran(run)?;
-        ran.took = started.elapsed().as_secs_f64();
-        ran.instructions = instructions().into();
+        let ran = self.ran(run)?.made_in(started.elapsed().as_secs_f64());
         let (digest, changes) = self.of(run);
         let kept = self.kept.put(&[&digest, changes.as_bytes()], &ran);
         kept.map_err(|error| format!("a result could not be kept: {error}"))

@@ -1,6 +1,7 @@
 //! The report: HTML and Markdown for people, JSON and CSV for programs. Computes no engineering number.
 
 pub(crate) mod anchors;
+pub(crate) mod assessment;
 pub(crate) mod chart;
 pub(crate) mod columns;
 pub(crate) mod compare;

@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
-use crate::design::read::DesignFile;
 use crate::reliability::Probability;
-use crate::reliability::distribution::Distribution;
-use crate::reliability::form::DesignPoint;
+use crate::reliability::form::{DesignPoint, NoPoint};
 use crate::reliability::normal::quantile;
+use crate::report::assessment::{Told, distribution};
 use crate::report::chart::Chart;
 use crate::report::folder::ReportFile;
 use crate::report::numbers::{figures, percent};
@@ -15,31 +14,12 @@ use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::probability_json::json;
 use crate::report::render::{Rendered, render_as};
 use crate::studies::amount::{Amount, shown as shown_value};
-use crate::studies::limit_states::Asked;
 use crate::studies::reliability::{Answer, Assessed, OfCheck, Way};
-use crate::studies::reliability_plan::{FactorsWish, Input, ReliabilityPlan};
+use crate::studies::reliability_plan::{FactorsWish, Input};
 use crate::studies::size_plan::By;
 
 const HTML: &str = include_str!("../../templates/reliability.html");
 const MARKDOWN: &str = include_str!("../../templates/reliability.md");
-
-/// What the page tells of.
-pub struct Told<'a> {
-    pub plan: &'a ReliabilityPlan,
-    pub inputs: &'a [Input],
-    /// Without any change.
-    pub design: &'a DesignFile,
-    /// Values of the inputs at standard normal numbers, and their weights from those of these numbers.
-    pub values: &'a dyn Fn(&[f64]) -> Vec<f64>,
-    pub weights: &'a dyn Fn(&[f64]) -> Vec<f64>,
-    pub asked: &'a Asked,
-    pub assessed: &'a Assessed,
-    pub answer: Answer,
-    /// Why simulations could not be relied on.
-    pub doubts: &'a [String],
-    /// Wall-clock time (s).
-    pub took: f64,
-}
 
 #[derive(Serialize)]
 struct Page {
@@ -283,7 +263,9 @@ fn form_disagrees(check: &OfCheck) -> Option<String> {
 fn row_of(check: &OfCheck) -> [String; 6] {
     let [beta, by_form] = match &check.point {
         Ok(point) => [format!("{:.2}", point.index), shown(point.probability())],
-        Err(why) => [why.words().to_string(), "–".into()],
+        // Beyond ten standard deviations.
+        Err(NoPoint::TooFar) => ["> 10".into(), "–".into()],
+        Err(_) => ["–".into(), "–".into()],
     };
     [
         check.check.title.clone(),
@@ -370,7 +352,7 @@ fn charts(told: &Told) -> Vec<Chart> {
         let along = format!("{} ({})", words(&input.key), input.unit);
         let chart = LineChart {
             title: "Probability of failure",
-            unit: "probability",
+            unit: "–",
             factor: 1.0,
             along: &along,
             time: &values,
@@ -391,17 +373,6 @@ fn fragility(told: &Told) -> Vec<[String; 3]> {
     let unit = told.inputs.first().map_or("", |input| input.unit.as_str());
     let rows = told.plan.events().into_iter().zip(&told.assessed.fragility);
     rows.map(|(value, p)| [with_unit(value, unit), shown(p.value), interval(p)]).collect()
-}
-
-pub fn distribution(of: &Distribution) -> &'static str {
-    match of {
-        Distribution::Normal { .. } => "normal",
-        Distribution::Lognormal { .. } => "lognormal",
-        Distribution::Uniform { .. } => "uniform",
-        Distribution::Triangular { .. } => "triangular",
-        Distribution::Gumbel { .. } => "Gumbel, largest values",
-        Distribution::Table(_) => "table",
-    }
 }
 
 fn input_row(told: &Told, input: &Input) -> [String; 6] {

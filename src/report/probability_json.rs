@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::program::PROGRAM;
 use crate::reliability::Probability;
-use crate::report::probability::{Told, distribution};
+use crate::report::assessment::{Told, distribution};
 use crate::studies::reliability::{Answer, OfCheck};
 use crate::studies::reliability_plan::{FactorsWish, Input};
 use crate::studies::size_plan::By;

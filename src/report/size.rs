@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::design::Design;
@@ -292,34 +293,39 @@ fn table(sized: &Sized) -> String {
     text
 }
 
-/// The result for programs.
+/// `size.json`: the contract that other programs script against. Fields may be added, never renamed.
+#[derive(Serialize, JsonSchema)]
+pub struct SizeFile<'a> {
+    schema_version: u32,
+    name: &'a str,
+    design: String,
+    /// Names of the choices, in the order of each combination's `options`.
+    choices: Vec<&'a str>,
+    currency: &'a str,
+    margin: f64,
+    cheapest: Option<&'a Way>,
+    /// In the order of their price, those that are no designs last.
+    ways: Vec<JsonWay<'a>>,
+    front: Vec<JsonFront<'a>>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct JsonWay<'a> {
+    options: Vec<&'a str>,
+    #[serde(flatten)]
+    way: &'a Way,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct JsonFront<'a> {
+    margin: f64,
+    cheapest: Option<&'a Way>,
+}
+
 fn json(sized: &Sized) -> serde_json::Result<String> {
-    #[derive(Serialize)]
-    struct File<'a> {
-        schema_version: u32,
-        name: &'a str,
-        design: String,
-        choices: Vec<&'a str>,
-        currency: &'a str,
-        margin: f64,
-        cheapest: Option<&'a Way>,
-        ways: Vec<JsonWay<'a>>,
-        front: Vec<JsonFront<'a>>,
-    }
-    #[derive(Serialize)]
-    struct JsonWay<'a> {
-        options: Vec<&'a str>,
-        #[serde(flatten)]
-        way: &'a Way,
-    }
-    #[derive(Serialize)]
-    struct JsonFront<'a> {
-        margin: f64,
-        cheapest: Option<&'a Way>,
-    }
     let options =
         |way: &Way| sized.choices.options(way.number).into_iter().map(|option| option.label.as_str()).collect();
-    serde_json::to_string_pretty(&File {
+    serde_json::to_string_pretty(&SizeFile {
         schema_version: 1,
         name: sized.name,
         design: sized.design.display().to_string(),

@@ -78,7 +78,7 @@ const FEW: usize = 100;
 const LEVEL: usize = 1000;
 const REPEATS: usize = 10;
 /// Samples for the indices of each input, and those of one event.
-const OF_INDICES: usize = 500;
+const OF_INDICES: usize = 2000;
 const OF_EVENT: usize = 4000;
 /// A utilisation beyond this is taken as this where the variance is told: a wall that tips has no bound.
 const FAR_BEYOND: f64 = 5.0;

@@ -6,6 +6,7 @@
 //!
 //! Ways that differ in resistances alone move alike, and are simulated once ([`mechanics`]).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
@@ -27,7 +28,7 @@ pub struct Wanted {
 }
 
 /// What a way came to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "is")]
 pub enum Fate {
     /// It is no design.
@@ -54,7 +55,7 @@ pub enum Fate {
 }
 
 /// A way to put the choices together.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Way {
     /// Its number among all.
     pub number: usize,

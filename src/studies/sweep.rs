@@ -6,6 +6,7 @@ use crate::checks::outcome::{CheckVerdict, Outcome};
 use crate::pipeline::{Run, most_used};
 use crate::quantities::QUANTITIES;
 use crate::quantities::quantity::Of;
+use dem::simd::widest::instructions;
 
 /// What is kept of a run. The same wherever it ran, but for the time that it took and the instructions it used.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -41,6 +42,11 @@ impl Ran {
     /// One that came to nothing.
     pub fn nothing(verdict: &str, why: String) -> Self {
         Self { verdict: verdict.into(), why, ..Self::default() }
+    }
+
+    /// The same with how long it took (s), and with what instructions.
+    pub fn made_in(self, took: f64) -> Self {
+        Self { took, instructions: instructions().into(), ..self }
     }
 
     /// What a run came to.

@@ -18,8 +18,8 @@ pub struct Importance {
     pub rows: Vec<Row>,
 }
 
-const WIDTH: f64 = 760.0;
-const LABEL: f64 = 300.0;
+const WIDTH: f64 = 560.0;
+const LABEL: f64 = 170.0;
 const RIGHT: f64 = 60.0;
 const BAR: f64 = 11.0;
 const GAP: f64 = 9.0;
@@ -31,11 +31,11 @@ impl Importance {
         let row = BAR * self.of.len() as f64 + GAP;
         let height = TOP + row * self.rows.len() as f64;
         let mut out = format!(r#"<svg viewBox="0 0 {WIDTH} {height}" role="img" aria-label="">"#);
-        let mut along = LABEL;
+        let mut along = 8.0;
         for (number, word) in self.of.iter().enumerate() {
             let _ = write!(out, r#"<rect class="share s{number}" x="{along}" y="6" width="10" height="10"/>"#);
             let _ = write!(out, r#"<text class="tick" x="{}" y="15">{}</text>"#, along + 15.0, escape(word));
-            along += 40.0 + 6.5 * word.chars().count() as f64;
+            along += 30.0 + 6.3 * word.chars().count() as f64;
         }
         for (number, input) in self.rows.iter().enumerate() {
             let top = TOP + row * number as f64;

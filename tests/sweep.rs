@@ -1,0 +1,123 @@
+//! Designs over grids of values: the same results as runs by hand, wherever they are made.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const TINY: &str = include_str!("fixtures/tiny.yaml");
+const PLAN: &str = "kind: sweep
+name: grid
+designs: [tiny.yaml, other.yaml]
+by: equations
+vary:
+  - key: flow.arrival.surge.velocity
+    values: [3 m/s, 4.6 m/s, 6 m/s]
+  - key: factors.load
+    values: [1, 1.5]
+";
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("sweep").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join("tiny.yaml"), TINY).expect("a design");
+    std::fs::write(folder.join("other.yaml"), TINY.replace("bulk_density: 1400", "bulk_density: 1500"))
+        .expect("a design");
+    std::fs::write(folder.join("plan.yaml"), PLAN).expect("a plan");
+    folder
+}
+
+fn barrier_check(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_barrier-check")).args(arguments).current_dir(folder).output().expect("it runs")
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).expect(name)
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+#[test]
+fn every_run_is_that_of_the_design_with_its_values() {
+    let here = folder("by_hand");
+    assert!(TINY.contains("bulk_density: 1400") && TINY.contains("velocity: 4.6 m/s"));
+    let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
+    assert_eq!(ran.status.code(), Some(0), "{}", String::from_utf8_lossy(&ran.stderr));
+    let found = json(&read(&here, "found/sweep.json"));
+    let runs = found["runs"].as_array().expect("runs");
+    assert_eq!(runs.len(), 12);
+    let schema = json(&String::from_utf8_lossy(&barrier_check(&here, &["schema", "sweep"]).stdout));
+    let valid = jsonschema::validator_for(&schema).expect("a schema");
+    valid.validate(&found).unwrap_or_else(|error| panic!("{error}"));
+    // The last one by hand: the denser flow with 6 m/s and a factor of 1.5.
+    let by_hand = read(&here, "other.yaml").replace("velocity: 4.6 m/s", "velocity: 6 m/s");
+    let with_factor = by_hand.replace("load: 1.0", "load: 1.5");
+    assert_ne!(by_hand, with_factor);
+    std::fs::write(here.join("one.yaml"), with_factor).expect("a design");
+    barrier_check(&here, &["loads", "one.yaml", "--out", "one"]);
+    let one = json(&read(&here, "one/result.json"));
+    for check in one["checks"].as_array().expect("checks") {
+        let checks = runs[11]["checks"].as_array().expect("checks");
+        let same = checks.iter().find(|other| other["id"] == check["id"]).expect("the check");
+        assert_eq!(same["utilisation"], check["utilisation"], "{}", check["id"]);
+    }
+    assert_eq!((&runs[11]["design"], &runs[11]["values"]), (&"other".into(), &serde_json::json!(["6 m/s", "1.5"])));
+    let table = read(&here, "found/sweep.csv");
+    assert_eq!(table.lines().count(), 13);
+    assert!(table.starts_with("design,flow_arrival_surge_velocity,factors_load,verdict,"), "{table}");
+    assert!(read(&here, "found/sweep.html").contains("one line for each design"));
+}
+
+/// Listed, made by commands of their own, one of them twice, and gathered: nothing is made again, and the results are those made here.
+#[test]
+fn runs_that_are_made_elsewhere_are_gathered() {
+    let here = folder("elsewhere");
+    barrier_check(&here, &["study", "plan.yaml", "--out", "here"]);
+    let list = |out: &str| {
+        let ran = barrier_check(&here, &["study", "plan.yaml", "--out", out, "--list"]);
+        String::from_utf8(ran.stdout).expect("text").lines().map(String::from).collect::<Vec<_>>()
+    };
+    assert_eq!(list("here").len(), 0);
+    let lines = list("there");
+    assert_eq!(lines.len(), 12);
+    let make = |line: &String| Command::new("sh").args(["-c", line]).current_dir("/").status().expect("a shell");
+    lines[..5].iter().chain(&lines[..1]).for_each(|line| assert!(make(line).success()));
+    // Some are missing: the page says so, and the study has not ended well.
+    let part = barrier_check(&here, &["study", "plan.yaml", "--out", "there", "--collect"]);
+    let told = String::from_utf8_lossy(&part.stderr).into_owned();
+    assert!(part.status.code() == Some(2) && told.contains("7 of 12 runs are missing"), "{told}");
+    assert_eq!(list("there").len(), 7);
+    lines[5..].iter().for_each(|line| assert!(make(line).success()));
+    assert_eq!(barrier_check(&here, &["study", "plan.yaml", "--out", "there", "--collect"]).status.code(), Some(0));
+    assert_eq!(read(&here, "there/sweep.csv"), read(&here, "here/sweep.csv"));
+    // A run of a study that has changed since is refused.
+    std::fs::write(here.join("plan.yaml"), PLAN.replace("3 m/s", "3.1 m/s")).expect("a plan");
+    assert!(!make(&lines[0]).success());
+    // What does not change is not made again.
+    assert_eq!(list("there").len(), 4);
+}
+
+#[test]
+fn lists_go_together_and_values_that_make_no_design_are_told() {
+    let here = folder("list");
+    let plan = PLAN.replace("values: [1, 1.5]", "values: [1, 1.5, 99]") + "combine: list\n";
+    std::fs::write(here.join("plan.yaml"), &plan).expect("a plan");
+    assert_eq!(barrier_check(&here, &["study", "plan.yaml", "--out", "found"]).status.code(), Some(0));
+    let found = json(&read(&here, "found/sweep.json"));
+    let runs = found["runs"].as_array().expect("runs");
+    assert_eq!(runs.len(), 6);
+    assert_eq!(runs[1]["values"], serde_json::json!(["4.6 m/s", "1.5"]));
+    let why = runs[2]["why"].as_str().expect("a reason");
+    assert!(runs[2]["verdict"] == "invalid" && why.contains("factors.load: found 99"), "{why}");
+    std::fs::write(here.join("plan.yaml"), PLAN.to_string() + "combine: list\n").expect("a plan");
+    let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "uneven"]);
+    let told = String::from_utf8_lossy(&ran.stderr).into_owned();
+    assert!(ran.status.code() == Some(2) && told.contains("allowed as many in each"), "{told}");
+    // Of other kinds the runs are not known beforehand.
+    let other = "kind: stability\nname: x\nshares: [0.5]\nsteps: 100\n";
+    std::fs::write(here.join("other_kind.yaml"), other).expect("a plan");
+    let ran = barrier_check(&here, &["study", "other_kind.yaml", "--list"]);
+    let told = String::from_utf8_lossy(&ran.stderr).into_owned();
+    assert!(ran.status.code() == Some(2) && told.contains("of the kind sweep"), "{told}");
+}
