@@ -95,6 +95,8 @@ pub fn shown(probability: f64) -> String {
         "not known".into()
     } else if probability == 0.0 || probability == 1.0 {
         format!("{probability:.0}")
+    } else if probability > 0.99 {
+        format!("{probability:.4}")
     } else if probability >= 0.1 {
         format!("{probability:.2}")
     } else if probability >= 0.01 {
