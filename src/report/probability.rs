@@ -343,7 +343,10 @@ fn charts(told: &Told) -> Vec<Chart> {
         charts.push(Chart::of(
             "Importance of the inputs",
             drawn.svg(),
-            "Sobol indices tell which inputs move the largest utilisation as it scatters; α² tells which of them decide at the design point of the check that is most likely to fail.",
+            match assessed.importance {
+                Some(_) => "Sobol indices tell which inputs move the largest utilisation as it scatters; α² tells which of them decide at the design point of the check that is most likely to fail.",
+                None => "α² tells which inputs decide at the design point of the check that is most likely to fail. Sobol indices are told of independent inputs alone.",
+            },
         ));
     }
     if assessed.fragility.len() > 1 {
