@@ -188,7 +188,7 @@ pub fn sweep(
         Mode::On(engine) => {
             let lines = lines(&sweep, &missing, file, claimed.path(), sweep.at_once())?;
             if !lines.is_empty() {
-                give(*engine, &lines, &sweep.kept.folder())?;
+                give(*engine, &lines, sweep.kept.folder())?;
             }
         }
         Mode::Collect | Mode::List | Mode::Only(_) => {}

@@ -34,7 +34,8 @@ pub fn largest(used: &[f64]) -> f64 {
 
 /// Whether a check has failed. Asked so that what is not a number has.
 pub fn fails(used: f64) -> bool {
-    !(used <= 1.0)
+    let holds = used <= 1.0;
+    !holds
 }
 
 /// A probability with the interval that holds it with a confidence of 95 %.

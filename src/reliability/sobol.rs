@@ -52,7 +52,8 @@ fn of_one_part(
     let both = Spread::of(&[at_a.clone(), at_b.clone()].concat());
     let variance = both.deviation * both.deviation;
     // Asked so that what is not a number has none.
-    if !(variance > 1e-18) {
+    let varies = variance > 1e-18;
+    if !varies {
         return None;
     }
     let of_input = |input: usize| {

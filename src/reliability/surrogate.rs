@@ -18,8 +18,11 @@ use crate::reliability::subset::{self, failing_points, subset};
 use crate::reliability::{Probability, seed_of};
 use crate::starts::Spread;
 
-/// Runs a batch of points, each with a packing of its number; a run that cannot be judged gives nothing.
-pub type Runs<'a> = dyn Fn(&[(Vec<f64>, u32)]) -> Result<Vec<Option<Vec<f64>>>, String> + 'a;
+/// Utilisations of a batch of runs; nothing for one that cannot be judged.
+pub type Batch = Result<Vec<Option<Vec<f64>>>, String>;
+
+/// Runs a batch of points, each with a packing of its number.
+pub type Runs<'a> = dyn Fn(&[(Vec<f64>, u32)]) -> Batch + 'a;
 
 /// What is asked of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,7 +145,8 @@ impl OfCheck {
         let values: Vec<f64> = known.iter().map(|(_, value)| *value).collect();
         let spread = Spread::of(&values);
         let flat = Self { process: None, constant: spread.mean, scatter };
-        if !(spread.deviation > 1e-9) {
+        let varies = spread.deviation > 1e-9;
+        if !varies {
             return Ok(flat);
         }
         let inputs = known[0].0.len();
@@ -353,7 +357,7 @@ mod tests {
         vec![load / (20.0 * libm::exp(0.1 * u[1])), 0.3 * libm::exp(0.3 * u[2] + 0.02 * noise[1])]
     }
 
-    fn runs(scatter: f64) -> impl Fn(&[(Vec<f64>, u32)]) -> Result<Vec<Option<Vec<f64>>>, String> {
+    fn runs(scatter: f64) -> impl Fn(&[(Vec<f64>, u32)]) -> Batch {
         move |batch| {
             let one = |(u, packing): &(Vec<f64>, u32)| {
                 let mut random = fastrand::Rng::with_seed(u64::from(*packing));
