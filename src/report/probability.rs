@@ -60,7 +60,7 @@ pub fn files(told: &Told) -> Result<Vec<ReportFile>, Box<dyn std::error::Error>>
         name: plan.name.clone(),
         design: plan.design.display().to_string(),
         project: told.design.design.project.name.clone(),
-        result: result(assessed),
+        result: result(told),
         answer,
         class,
         notes: notes(told),
@@ -133,16 +133,17 @@ fn with_unit(value: f64, unit: &str) -> String {
     format!("{shown} {unit}").trim().to_string()
 }
 
-fn result(assessed: &Assessed) -> String {
-    let p = assessed.probability;
+fn result(told: &Told) -> String {
+    let p = told.assessed.probability;
+    let what = if told.plan.checks.is_empty() { "the barrier fails" } else { "one of the checks that are named fails" };
     if p.value == 0.0 {
         return format!(
-            "No failure was found: the probability that the barrier fails in this event is at most {} (95 % confidence), for the checks listed below.",
+            "No failure was found: the probability that {what} in this event is at most {} (95 % confidence), for the checks listed below.",
             shown(p.high)
         );
     }
     format!(
-        "The probability that the barrier fails in this event is {} (95 % interval {}; reliability index β = {}), for the checks listed below.",
+        "The probability that {what} in this event is {} (95 % interval {}; reliability index β = {}), for the checks listed below.",
         shown(p.value),
         interval(&p),
         index(p.value)

@@ -300,9 +300,11 @@ impl ReliabilityPlan {
         if accuracy.as_ref().is_some_and(|share| !share.as_ref().is_ok_and(|share| *share >= 0.01)) {
             wrong.push(["accuracy".into(), "found no share, allowed 1 % to 99 %".into()]);
         }
+        // A surrogate with a plane beneath needs more points than the plane has slopes.
+        let least = self.packings + 2 * self.inputs.len() + 5;
         let ranges = [
             ("samples", self.samples, 100, 100_000_000),
-            ("runs", self.runs, 15, 10_000),
+            ("runs", self.runs, least.max(15), 10_000),
             ("packings", self.packings, 2, 50),
         ];
         for (key, found, least, most) in ranges {
