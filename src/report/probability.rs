@@ -14,7 +14,7 @@ use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::probability_json::json;
 use crate::report::render::{Rendered, render_as};
 use crate::studies::amount::{Amount, shown as shown_value};
-use crate::studies::reliability::{Answer, Assessed, OfCheck, Way};
+use crate::studies::reliability::{Answer, OfCheck, Way};
 use crate::studies::reliability_plan::{FactorsWish, Input};
 use crate::studies::size_plan::By;
 
