@@ -20,7 +20,7 @@ pub struct ReliabilityFile {
     /// Whether partial factors stay as in the design; else all are 1.
     partial_factors: bool,
     target: Option<f64>,
-    /// not_asked, meets, exceeds or undecided
+    /// not_asked, exceeds or undecided
     answer: String,
     probability: ProbabilityPart,
     /// Reliability index, -Phi^-1(probability); absent where no failure was found.
@@ -127,7 +127,6 @@ pub fn json(told: &Told) -> ReliabilityFile {
         target: plan.target(),
         answer: match told.answer {
             Answer::NotAsked => "not_asked",
-            Answer::Meets => "meets",
             Answer::Exceeds => "exceeds",
             Answer::Undecided => "undecided",
         }

@@ -99,7 +99,9 @@ impl LimitStates<'_> {
         let changes = Changes::new(self.set.iter().cloned().chain(changes).collect());
         let mut file = self.source.read(Purpose::Simulation, self.open, &changes)?;
         if self.factors == FactorsWish::None {
-            let given = |key: &str| self.inputs.iter().any(|input| input.key == key);
+            let given = |key: &str| {
+                self.inputs.iter().any(|input| input.key == key) || self.set.iter().any(|(set, _)| set == key)
+            };
             without_factors(&mut file.design, &given);
         }
         Ok(file)
