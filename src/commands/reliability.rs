@@ -11,9 +11,10 @@ use crate::commands::kept_simulations::simulated;
 use crate::commands::output::put;
 use crate::commands::signals::listen;
 use crate::commands::{ExitCode, Failure};
+use crate::design::Design;
 use crate::design::changes::Changes;
 use crate::design::entries::Purpose;
-use crate::design::read::Source;
+use crate::design::read::{DesignFile, Source};
 use crate::problem::Problems;
 use crate::report::assessment::Told;
 use crate::report::folder::Folder;
@@ -110,8 +111,7 @@ fn refused(problems: Problems) -> String {
 
 fn of_equations(states: &LimitStates, wanted: &Wanted) -> Result<(Asked, Assessed), String> {
     let medians = states.design(&vec![0.0; states.inputs.len()]).map_err(refused)?;
-    // Named ones are sought among all.
-    let asked = states.asked(&medians.design, None);
+    let asked = states.asked(&medians, None);
     judged(states, &asked)?;
     let used = |u: &[f64]| states.by_equations(u, &asked.checks);
     let assessed = by_equations(states.inputs.len(), &used, &asked.checks, &states.tally, wanted);
@@ -119,7 +119,7 @@ fn of_equations(states: &LimitStates, wanted: &Wanted) -> Result<(Asked, Assesse
 }
 
 fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> Result<(Asked, Assessed), String> {
-    let run = |u: &[f64], packing: u32| -> Result<Option<(crate::design::Design, Simulated)>, String> {
+    let run = |u: &[f64], packing: u32| -> Result<Option<(Design, Simulated)>, String> {
         let Ok(file) = states.design(u) else { return Ok(None) };
         let mut design = coarse(&file.design);
         design.simulation.seed = design.simulation.seed.wrapping_add(u64::from(packing));
@@ -136,11 +136,11 @@ fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> 
         }
     };
     let medians = vec![0.0; states.inputs.len()];
-    states.design(&medians).map_err(refused)?;
+    let file = states.design(&medians).map_err(refused)?;
     let Some((design, first)) = run(&medians, 0)? else {
         return Err("with every input at its median the design cannot be simulated".into());
     };
-    let asked = states.asked(&design, Some(&first));
+    let asked = states.asked(&DesignFile { design, ..file }, Some(&first));
     judged(states, &asked)?;
     let (checks, done) = (&asked.checks, Mutex::new(0));
     let runs = |batch: &[(Vec<f64>, u32)]| {
@@ -153,7 +153,7 @@ fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> 
         tell(&done, batch.len(), wanted.runs, &ran, checks);
         Ok(ran)
     };
-    let assessed = by_simulations(states.inputs.len(), &runs, &asked.checks, wanted)?;
+    let assessed = by_simulations(states.inputs.len(), &runs, &asked.checks, &states.tally, wanted)?;
     Ok((asked, assessed))
 }
 

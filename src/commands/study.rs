@@ -61,10 +61,7 @@ fn run(path: &Path, out: Option<&Path>, mode: &Mode) -> Result<(Option<PathBuf>,
         Ok::<_, Refusal>(folder)
     };
     let beside = path.parent().unwrap_or(Path::new("."));
-    if let Study::Sweep(plan) = &study {
-        return sweep(plan, path, &place_of(&plan.name), mode, || Ok(folder_of(&plan.name)?));
-    }
-    if *mode != Mode::On(Engine::Local) {
+    if !matches!(study, Study::Sweep(_)) && *mode != Mode::On(Engine::Local) {
         return Err(
             "only the runs of a study of the kind sweep are known beforehand: the others decide on their next runs by the last ones, and run here"
                 .into(),
@@ -76,7 +73,9 @@ fn run(path: &Path, out: Option<&Path>, mode: &Mode) -> Result<(Option<PathBuf>,
         Study::Stability(plan) => return Ok((Some(stability_map(&plan, folder_of(&plan.name)?)?), ExitCode::Pass)),
         Study::Size(plan) => return size(&plan, beside, folder_of(&plan.name)?).map(page),
         Study::Reliability(plan) => return reliability(&plan, beside, folder_of(&plan.name)?).map(page),
-        Study::Sweep(_) => return Err("a sweep has its own way".into()),
+        Study::Sweep(plan) => {
+            return sweep(&plan, path, &place_of(&plan.name), mode, || Ok(folder_of(&plan.name)?));
+        }
     };
     let scenes = plan
         .scenes

@@ -35,11 +35,19 @@ pub struct Found {
 
 /// Share of a level that goes on to the next.
 const SHARE: f64 = 0.1;
-/// Levels at the most: a probability below 10⁻¹² is told as none.
+/// Levels at the most: a probability below some 10⁻¹² is told as none.
 const LEVELS: usize = 12;
 /// Share of moves that are to be accepted, and chains after which the spread of the moves adapts (Papaioannou et al.).
 const ACCEPTED: f64 = 0.44;
 const GROUP: usize = 10;
+
+impl Found {
+    /// The probability beside that of plain samples: what these have seen stands, as subset simulation may follow one way to failure and miss
+    /// another.
+    pub fn beside(&self, plain: Probability) -> Probability {
+        if self.probability.high < plain.low { plain } else { self.probability }
+    }
+}
 
 /// The probability that any check fails.
 pub fn subset(dimensions: usize, states: &LimitStates, asked: &Asked) -> Found {
@@ -50,6 +58,10 @@ pub fn subset(dimensions: usize, states: &LimitStates, asked: &Asked) -> Found {
     let repeats: Vec<f64> = ran.iter().map(|repeat| repeat.probability).collect();
     let stuck = ran.iter().any(|repeat| repeat.stuck);
     let mut probability = of_repeats(&repeats);
+    if probability.value == 0.0 {
+        // No more than the last level that was reached.
+        probability.high = ran.iter().map(|repeat| repeat.reached).fold(0.0, f64::max);
+    }
     if stuck {
         // All that is known is that of plain samples none has failed.
         let none = of_counts(0, asked.samples * asked.repeats);
@@ -68,7 +80,7 @@ fn of_repeats(repeats: &[f64]) -> Probability {
     let spread = Spread::of(repeats);
     let value = spread.mean;
     if value == 0.0 || spread.starts < 2 {
-        return Probability { value, low: 0.0, high: if value == 0.0 { libm::pow(SHARE, LEVELS as f64) } else { 1.0 } };
+        return Probability { value, low: 0.0, high: 1.0 };
     }
     let count = spread.starts as f64;
     let student = StudentsT::new(0.0, 1.0, count - 1.0).map_or(f64::NAN, |student| student.inverse_cdf(0.975));
@@ -79,6 +91,8 @@ fn of_repeats(repeats: &[f64]) -> Probability {
 /// What one repeat found.
 struct Repeat {
     probability: f64,
+    /// Probability of the last level.
+    reached: f64,
     evaluations: usize,
     stuck: bool,
     failing: Vec<Vec<f64>>,
@@ -92,13 +106,14 @@ fn once(dimensions: usize, used: &dyn Fn(&[f64]) -> f64, count: usize, random: &
             (u, value)
         })
         .collect();
-    let mut repeat = Repeat { probability: 1.0, evaluations: count, stuck: false, failing: Vec::new() };
+    let mut repeat = Repeat { probability: 0.0, reached: 1.0, evaluations: count, stuck: false, failing: Vec::new() };
     let mut spread = 0.6;
     let seeds = ((SHARE * count as f64) as usize).max(1);
     for _ in 0..LEVELS {
         let failed = level.iter().filter(|(_, value)| fails(*value)).count();
         if failed >= seeds {
-            repeat.probability *= failed as f64 / count as f64;
+            repeat.reached *= failed as f64 / count as f64;
+            repeat.probability = repeat.reached;
             repeat.failing = level.into_iter().filter(|(_, value)| fails(*value)).map(|(u, _)| u).collect();
             return repeat;
         }
@@ -116,13 +131,13 @@ fn once(dimensions: usize, used: &dyn Fn(&[f64]) -> f64, count: usize, random: &
             }
         }
         let above = level.iter().filter(|(_, value)| *value >= threshold).count();
-        repeat.probability *= above as f64 / count as f64;
+        repeat.reached *= above as f64 / count as f64;
         level.truncate(above);
         random.shuffle(&mut level);
         level = next(level, threshold, count, used, &mut spread, random);
         repeat.evaluations += count - above;
     }
-    Repeat { probability: 0.0, ..repeat }
+    repeat
 }
 
 /// Samples of the next level: chains from those that are in it, none of which leaves it.

@@ -335,7 +335,7 @@ impl Surrogate {
             // While it learns a rough figure is enough.
             let repeats = if samples == COUNTED[0] { 2 } else { 6 };
             let rare = subset::Asked { samples: 1000, repeats, seed, workers: asked.workers };
-            (subset(dimensions, &states, &rare).probability, each)
+            (subset(dimensions, &states, &rare).beside(counted.probability()), each)
         };
         let [low, middle, high] = [-WIDE, 0.0, WIDE].map(at);
         let each = low.1.iter().zip(&middle.1).zip(&high.1).map(|((low, middle), high)| wide([*low, *middle, *high]));

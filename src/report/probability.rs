@@ -203,7 +203,7 @@ fn notes(told: &Told) -> Vec<String> {
         asked.checks.iter().filter(|check| check.partly.is_some()).map(|check| check.title.as_str()).collect();
     if !partly.is_empty() {
         notes.push(format!(
-            "Judged only in part, because the equations cannot make these checks whole: {}.",
+            "Judged only in part, because a run of the design leaves these checks open with the inputs at their medians: {}. What it leaves open is not in the probability.",
             partly.join(", ")
         ));
     }
@@ -211,13 +211,9 @@ fn notes(told: &Told) -> Vec<String> {
         notes.push("Some checks are not judged this way and are not in the probability; they are listed below. The true probability is larger.".into());
     }
     if assessed.outside > 0 {
-        let of = match &assessed.way {
-            Way::Equations { counted, .. } => counted.samples,
-            Way::Simulations(learned) => learned.runs,
-        };
         notes.push(format!(
             "In {} of the samples a formula that governs is used outside the range that it is known for.",
-            percent(Some(assessed.outside as f64 / of as f64))
+            percent(Some(assessed.outside as f64 / assessed.samples as f64))
         ));
     }
     for (why, count) in assessed.refused.iter().take(5) {

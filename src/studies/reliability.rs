@@ -49,7 +49,7 @@ pub struct Assessed {
     pub fragility: Vec<Probability>,
     /// Samples that are no valid design, by what refused them; they count as failed.
     pub refused: BTreeMap<String, usize>,
-    /// Samples in which a formula was used outside its range.
+    /// Samples, subset simulation's among them, in which a formula was used outside its range.
     pub outside: usize,
     /// Evaluations of the equations or the surrogate in all.
     pub samples: usize,
@@ -98,18 +98,13 @@ pub fn by_equations(
         workers: wanted.workers,
     };
     let counted = monte_carlo(dimensions, states, &asked);
-    let (refused, outside) = tally.take();
     let rare = (counted.failed < FEW).then(|| {
-        let asked = subset::Asked { samples: LEVEL, repeats: REPEATS, seed: wanted.seed, workers: wanted.workers };
+        // Of another seed, so that the two do not share samples.
+        let asked = subset::Asked { samples: LEVEL, repeats: REPEATS, seed: !wanted.seed, workers: wanted.workers };
         subset(dimensions, states, &asked)
     });
-    let plain = counted.probability();
-    let probability = match &rare {
-        None => plain,
-        // What plain samples have seen stands: subset simulation may follow one way to failure and miss another.
-        Some(rare) if rare.probability.high < plain.low => plain,
-        Some(rare) => rare.probability,
-    };
+    let (refused, outside) = tally.take();
+    let probability = rare.as_ref().map_or_else(|| counted.probability(), |rare| rare.beside(counted.probability()));
     let of_check = |(number, check): (usize, &Judged)| OfCheck {
         check: check.clone(),
         probability: counted.of_check(number),
@@ -132,8 +127,10 @@ pub fn by_simulations(
     dimensions: usize,
     runs: &surrogate::Runs,
     checks: &[Judged],
+    tally: &Tally,
     wanted: &Wanted,
 ) -> Result<Assessed, String> {
+    tally.take();
     let asked = surrogate::Asked {
         runs: wanted.runs,
         repeats: wanted.packings,
@@ -142,6 +139,7 @@ pub fn by_simulations(
         workers: wanted.workers,
     };
     let learned = learn(dimensions, runs, &asked)?;
+    let (refused, outside) = tally.take();
     let surrogate: &Surrogate = &learned.surrogate;
     let states = |u: &[f64]| surrogate.used(u);
     let of_check = |(number, check): (usize, &Judged)| OfCheck {
@@ -154,8 +152,8 @@ pub fn by_simulations(
         checks: checks.iter().enumerate().map(of_check).collect(),
         importance: importance(dimensions, &states, wanted),
         fragility: surrogate.at_events(wanted.events, &asked),
-        refused: BTreeMap::new(),
-        outside: 0,
+        refused,
+        outside,
         samples: learned.runs,
         way: Way::Simulations(Box::new(learned)),
     })

@@ -317,13 +317,17 @@ impl ReliabilityPlan {
 
     fn wrong_correlations(&self, wrong: &mut Vec<[String; 2]>) {
         for (number, text) in self.correlations.iter().enumerate() {
-            let [one, other] = &text.between;
+            let [one, other_key] = &text.between;
             let known = |key: &String| self.inputs.iter().any(|input| input.key == *key);
-            if one == other || !known(one) || !known(other) {
+            if one == other_key || !known(one) || !known(other_key) {
                 wrong.push([
                     format!("correlations.{number}"),
-                    format!("found {one} and {other}, allowed two of the inputs"),
+                    format!("found {one} and {other_key}, allowed two of the inputs"),
                 ]);
+            }
+            let same = |other: &CorrelationText| other.between.contains(one) && other.between.contains(other_key);
+            if self.correlations[..number].iter().any(same) {
+                wrong.push([format!("correlations.{number}"), "found a pair again, allowed each once".into()]);
             }
             // Asked so that what is not a number is refused.
             if !(-1.0..=1.0).contains(&text.rank) {
