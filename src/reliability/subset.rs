@@ -205,7 +205,8 @@ mod tests {
         let asked = Asked { samples: 200, repeats: 4, seed: 1, workers: 1 };
         let never = subset(2, &|u: &[f64]| vec![1.0 + u[0] - 20.0], &asked);
         assert_eq!((never.probability.value, never.stuck), (0.0, false));
-        assert!(never.probability.high <= 1.001e-12);
+        // Twelve levels of a tenth; moves that were refused leave equal values, and with them a little more.
+        assert!((0.99e-12..1e-10).contains(&never.probability.high), "{never:?}");
         let always = subset(2, &|_: &[f64]| vec![f64::NAN], &asked);
         assert_eq!((always.probability.value, always.evaluations), (1.0, 800));
         // On a plateau below the limit nothing is found above it, which does not say that nothing is.
