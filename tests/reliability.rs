@@ -164,4 +164,19 @@ fn a_plan_that_is_wrong_is_told_with_all_that_is_wrong() {
         assert!(ran.status.code() == Some(2) && told.contains(part), "{part}: {told}");
     }
     assert!(!here.join("found/reliability.json").exists());
+    let pair = "{between: [barrier.flexible_net.dissipators.plateau_force, barrier.flexible_net.anchors.resistance], rank: 0.5}";
+    let ran = study(&here, &format!("{ANCHORS}correlations: [{pair}, {pair}]\n"), "2");
+    assert!(ran.status.code() == Some(2) && said(&ran).contains("found a pair again"), "{}", said(&ran));
+}
+
+/// A factor that the study gives stays, though all others are 1.
+#[test]
+fn a_factor_that_the_study_gives_stays() {
+    let here = folder("factor");
+    let used = |set: &str| {
+        study(&here, &format!("{ANCHORS}samples: 100\n{set}"), "2");
+        json(&here)["checks"][0]["utilisation_at_medians"].as_f64().expect("a number")
+    };
+    let (free, with_factor) = (used(""), used("set: {factors.anchor: 2}\n"));
+    assert!((with_factor / free - 2.0).abs() < 1e-9, "{free} {with_factor}");
 }

@@ -200,6 +200,18 @@ mod tests {
         }
     }
 
+    /// Plain samples that failed are not overruled by a subset simulation that went another way.
+    #[test]
+    fn what_plain_samples_have_seen_stands() {
+        let found = |low: f64, high: f64| {
+            let probability = Probability { value: 0.5 * (low + high), low, high };
+            Found { probability, repeats: Vec::new(), evaluations: 0, stuck: false }
+        };
+        let plain = of_counts(2, 20_000);
+        assert_eq!(found(0.0, 1e-12).beside(plain), plain);
+        assert_eq!(found(5e-5, 2e-4).beside(plain).high, 2e-4);
+    }
+
     #[test]
     fn what_cannot_fail_does_not_and_what_always_fails_does() {
         let asked = Asked { samples: 200, repeats: 4, seed: 1, workers: 1 };

@@ -11,6 +11,7 @@ use egobox_gp::{GaussianProcess, GpParams};
 use linfa::Dataset;
 use linfa::traits::Fit;
 use ndarray::{Array1, Array2};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::reliability::monte_carlo::{self, monte_carlo};
 use crate::reliability::normal::draw_many;
@@ -75,6 +76,8 @@ fn back(value: f64) -> f64 {
 pub struct Surrogate {
     checks: Vec<OfCheck>,
     inputs: usize,
+    /// By how much the scatter of packings may be smaller and larger than their number shows.
+    scatter_range: [f64; 2],
     /// Points of runs that could be judged, and of those that could not.
     judged: Vec<Vec<f64>>,
     lost: Vec<Vec<f64>>,
@@ -90,7 +93,8 @@ struct OfCheck {
 }
 
 impl Surrogate {
-    fn fit(data: &[(Vec<f64>, Vec<f64>)], lost: &[Vec<f64>], scatter: &[f64]) -> Result<Self, String> {
+    fn fit(learner: &Learner) -> Result<Self, String> {
+        let Learner { data, lost, scatter, repeats, .. } = learner;
         let inputs = data.first().map_or(0, |(u, _)| u.len());
         let checks = scatter.iter().enumerate().map(|(check, scatter)| {
             let known: Vec<(&[f64], f64)> = data
@@ -101,7 +105,8 @@ impl Surrogate {
             OfCheck::fit(&known, *scatter)
         });
         let judged = data.iter().map(|(u, _)| u.clone()).collect();
-        Ok(Self { checks: checks.collect::<Result<_, String>>()?, inputs, judged, lost: lost.to_vec() })
+        let checks = checks.collect::<Result<_, String>>()?;
+        Ok(Self { checks, inputs, scatter_range: range_of_deviation(*repeats), judged, lost: lost.clone() })
     }
 
     /// Mean and standard deviation of each check's transformed utilisation.
@@ -125,9 +130,13 @@ impl Surrogate {
         if shift > 0.0 && self.unknown(u) {
             return vec![f64::NAN; self.checks.len()];
         }
+        let more = match shift {
+            0.0 => 1.0,
+            shift => self.scatter_range[usize::from(shift > 0.0)],
+        };
         let at = self.predict(u).into_iter().zip(&self.checks).enumerate();
         at.map(|(number, ([mean, deviation], check))| {
-            back(mean + shift * deviation + check.scatter * u[self.inputs + number])
+            back(mean + shift * deviation + more * check.scatter * u[self.inputs + number])
         })
         .collect()
     }
@@ -191,7 +200,7 @@ pub fn learn(inputs: usize, runs: &Runs, asked: &Asked) -> Result<Learned, Strin
     let mut learner = Learner::begin(inputs, runs, asked)?;
     let mut history = Vec::new();
     let (surrogate, settled) = loop {
-        let surrogate = Surrogate::fit(&learner.data, &learner.lost, &learner.scatter)?;
+        let surrogate = Surrogate::fit(&learner)?;
         let round = history.len() as u64;
         let counted = surrogate.count(COUNTED[0], asked, round).0;
         history.push((learner.ran, counted));
@@ -224,13 +233,22 @@ struct Learner<'a> {
     /// Points whose runs could not be judged.
     lost: Vec<Vec<f64>>,
     ran: usize,
+    /// Runs at the medians.
+    repeats: usize,
+}
+
+/// By what a standard deviation of so many values is to be multiplied for the ends of its interval with a confidence of 95 %: √((n − 1)/χ²).
+fn range_of_deviation(count: usize) -> [f64; 2] {
+    let free = count.saturating_sub(1) as f64;
+    let end = |share: f64| ChiSquared::new(free).map_or(1.0, |of| (free / of.inverse_cdf(share)).sqrt());
+    if count < 2 { [1.0; 2] } else { [end(0.975), end(0.025)] }
 }
 
 impl<'a> Learner<'a> {
     /// Repeats at the medians, and the first points.
     fn begin(inputs: usize, runs: &'a Runs<'a>, asked: &Asked) -> Result<Self, String> {
-        let mut learner = Self { runs, data: Vec::new(), scatter: Vec::new(), lost: Vec::new(), ran: 0 };
         let repeats = asked.repeats.max(1);
+        let mut learner = Self { runs, data: Vec::new(), scatter: Vec::new(), lost: Vec::new(), ran: 0, repeats };
         learner.run(vec![vec![0.0; inputs]; repeats])?;
         if !learner.lost.is_empty() {
             return Err(
@@ -381,6 +399,16 @@ mod tests {
         assert!(found.low <= exact.high && found.high >= exact.low, "{found:?}, {exact:?}");
         assert!((found.value / exact.value - 1.0).abs() < 0.3, "{found:?}, {exact:?}");
         assert!(learned.runs <= 40 && learned.unjudged == 0);
+    }
+
+    /// Ends of the interval of a standard deviation from the tables of χ²: of five values 0.599 and 2.874 times, of two 0.446 and 31.9 times.
+    #[test]
+    fn a_scatter_of_few_packings_is_known_roughly() {
+        for (count, ends) in [(5, [0.599, 2.874]), (2, [0.446, 31.91]), (1, [1.0, 1.0])] {
+            for (found, end) in range_of_deviation(count).into_iter().zip(ends) {
+                assert!((found / end - 1.0).abs() < 2e-3, "{count}: {found}");
+            }
+        }
     }
 
     #[test]
