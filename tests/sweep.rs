@@ -109,7 +109,7 @@ fn lists_go_together_and_values_that_make_no_design_are_told() {
     assert_eq!(runs.len(), 6);
     assert_eq!(runs[1]["values"], serde_json::json!(["4.6 m/s", "1.5"]));
     let why = runs[2]["why"].as_str().expect("a reason");
-    assert!(runs[2]["verdict"] == "invalid" && why.contains("factors.load: found 99"), "{why}");
+    assert!(runs[2]["verdict"] == "invalid" && why.contains("factors.load: found `99`"), "{why}");
     std::fs::write(here.join("plan.yaml"), PLAN.to_string() + "combine: list\n").expect("a plan");
     let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "uneven"]);
     let told = String::from_utf8_lossy(&ran.stderr).into_owned();
