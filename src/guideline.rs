@@ -12,7 +12,7 @@ pub use self::rope_load::RopeLoad;
 use self::ropes::Cases;
 use crate::design::{AnchorOf, Arrival, BarrierDesign, Bottom, DamBreak, Design, LateralTo, RunUp};
 use crate::larger::larger_or_nan;
-use crate::loads::cases::load_case::{Extras, LoadCase, PointLoad};
+use crate::loads::cases::load_case::{Extras, LoadCase, OnTheBase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
 pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
@@ -43,6 +43,8 @@ pub struct Guideline {
     /// Largest force along the bed, and moment about that foot, that any metre of a wall takes (N/m, N m/m).
     pub metre_force: f64,
     pub foot_moment: f64,
+    /// The same of a wall that stands by its weight.
+    pub on_the_base: OnTheBase,
     /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
     pub ropes: Vec<RopeLoad>,
     /// On what holds the lowest rope to the bed, in all, with the partial factor on loads (N); nothing where it is free.
@@ -152,6 +154,7 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         face_moment: stages.iter().map(|case| case.face_moment(hit, lean(design))).fold(0.0, larger_or_nan),
         metre_force: stages.iter().map(|case| case.metre_force(hit, input.barrier_height)).fold(0.0, larger_or_nan),
         foot_moment: stages.iter().map(|case| case.foot_moment(hit, lean(design))).fold(0.0, larger_or_nan),
+        on_the_base: on_the_base(design, &stages, hit, input.barrier_height),
         posts: posts::loads(design, ropes.last(), &stages, height_over_bed(design)),
         ropes,
         anchors: match &design.barrier {
@@ -167,6 +170,18 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         retention: held(design),
         section,
     }
+}
+
+/// The most of each over these cases, for a point load that spreads over no more than this width of a wall of this height.
+fn on_the_base(design: &Design, stages: &[LoadCase], width: f64, height: f64) -> OnTheBase {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return OnTheBase::default() };
+    let block = wall.stability.and_then(|stability| stability.block_length);
+    let each = stages.iter().map(|case| case.on_the_base(block, width, height, wall.lean));
+    each.fold(OnTheBase::default(), |most, case| OnTheBase {
+        slides: larger_or_nan(most.slides, case.slides),
+        pushes: larger_or_nan(most.pushes, case.pushes),
+        tips: larger_or_nan(most.tips, case.tips),
+    })
 }
 
 /// Least force of the dissipators of main ropes, and of those of retaining ropes, over their curve.

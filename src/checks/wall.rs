@@ -14,13 +14,15 @@ use crate::sources::WALL_BALANCE;
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let (Some(wall), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
     let (force, moment) = (demands.one(&quantity::SLIDING), demands.one(&quantity::OVERTURNING));
+    // By the equations what pushes a block, which a point load at its end slides more than that.
+    let pushes = demands.one(&quantity::PRESS).guideline;
     // Moments are told about the foot of the face; the base lies deeper.
     let deeper = stability.founding_depth * libm::cos(wall.base_slope);
     let lowered = |moment: Option<f64>, force: Option<f64>| {
         if deeper > 0.0 { moment.zip(force).map(|(moment, force)| moment + force * deeper) } else { moment }
     };
     let moment = Demand {
-        guideline: lowered(moment.guideline, force.guideline.map(|load| load * wall.along_share())),
+        guideline: lowered(moment.guideline, pushes.map(|load| load * wall.along_share())),
         simulation: lowered(moment.simulation, force.simulation),
         characteristic: lowered(moment.characteristic, force.characteristic),
         ..moment
@@ -30,7 +32,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         stability,
         force,
         tips: Demand {
-            guideline: (moment.guideline.zip(force.guideline))
+            guideline: (moment.guideline.zip(pushes))
                 .map(|(moment, load)| moment + load * wall.lift_share() * wall.base_width),
             ..moment
         },
@@ -254,6 +256,7 @@ mod tests {
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
+            block_length: None,
             water_head: Some(0.0),
         });
         design
@@ -334,6 +337,24 @@ mod tests {
         assert_eq!(verdicts(Some(0.0), None), [CheckVerdict::Open; 4]);
     }
 
+    /// 1.35 · 100 kN at 1.5 m on a block of 8 m: 16.9 kN/m push it and tip it with 25.3 kN m/m, and 40.7 kN/m slide it where it is hit at its end.
+    #[test]
+    fn a_block_carries_a_point_load_as_one() {
+        let demands = |force: f64| {
+            let mut design = read_design("x", include_bytes!("../../designs/gravity_wall.yaml")).unwrap().design;
+            design.loads.point_load = Some((force, 1.5));
+            let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+            wall.stability.as_mut().expect("stability").block_length = Some(8.0);
+            let demands = Demands::by_equations(&guideline(&design), &design.factors);
+            let of = |what| demands.one(what).guideline.expect("a demand");
+            [of(&quantity::SLIDING), of(&quantity::PRESS), of(&quantity::OVERTURNING)]
+        };
+        let (with, without) = (demands(100e3), demands(0.0));
+        for (index, more) in [40.74e3, 16.875e3, 25.3125e3].into_iter().enumerate() {
+            assert_relative_eq!(with[index] - without[index], more, max_relative = 1e-3);
+        }
+    }
+
     /// 50 kN/m along a bed of 14° press on a plumb face with 50/cos 14° = 51.53 kN/m along a level base: 1.8 m deeper they tip with 92.76 kN m/m
     /// more.
     #[test]
@@ -344,7 +365,7 @@ mod tests {
             wall.stability.as_mut().expect("stability").founding_depth = depth;
             let of = |value: f64| Demand { guideline: Some(value), ..Demand::default() };
             let demands =
-                Demands::default().with(&quantity::SLIDING, &[of(50e3)]).with(&quantity::OVERTURNING, &[of(100e3)]);
+                Demands::default().with(&quantity::PRESS, &[of(50e3)]).with(&quantity::OVERTURNING, &[of(100e3)]);
             let outcomes = check(&design, &demands);
             outcomes.iter().find(|outcome| outcome.id == "wall_overturning").expect("a check").demand.guideline
         };

@@ -3,7 +3,8 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::report::folder::OF_ENGINES;
 
@@ -70,18 +71,56 @@ pub fn give(engine: Engine, lines: &[String], folder: &Path) -> Result<(), Strin
             let tasks = lines.len().clamp(1, LARGEST_ARRAY);
             let mut command = Command::new("sbatch");
             let array = format!("--array=0-{}", tasks - 1);
-            command.args(["--wait", "--quiet", "--ntasks=1", "--cpus-per-task=1", "--output=/dev/null", &array]);
+            command.args(["--parsable", "--ntasks=1", "--cpus-per-task=1", "--output=/dev/null", &array]);
             command.arg(put(slurm, SLURM).map_err(failed)?).arg(&list).arg(tasks.to_string());
             command
         }
     };
     let program = command.get_program().to_string_lossy().into_owned();
-    let status = command.status().map_err(|error| format!("{program} could not be started: {error}"))?;
+    let not_started = |error: io::Error| format!("{program} could not be started: {error}");
     // A task that failed leaves nothing kept, which is told when results are gathered.
+    let told = |status: ExitStatus| crate::terminal::warn(format_args!("note: {program} ended with {status}"));
+    if engine == Engine::Slurm {
+        let put = command.stderr(Stdio::inherit()).output().map_err(not_started)?;
+        if !put.status.success() {
+            told(put.status);
+            return Ok(());
+        }
+        // The number of the job, and behind a semicolon the cluster.
+        let job = String::from_utf8_lossy(&put.stdout);
+        return wait_for_slurm(job.trim().split(';').next().unwrap_or_default());
+    }
+    let status = command.status().map_err(not_started)?;
     if !status.success() {
-        crate::terminal::warn(format_args!("note: {program} ended with {status}"));
+        told(status);
     }
     Ok(())
+}
+
+/// Times that a scheduler may fail to answer, one after another.
+const UNANSWERED: usize = 10;
+
+/// Waits until no task of an array is pending or runs. Asks ever more seldom: what is lost by it is a fiftieth of the time, or half a second.
+/// (`sbatch --wait` asks after 2, 6, 12, 20, 30 s.)
+fn wait_for_slurm(job: &str) -> Result<(), String> {
+    let began = Instant::now();
+    let mut unanswered = 0;
+    loop {
+        std::thread::sleep((began.elapsed() / 50).clamp(Duration::from_millis(500), Duration::from_secs(30)));
+        let asked = Command::new("squeue").args(["--noheader", "--jobs", job]).output();
+        match asked {
+            Ok(answer) if answer.status.success() && answer.stdout.is_empty() => return Ok(()),
+            Ok(answer) if answer.status.success() => unanswered = 0,
+            // What ended a while ago is forgotten.
+            Ok(answer) if String::from_utf8_lossy(&answer.stderr).contains("Invalid job id") => return Ok(()),
+            _ => unanswered += 1,
+        }
+        if unanswered == UNANSWERED {
+            return Err(format!(
+                "squeue does not tell of the job {job}: once it has ended, gather the results with --collect"
+            ));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -32,9 +32,13 @@ impl Changes {
     }
 
     /// Puts them onto the tree of a design. A list is taken as a whole, and where the same thing can be given in different ways, the way of the
-    /// change stands alone.
+    /// change stands alone. Nothing leaves the key out.
     pub fn put_onto(&self, root: &mut Node) {
         for (path, node) in &self.0 {
+            // What is not there is put there as nothing, so that a wrong path is found by who reads the design.
+            if *node == Node::Nothing && leave_out(root, path) {
+                continue;
+            }
             let mut tree = node.clone();
             for name in path.rsplit('.') {
                 tree = Node::Map(vec![(name.to_string(), tree)]);
@@ -57,6 +61,20 @@ impl Changes {
         let mut text = String::new();
         write(&root, "", &as_typed, &mut text);
         text
+    }
+}
+
+/// Takes a key away; false if it is not there.
+fn leave_out(root: &mut Node, path: &str) -> bool {
+    let Node::Map(keys) = root else { return false };
+    let (first, rest) = path.split_once('.').map_or((path, None), |(first, rest)| (first, Some(rest)));
+    let Some(index) = keys.iter().position(|(name, _)| name == first) else { return false };
+    match rest {
+        Some(rest) => leave_out(&mut keys[index].1, rest),
+        None => {
+            keys.remove(index);
+            true
+        }
     }
 }
 
@@ -129,6 +147,20 @@ mod tests {
     use crate::design::{BarrierDesign, FlexibleNet};
 
     const SMALL_NET: &str = include_str!("../../designs/small_net.yaml");
+
+    #[test]
+    fn nothing_leaves_a_key_out() {
+        let text = SMALL_NET.replace("limits:", "limits:\n  freeboard: 0.1 m");
+        let read = |changes: &Changes| {
+            let read = read_design_changed(Purpose::Simulation, "x", text.as_bytes(), &|_| Err("none".into()), changes);
+            read.map(|read| read.design.limits.freeboard)
+        };
+        let without = |path: &str| Changes::new(vec![(path.to_string(), Node::Nothing)]);
+        assert_eq!(read(&Changes::default()).ok(), Some(Some(0.1)));
+        assert_eq!(read(&without("limits.freeboard")).ok(), Some(None));
+        assert_eq!(read(&without("limits")).ok(), Some(None));
+        assert!(read(&without("limits.freebord")).is_err());
+    }
 
     fn net(changes: &Changes) -> FlexibleNet {
         let read =

@@ -217,6 +217,8 @@ pub struct Stability {
     /// Of the ground under the base (Pa), if known, and the partial factor on it.
     pub bearing_resistance: Option<f64>,
     pub bearing_factor: f64,
+    /// Along the barrier, of a block of it that moves as one (m), where it is told.
+    pub block_length: Option<f64>,
     /// Head of the water under the upstream edge of the base (m), where it is told.
     pub water_head: Option<f64>,
 }

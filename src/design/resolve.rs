@@ -209,6 +209,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             overturning_factor: value("overturning_factor")?,
             bearing_resistance: value("bearing_resistance"),
             bearing_factor: value("bearing_factor")?,
+            block_length: value("block_length"),
             water_head: value("water_head"),
         })
     });

@@ -476,6 +476,11 @@ const STABILITY: &[Key] = &[
         "partial factor on the bearing resistance (1.4: EN 1997-1, design approach 2)",
     ),
     Key::optional(
+        "block_length",
+        quantity(D::Length, 0.5, 40.0),
+        "length along the barrier, from joint to joint, of a block of the wall that stands or moves as one piece, with reinforcement or bulk enough for it: a point load is then shared over the block, for sliding over 0.41 of it, because at the end of a block it turns the block as well; by default a point load spreads at 45 deg to one side of where it hits",
+    ),
+    Key::optional(
         "water_head",
         quantity(D::Length, 0.0, 50.0),
         "head of the water under the upstream edge of the base, which falls evenly to none at its downstream edge, 0 m for a base that is drained; a design value, no factor is applied to it; where it is not given the base is taken as dry and its checks stay open",

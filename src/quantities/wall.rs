@@ -108,16 +108,16 @@ pub const SLIDING: Quantity =
     Quantity::new("wall_sliding", "Largest force along the base", NewtonPerMetre, Of::Run, |run| {
         vec![base(run).slides]
     })
-    .demanded(Demanded::Load(|guideline, factors| Some(factors.load * guideline.metre_force)));
+    .demanded(Demanded::Load(|guideline, factors| Some(factors.load * guideline.on_the_base.slides)));
 
 /// Largest moment about the upstream end of its base, with that of the lift; by the guideline that of the load along the bed.
 pub const OVERTURNING: Quantity =
     Quantity::new("wall_overturning", "Largest moment about the base", NewtonMetrePerMetre, Of::Run, |run| {
         vec![base(run).tips]
     })
-    .demanded(Demanded::Load(|guideline, factors| Some(factors.load * guideline.foot_moment)));
+    .demanded(Demanded::Load(|guideline, factors| Some(factors.load * guideline.on_the_base.tips)));
 
 /// What presses on its base beside its weight, at the most; by the guideline the load along the bed.
 pub const PRESS: Quantity =
     Quantity::new("wall_press", "Largest force on the base", NewtonPerMetre, Of::Run, |run| vec![base(run).presses])
-        .demanded(Demanded::Load(|guideline, factors| Some(factors.load * guideline.metre_force)));
+        .demanded(Demanded::Load(|guideline, factors| Some(factors.load * guideline.on_the_base.pushes)));

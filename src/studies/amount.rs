@@ -69,7 +69,7 @@ pub fn shown(node: &Node) -> String {
         Node::Text(text) => text.clone(),
         Node::Number(number) => number.to_string(),
         Node::Flag(flag) => flag.to_string(),
-        Node::Nothing => "nothing".into(),
+        Node::Nothing => "left out".into(),
         Node::List(items) => items.iter().map(shown).collect::<Vec<_>>().join(", "),
         Node::Map(keys) => {
             keys.iter().map(|(name, value)| format!("{name} {}", shown(value))).collect::<Vec<_>>().join(", ")

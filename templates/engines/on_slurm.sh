@@ -1,6 +1,6 @@
 #!/bin/sh
 # One task of an array: of the lines of a file those whose number leaves this task's number when divided by the number of tasks.
-# sbatch --wait --array=0-9 on_slurm.sh runs.txt 10
+# sbatch --array=0-9 on_slurm.sh runs.txt 10
 list=$1
 tasks=$2
 awk -v task="$SLURM_ARRAY_TASK_ID" -v tasks="$tasks" '(NR - 1) % tasks == task' "$list" | while IFS= read -r line; do

@@ -68,6 +68,15 @@ pub struct LoadCase {
     pub source: &'static str,
 }
 
+/// What a wall that stands by its weight takes, per width: the load along the bed that it must not slide under and the one that pushes and
+/// presses it (N/m), and the moment about the foot of its face (N m/m).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OnTheBase {
+    pub slides: f64,
+    pub pushes: f64,
+    pub tips: f64,
+}
+
 impl LoadCase {
     /// Static pressure at the bed (Pa).
     pub fn pressure_static(&self) -> f64 {
@@ -129,6 +138,26 @@ impl LoadCase {
     pub fn foot_moment(&self, width: f64, lean: f64) -> f64 {
         let spread = |point: PointLoad| point.force * (1.0 - point.height / width).max(0.0);
         self.face_moment(width, lean) + self.point.map_or(0.0, spread)
+    }
+
+    /// What a wall that stands by its weight takes, per width: any metre of it, or where blocks of this length move as one a metre of a block.
+    ///
+    /// A block tips about its whole edge wherever it is hit. A point load P at its end pushes it there and turns it about a point x from that
+    /// end: with the resistance r of each metre and what else pushes it, q, upper-bound analysis gives
+    /// P x = (r − q) x²/2 + (r + q) (L − x)²/2, which is no less than (r − q) (x² + (L − x)²)/2. That is least for P at x = L/√2, where
+    /// r = q + P/((√2 − 1) L).
+    pub fn on_the_base(&self, block: Option<f64>, width: f64, height: f64, lean: f64) -> OnTheBase {
+        let Some(block) = block else {
+            let force = self.metre_force(width, height);
+            return OnTheBase { slides: force, pushes: force, tips: self.foot_moment(width, lean) };
+        };
+        let length = block.min(width);
+        let shared = |length: f64| self.force_per_width() + self.point.map_or(0.0, |point| point.force / length);
+        OnTheBase {
+            slides: shared((std::f64::consts::SQRT_2 - 1.0) * length),
+            pushes: shared(length),
+            tips: self.face_moment(length, lean),
+        }
     }
 
     /// Force per width on the strip of a rope between two heights; the topmost strip takes the drag (N/m).
