@@ -4,6 +4,8 @@
 //! α' downstream holds V = S(H) (cot(α − α') + tan ε), S being the first moment of the section's area: ½ b H² in a rectangle. With reaches of
 //! other slopes the area under the surface is integrated along the bed, on each of them with S in closed form. Derived here.
 
+use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::profile::Profile;
@@ -46,6 +48,21 @@ pub struct Reservoir {
     pub profile: Option<Profile>,
     /// The ground itself, where a raster tells it.
     pub relief: Option<Arc<Relief>>,
+}
+
+/// A height that was sought in a reservoir.
+struct Found {
+    of: Reservoir,
+    volume: f64,
+    surface: Surface,
+    height: f64,
+}
+
+/// Heights that a thread remembers.
+const REMEMBERED: usize = 16;
+
+thread_local! {
+    static FOUND: RefCell<VecDeque<Found>> = const { RefCell::new(VecDeque::new()) };
 }
 
 /// A deposit behind a barrier.
@@ -242,7 +259,7 @@ impl Reservoir {
     pub fn height(&self, per_width: f64, falls: f64) -> f64 {
         let spread = libm::tan(self.slope + falls).recip() + libm::tan(self.lean);
         if self.profile.is_some() {
-            return self.height_by_search(per_width * self.width, Surface::Plane(-falls));
+            return self.height_once(per_width * self.width, Surface::Plane(-falls));
         }
         if !(spread > 0.0 && self.slope + falls < std::f64::consts::FRAC_PI_2 + self.lean) {
             return f64::INFINITY;
@@ -251,6 +268,30 @@ impl Reservoir {
             Section::Rectangle { .. } => (2.0 * per_width / spread).sqrt(),
             section @ Section::Surveyed(_) => section.height_of_moment(per_width * self.width / spread),
         }
+    }
+
+    /// The same reservoir is asked for the same height by every check, and by every sample of a study that changes other things.
+    fn height_once(&self, volume: f64, surface: Surface) -> f64 {
+        let known = |found: &Found| {
+            found.volume == volume
+                && found.surface == surface
+                && [found.of.slope, found.of.lean] == [self.slope, self.lean]
+                && match (&found.of.relief, &self.relief) {
+                    (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+                    (None, None) => found.of.section == self.section,
+                    _ => false,
+                }
+                && found.of.profile == self.profile
+        };
+        if let Some(height) = FOUND.with_borrow(|found| found.iter().find(|found| known(found)).map(|it| it.height)) {
+            return height;
+        }
+        let height = self.height_by_search(volume, surface);
+        FOUND.with_borrow_mut(|found| {
+            found.truncate(REMEMBERED - 1);
+            found.push_front(Found { of: self.clone(), volume, surface, height });
+        });
+        height
     }
 
     fn height_by_search(&self, volume: f64, surface: Surface) -> f64 {
