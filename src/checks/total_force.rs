@@ -61,6 +61,7 @@ mod tests {
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
+            block_length: None,
             water_head: Some(0.0),
         });
         let total_force = Demand { guideline: Some(100e3), ..Demand::default() };

@@ -150,16 +150,16 @@ mod tests {
 
     #[test]
     fn nothing_leaves_a_key_out() {
-        let text = SMALL_NET.replace("limits:", "limits:\n  freeboard: 0.1 m");
         let read = |changes: &Changes| {
-            let read = read_design_changed(Purpose::Simulation, "x", text.as_bytes(), &|_| Err("none".into()), changes);
-            read.map(|read| read.design.limits.freeboard)
+            let read =
+                read_design_changed(Purpose::Simulation, "x", SMALL_NET.as_bytes(), &|_| Err("none".into()), changes);
+            read.map(|read| read.design.limits.retained_mass)
         };
         let without = |path: &str| Changes::new(vec![(path.to_string(), Node::Nothing)]);
-        assert_eq!(read(&Changes::default()).ok(), Some(Some(0.1)));
-        assert_eq!(read(&without("limits.freeboard")).ok(), Some(None));
-        assert_eq!(read(&without("limits")).ok(), Some(None));
-        assert!(read(&without("limits.freebord")).is_err());
+        assert_eq!(read(&Changes::default()).ok(), Some(0.85));
+        assert_eq!(read(&without("limits.retained_mass")).ok(), Some(0.9));
+        assert_eq!(read(&without("limits")).ok(), Some(0.9));
+        assert!(read(&without("limits.retained_mas")).is_err());
     }
 
     fn net(changes: &Changes) -> FlexibleNet {

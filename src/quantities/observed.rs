@@ -155,6 +155,7 @@ mod tests {
             overturning_factor: 1.5,
             bearing_resistance: None,
             bearing_factor: 1.4,
+            block_length: None,
             water_head: Some(0.0),
         });
         let width = design.channel.width;
