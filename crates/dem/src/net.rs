@@ -8,6 +8,7 @@ use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingForce, RingSide};
 use crate::elements::rope::{Fate, pull};
+use crate::elements::segment::Strand;
 use crate::tables::barrier::Barrier;
 
 /// Forces on the nodes and tensions of the elements.
@@ -214,11 +215,16 @@ impl NetForces {
         }
     }
 
-    /// Tensions of all that pulls (N), in the order of [`Barrier::strands`]; of one rope where several share them.
-    pub fn strand_tensions<'a>(&'a self, barrier: &'a Barrier) -> impl Iterator<Item = f64> + 'a {
-        let all =
-            self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators).chain(&self.posts);
-        barrier.strands().zip(all).map(|(strand, tension)| tension / barrier.sharing(strand.kind))
+    /// Calls `take` for all that pulls or pushes along a line, in the order of [`Barrier::strands`], with its tension (N); that of one rope where
+    /// several share it.
+    pub fn each_strand(&self, barrier: &Barrier, mut take: impl FnMut(Strand, f64)) {
+        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators);
+        let mut all = all.chain(&self.posts);
+        barrier.strands().for_each(|strand| {
+            if let Some(tension) = all.next() {
+                take(strand, tension / barrier.sharing(strand.kind));
+            }
+        });
     }
 
     /// Adds the force of a grain on a line, `times` over.
@@ -322,7 +328,8 @@ mod tests {
             ..Barrier::default()
         };
         let net = pull_all(&barrier, &LawConstants::new(1.0, 2.0 / 7.0, 1e-5));
-        let told: Vec<f64> = net.strand_tensions(&barrier).collect();
+        let mut told = Vec::new();
+        net.each_strand(&barrier, |_, tension| told.push(tension));
         assert!((net.forces[0].x - 2e3).abs() < 1e-6 && (told[0] - 1e3).abs() < 1e-6 && (told[1] - 2e3).abs() < 1e-6);
     }
 }

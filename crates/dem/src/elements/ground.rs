@@ -118,7 +118,7 @@ impl Ground {
             let here = known.partition_point(|footing| footing.node <= index as u32);
             let (own, rest) = known.split_at(here);
             known = rest;
-            if node.fixed {
+            if node.fixed || own.is_empty() && self.is_clear(index, node) {
                 continue;
             }
             self.parts_near(index, node, own, &mut parts);
@@ -133,6 +133,15 @@ impl Ground {
                 take(Footing { node: index as u32, part, memory: response.memory }, &response);
             }
         }
+    }
+
+    /// Whether a node surely touches no part of the ground; as most do in most steps, it is asked first.
+    fn is_clear(&self, index: usize, node: &Node) -> bool {
+        let Shape::Planes { planes, reaches } = &self.shape else { return false };
+        // What is not a number is not clear.
+        let clear =
+            |(plane, reach): (&Plane, &f64)| node.position.z > plane.top || reach - plane.height(&node.position) <= 0.0;
+        planes.iter().zip(&reaches[index]).all(clear)
     }
 
     /// The planes or facets that a node may touch or has touched, rising.

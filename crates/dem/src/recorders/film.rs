@@ -156,12 +156,15 @@ impl Film {
         let net = &simulation.sums.net;
         let barrier = simulation.model.barrier.as_ref();
         let nodes = barrier.into_iter().flat_map(|barrier| &barrier.nodes);
-        let tensions = barrier.into_iter().flat_map(|barrier| net.strand_tensions(barrier));
+        let mut tensions = Vec::new();
+        if let Some(barrier) = barrier {
+            net.each_strand(barrier, |_, tension| tensions.push(tension as f32));
+        }
         Frame {
             time: simulation.time,
             grains: poses,
             nodes: nodes.map(|node| single(&node.position)).collect(),
-            tensions: tensions.map(|tension| tension as f32).collect(),
+            tensions,
         }
     }
 }

@@ -88,8 +88,11 @@ fn net_round(simulation: &Simulation, setup: &RecorderSetup, force: &[Vec3]) -> 
         let place = barrier.nodes[node as usize].position;
         near.iter().any(|(centre, reach)| (place - centre).norm() < *reach)
     };
-    let strands = barrier.strands().zip(simulation.sums.net.strand_tensions(barrier));
-    strands
-        .filter(|(strand, _)| strand.kind == SegmentKind::Net && strand.nodes.iter().any(|node| is_near(*node)))
-        .fold(0.0, |largest, (_, tension)| larger_or_nan(largest, tension))
+    let mut largest = 0.0;
+    simulation.sums.net.each_strand(barrier, |strand, tension| {
+        if strand.kind == SegmentKind::Net && strand.nodes.iter().any(|node| is_near(*node)) {
+            largest = larger_or_nan(largest, tension);
+        }
+    });
+    largest
 }

@@ -50,12 +50,12 @@ impl BodyRecorder for OfPosts {
             *sum += net.forces[post.nodes[0] as usize];
         }
         let mut largest = vec![0.0_f64; barrier.posts.len()];
-        for (strand, tension) in barrier.strands().zip(net.strand_tensions(barrier)) {
+        net.each_strand(barrier, |strand, tension| {
             if let SegmentKind::Retaining(post) = strand.kind {
                 let of_post = &mut largest[usize::from(post)];
                 *of_post = larger_or_nan(*of_post, tension);
             }
-        }
+        });
         add_rows(&mut self.retaining, &largest);
     }
 

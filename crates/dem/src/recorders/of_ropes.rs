@@ -40,21 +40,19 @@ impl BodyRecorder for OfRopes {
         let (Some(barrier), net) = (&simulation.model.barrier, &simulation.sums.net) else { return };
         let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
         let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
-        for (strand, tension) in barrier.strands().zip(net.strand_tensions(barrier)) {
-            match strand.kind {
-                SegmentKind::Main(rope) => {
-                    if let Some(rest_length) = strand.rest_length {
-                        let [weighted, length] = &mut mean[rope as usize];
-                        *weighted += tension * rest_length;
-                        *length += rest_length;
-                    }
-                    largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
+        net.each_strand(barrier, |strand, tension| match strand.kind {
+            SegmentKind::Main(rope) => {
+                if let Some(rest_length) = strand.rest_length {
+                    let [weighted, length] = &mut mean[rope as usize];
+                    *weighted += tension * rest_length;
+                    *length += rest_length;
                 }
-                SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
-                SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
-                SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
+                largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
             }
-        }
+            SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
+            SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
+            SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
+        });
         let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
         add_rows(&mut self.mean, &mean);
         add_rows(&mut self.largest, &largest);

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::elements::segment;
 use crate::elements::segment::SegmentKind;
 use crate::net::NetForces;
 use crate::simulation::Simulation;
@@ -86,10 +85,10 @@ fn touches(simulation: &Simulation) -> Vec<[f64; 2]> {
 }
 
 fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {
-    let strand = |(strand, tension): (segment::Strand, f64)| Strand {
-        ends: strand.nodes.map(|node| barrier.nodes[node as usize].position),
-        kind: strand.kind,
-        tension,
-    };
-    barrier.strands().zip(net.strand_tensions(barrier)).map(strand).collect()
+    let mut strands = Vec::new();
+    net.each_strand(barrier, |strand, tension| {
+        let ends = strand.nodes.map(|node| barrier.nodes[node as usize].position);
+        strands.push(Strand { ends, kind: strand.kind, tension });
+    });
+    strands
 }

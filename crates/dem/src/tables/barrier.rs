@@ -67,7 +67,7 @@ pub struct Barrier {
 }
 
 impl Barrier {
-    /// All that pulls or pushes along a line, in the order of [`NetForces::strand_tensions`](crate::net::NetForces::strand_tensions). A new element is listed here.
+    /// All that pulls or pushes along a line, in the order of [`NetForces::each_strand`](crate::net::NetForces::each_strand). A new element is listed here.
     pub fn strands(&self) -> impl Iterator<Item = Strand> {
         let segments = self.segments.iter().map(Segment::strand);
         segments
