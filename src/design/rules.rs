@@ -71,6 +71,7 @@ pub const RULES: &[Rule] = &[
     wall_rules::wall_base_carries_the_wall,
     wall_rules::wall_base_no_steeper_than_the_bed,
     wall_rules::wall_face_stands_on_its_base,
+    wall_rules::wall_block_is_one_of_the_wall,
     point_load_on_the_barrier,
     self_weight_of_a_net,
     freeboard_is_of_an_emptied_barrier,

@@ -1,8 +1,10 @@
 //! Contradictions between values of a rigid wall; listed in [`super::rules`].
 
+use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
 use crate::design::show::length;
 use crate::problem::Problem;
+use crate::section::Section;
 use crate::units::Dimension;
 
 pub fn wall_segments_fill_the_wall(e: &Entries) -> Option<Problem> {
@@ -44,6 +46,27 @@ pub fn wall_base_no_steeper_than_the_bed(e: &Entries) -> Option<Problem> {
             format!("no more than the slope of the bed, {}", show(bed)),
         )
         .hint("on a steeper base the load would lift the wall, which is not checked")
+    })
+}
+
+/// Two blocks at the least have half a wall between them. In a section a block beside the lowest point is lower than the wall is there, which no
+/// check knows, so that the wall has to be one.
+pub fn wall_block_is_one_of_the_wall(e: &Entries) -> Option<Problem> {
+    let path = format!("{STABILITY}.block_length");
+    let block = e.number(&path)?;
+    let allowed = match section(e)? {
+        Section::Rectangle { width } => (block < width && block > 0.5 * width).then(|| {
+            format!("{} or more for a wall without joints, or at most {} with them", length(width), length(0.5 * width))
+        }),
+        section => {
+            let top = section.width(height_of_barrier(e)?);
+            (block < top)
+                .then(|| format!("{} or more, a wall without joints, where the section is no rectangle", length(top)))
+        }
+    };
+    allowed.map(|allowed| {
+        Problem::new(path, format!("a shortest block of {}", length(block)), allowed)
+            .hint("leave it out where joints are nearer: a point load then spreads at 45 deg")
     })
 }
 

@@ -278,9 +278,10 @@ impl Reservoir {
                 && [found.of.slope, found.of.lean] == [self.slope, self.lean]
                 && match (&found.of.relief, &self.relief) {
                     (Some(one), Some(other)) => Arc::ptr_eq(one, other),
-                    (None, None) => found.of.section == self.section,
+                    (None, None) => true,
                     _ => false,
                 }
+                && found.of.section == self.section
                 && found.of.profile == self.profile
         };
         if let Some(height) = FOUND.with_borrow(|found| found.iter().find(|found| known(found)).map(|it| it.height)) {
