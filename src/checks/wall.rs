@@ -4,7 +4,7 @@
 use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance, Route, UnderAWall};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Stability};
-use crate::guideline::{input, wall_of};
+use crate::guideline::{input, point_load, wall_of};
 use crate::larger::larger_or_nan;
 use crate::loads::wall::WallInput;
 use crate::quantities::quantity::Unit;
@@ -42,6 +42,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let off_centre = base.off_centre();
     let mut outcomes = vec![base.pressure(), base.eccentricity(off_centre), base.sliding(), base.overturning()];
     leave_open_untold(&stability, &mut outcomes);
+    leave_open_where_joints_are_unknown(design, &stability, &mut outcomes);
     leave_open_where_the_base_gapes(&wall, off_centre, &mut outcomes);
     leave_open_below_water(design, &stability, &mut outcomes);
     outcomes
@@ -203,6 +204,18 @@ fn leave_open_untold(stability: &Stability, outcomes: &mut [Outcome]) {
     }
 }
 
+/// A point load spreads no further than to the next joint of the wall, and a short block slides and turns under it where a long one stands.
+fn leave_open_where_joints_are_unknown(design: &Design, stability: &Stability, outcomes: &mut [Outcome]) {
+    if stability.block_length.is_some() || point_load(design).is_none_or(|(force, _)| force == 0.0) {
+        return;
+    }
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        outcome.leave_open(Opening::NotGiven(
+            "it holds where the point load spreads at 45° to one side, and whether joints of the wall stop it is not said (give barrier.rigid_wall.stability.block_length, the length of the wall if it has no joints)".into(),
+        ));
+    }
+}
+
 fn stability_of(design: &Design) -> Option<Stability> {
     match &design.barrier {
         BarrierDesign::RigidWall(wall) => wall.stability,
@@ -353,6 +366,23 @@ mod tests {
         for (index, more) in [40.74e3, 16.875e3, 25.3125e3].into_iter().enumerate() {
             assert_relative_eq!(with[index] - without[index], more, max_relative = 1e-3);
         }
+    }
+
+    #[test]
+    fn a_point_load_on_a_wall_of_unknown_joints_is_open() {
+        let verdicts = |block_length: Option<f64>, force: f64| {
+            let mut design = with_stability();
+            design.loads.point_load = Some((force, 1.0));
+            let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+            let stability = wall.stability.as_mut().expect("stability");
+            (stability.thickness, stability.base_width, stability.bearing_resistance) = (40.0, 40.0, Some(1e6));
+            stability.block_length = block_length;
+            let demands = Demands::by_equations(&guideline(&design), &design.factors);
+            check(&design, &demands).into_iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
+        };
+        assert_eq!(verdicts(None, 1e3), [CheckVerdict::Open; 4]);
+        assert_eq!(verdicts(None, 0.0), [CheckVerdict::Pass; 4]);
+        assert_eq!(verdicts(Some(5.0), 1e3), [CheckVerdict::Pass; 4]);
     }
 
     /// 50 kN/m along a bed of 14° press on a plumb face with 50/cos 14° = 51.53 kN/m along a level base: 1.8 m deeper they tip with 92.76 kN m/m

@@ -478,7 +478,7 @@ const STABILITY: &[Key] = &[
     Key::optional(
         "block_length",
         quantity(D::Length, 0.5, 40.0),
-        "length along the barrier, from joint to joint, of the shortest block of the wall that stands or moves as one piece, with reinforcement or bulk enough for it; without joints the length of the wall. A point load is then shared over the block, for sliding over 0.41 of it, because at the end of a block it turns the block as well; by default a point load spreads at 45 deg to one side of where it hits",
+        "length along the barrier, from joint to joint, of the shortest block of the wall that stands or moves as one piece, with reinforcement or bulk enough for it; without joints the length of the wall. A point load is then shared over the block, for sliding over 0.41 of it, because at the end of a block it turns the block as well; where it is not given, a point load is taken to spread at 45 deg to one side of where it hits, and the checks of the base that hold so stay open",
     ),
     Key::optional(
         "water_head",

@@ -66,7 +66,7 @@ pub fn wall_block_is_one_of_the_wall(e: &Entries) -> Option<Problem> {
     };
     allowed.map(|allowed| {
         Problem::new(path, format!("a shortest block of {}", length(block)), allowed)
-            .hint("leave it out where joints are nearer: a point load then spreads at 45 deg")
+            .hint("leave it out where that is not so: what the wall's base bears of a point load then stays open")
     })
 }
 
