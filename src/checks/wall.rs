@@ -14,7 +14,7 @@ use crate::sources::WALL_BALANCE;
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let (Some(wall), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
     let (force, moment) = (demands.one(&quantity::SLIDING), demands.one(&quantity::OVERTURNING));
-    // By the equations what pushes a block, which a point load at its end slides more than that.
+    // The load on a block by the equations; against sliding a point load counts more, because it may hit the end of the block.
     let pushes = demands.one(&quantity::PRESS).guideline;
     // Moments are told about the foot of the face; the base lies deeper.
     let deeper = stability.founding_depth * libm::cos(wall.base_slope);

@@ -4,8 +4,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use crate::commands::signals::stop;
 use crate::report::folder::OF_ENGINES;
 
 /// An engine by its name.
@@ -81,13 +83,13 @@ pub fn give(engine: Engine, lines: &[String], folder: &Path) -> Result<(), Strin
     // A task that failed leaves nothing kept, which is told when results are gathered.
     let told = |status: ExitStatus| crate::terminal::warn(format_args!("note: {program} ended with {status}"));
     if engine == Engine::Slurm {
-        let put = command.stderr(Stdio::inherit()).output().map_err(not_started)?;
-        if !put.status.success() {
-            told(put.status);
+        let submitted = command.stderr(Stdio::inherit()).output().map_err(not_started)?;
+        if !submitted.status.success() {
+            told(submitted.status);
             return Ok(());
         }
         // The number of the job, and behind a semicolon the cluster.
-        let job = String::from_utf8_lossy(&put.stdout);
+        let job = String::from_utf8_lossy(&submitted.stdout);
         return wait_for_slurm(job.trim().split(';').next().unwrap_or_default());
     }
     let status = command.status().map_err(not_started)?;
@@ -100,13 +102,22 @@ pub fn give(engine: Engine, lines: &[String], folder: &Path) -> Result<(), Strin
 /// Times that a scheduler may fail to answer, one after another.
 const UNANSWERED: usize = 10;
 
-/// Waits until no task of an array is pending or runs. Asks ever more seldom: what is lost by it is a fiftieth of the time, or half a second.
-/// (`sbatch --wait` asks after 2, 6, 12, 20, 30 s.)
+/// Waits until no task of an array is pending or running. The pause between two questions is a fiftieth of the time so far, from half a second
+/// to 30 s, so that little time is lost at the end. (`sbatch --wait` asks after 2, 6, 12, 20 and 30 s.) A user who interrupts the program waits no
+/// longer; the array goes on.
 fn wait_for_slurm(job: &str) -> Result<(), String> {
     let began = Instant::now();
     let mut unanswered = 0;
     loop {
-        std::thread::sleep((began.elapsed() / 50).clamp(Duration::from_millis(500), Duration::from_secs(30)));
+        let next = Instant::now() + (began.elapsed() / 50).clamp(Duration::from_millis(500), Duration::from_secs(30));
+        while Instant::now() < next {
+            if stop().load(Ordering::Relaxed) {
+                return Err(format!(
+                    "interrupted; job {job} goes on (scancel {job} ends it): once it has ended, gather the results with --collect"
+                ));
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
         let asked = Command::new("squeue").args(["--noheader", "--jobs", job]).output();
         match asked {
             Ok(answer) if answer.status.success() && answer.stdout.is_empty() => return Ok(()),
@@ -117,7 +128,7 @@ fn wait_for_slurm(job: &str) -> Result<(), String> {
         }
         if unanswered == UNANSWERED {
             return Err(format!(
-                "squeue does not tell of the job {job}: once it has ended, gather the results with --collect"
+                "squeue has not answered {UNANSWERED} times about job {job}: once it has ended, gather the results with --collect"
             ));
         }
     }

@@ -32,10 +32,10 @@ impl Changes {
     }
 
     /// Puts them onto the tree of a design. A list is taken as a whole, and where the same thing can be given in different ways, the way of the
-    /// change stands alone. Nothing leaves the key out.
+    /// change stands alone. A value of [`Node::Nothing`] removes the key.
     pub fn put_onto(&self, root: &mut Node) {
         for (path, node) in &self.0 {
-            // What is not there is put there as nothing, so that a wrong path is found by who reads the design.
+            // A key that is not there is set to nothing, so that reading the design reports a wrong path.
             if *node == Node::Nothing && leave_out(root, path) {
                 continue;
             }
