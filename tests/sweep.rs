@@ -121,3 +121,60 @@ fn lists_go_together_and_values_that_make_no_design_are_told() {
     let told = String::from_utf8_lossy(&ran.stderr).into_owned();
     assert!(ran.status.code() == Some(2) && told.contains("of the kind sweep"), "{told}");
 }
+
+/// A scheduler that makes the runs at once, as Slurm would, and tells in `squeue` what the test wants. Returns the PATH with it in front.
+#[cfg(unix)]
+fn scheduler(here: &Path, squeue: &str) -> String {
+    use std::os::unix::fs::PermissionsExt;
+    let sbatch = "while [ \"${1#-}\" != \"$1\" ]; do shift; done
+task=0
+while [ $task -lt $3 ]; do SLURM_ARRAY_TASK_ID=$task sh \"$1\" \"$2\" \"$3\" >/dev/null 2>&1; task=$((task + 1)); done
+echo '7;here'";
+    for (name, text) in [("sbatch", sbatch), ("squeue", squeue)] {
+        let place = here.join(name);
+        std::fs::write(&place, format!("#!/bin/sh\n{text}\n")).expect("a script");
+        std::fs::set_permissions(&place, std::fs::Permissions::from_mode(0o755)).expect("it may be run");
+    }
+    format!("{}:{}", here.display(), std::env::var("PATH").expect("a path"))
+}
+
+#[cfg(unix)]
+#[test]
+fn slurm_is_asked_until_it_knows_of_no_task() {
+    let here = folder("slurm");
+    barrier_check(&here, &["study", "plan.yaml", "--out", "here"]);
+    // A task is left twice, then the job is forgotten.
+    let path = scheduler(
+        &here,
+        "echo \"$3\" >>asked; [ $(wc -l <asked) -gt 2 ] && { echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1; }; echo 7_1",
+    );
+    let program = || Command::new(env!("CARGO_BIN_EXE_barrier-check"));
+    let arguments = ["study", "plan.yaml", "--out", "there", "--on", "slurm"];
+    let ran = program().args(arguments).current_dir(&here).env("PATH", &path).output().expect("it runs");
+    assert_eq!(ran.status.code(), Some(0), "{}", String::from_utf8_lossy(&ran.stderr));
+    assert_eq!(read(&here, "asked"), "7\n7\n7\n");
+    assert_eq!(read(&here, "there/sweep.csv"), read(&here, "here/sweep.csv"));
+}
+
+/// Who interrupts the program need not wait for the scheduler.
+#[cfg(unix)]
+#[test]
+fn waiting_for_slurm_can_be_interrupted() {
+    let here = folder("interrupted");
+    let path = scheduler(&here, "echo asked >>asked; echo 7_1");
+    let program = Command::new(env!("CARGO_BIN_EXE_barrier-check"))
+        .args(["study", "plan.yaml", "--out", "there", "--on", "slurm"])
+        .current_dir(&here)
+        .env("PATH", &path)
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("it runs");
+    while !here.join("asked").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    let killed = Command::new("kill").args(["-INT", &program.id().to_string()]).status().expect("kill");
+    assert!(killed.success());
+    let ended = program.wait_with_output().expect("it ends");
+    let told = String::from_utf8_lossy(&ended.stderr);
+    assert!(ended.status.code() == Some(2) && told.contains("interrupted; job 7 goes on"), "{told}");
+}
