@@ -18,7 +18,7 @@ use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
 use crate::load_cases::{self, LoadCase, cases};
 use crate::quantities::observed::Observed;
-use crate::quantities::{earth_pressure, total_force, wall};
+use crate::quantities::{boulder, earth_pressure, total_force, wall};
 use crate::scene::estimate::estimate;
 use crate::scene::event::Watch;
 use crate::sensitivity::simulated::{swings, variants};
@@ -314,11 +314,14 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
     let arrives = arriving::of_surge(design, simulated, number);
     let on_a_wall = matches!(design.barrier, BarrierDesign::RigidWall(_));
     let one_run = ONE_RUN[usize::from(on_a_wall)];
+    let hardest = |spread: &Spread| if spread.starts > 1 { spread.upper() } else { one_run * spread.mean };
+    let hit = over(&|start| start.observed.one(&boulder::FORCE));
     FirstSurge {
         push: push.mean,
+        boulder: if design.flow.boulders.is_empty() { 0.0 } else { hardest(&hit) },
         one_run: if push.starts > 1 { 0.0 } else { one_run - 1.0 },
         largest_push: simulated.spread(|seen| seen.one(&total_force::PUSH)).mean,
-        hardest_push: if push.starts > 1 { push.upper() } else { one_run * push.mean },
+        hardest_push: hardest(&push),
         moment: simulated.spread(|seen| seen.one(&wall::MOMENT)).mean,
         sampled_over_smoothed: short_peaks(|seen| [seen.one(&total_force::PEAK_SAMPLED), seen.one(&total_force::PEAK)]),
         moment_sampled_over_smoothed: short_peaks(|seen| [seen.one(&wall::MOMENT_SAMPLED), seen.one(&wall::MOMENT)]),

@@ -12,6 +12,8 @@ pub struct FirstSurge {
     pub largest_push: f64,
     /// The same as the next packing may exceed it with a probability of 5 % (N).
     pub hardest_push: f64,
+    /// The largest force of one boulder on the barrier, as the next packing may exceed it with a probability of 5 % (N); 0 where the flow has none.
+    pub boulder: f64,
     /// Their largest moment about the foot of a wall, per width (N m/m).
     pub moment: f64,
     /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged.

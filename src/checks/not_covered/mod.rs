@@ -4,6 +4,7 @@
 pub(crate) mod drag;
 pub(crate) mod full_barrier;
 pub(crate) mod hanging_base;
+pub(crate) mod harder_boulder;
 pub(crate) mod harder_flow;
 pub(crate) mod heaped;
 pub(crate) mod known;
@@ -23,6 +24,7 @@ use crate::checks::outcome::Outcome;
 const RULES: &[fn(Known, &mut [Outcome])] = &[
     full_barrier::leave_open,
     harder_flow::leave_open,
+    harder_boulder::leave_open,
     thinner_flow::leave_open,
     heaped::leave_open,
     hanging_base::leave_open,
