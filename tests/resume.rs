@@ -476,7 +476,10 @@ fn starts_side_by_side_are_kept_without_a_word() {
     std::fs::write(kept.join("pytorch_model.bin"), "mine").expect("a file");
     let output = run(&[DESIGN, "--out", &path, "--keep-every", "0", "--seeds", "4", "--threads", "4"]);
     assert!(matches!(output.status.code(), Some(0..=2)));
-    assert_eq!(error(&output), "");
+    // On a busy machine it takes longer than the ten seconds after which progress is told.
+    let told = error(&output);
+    let warned: Vec<&str> = told.lines().filter(|line| !line.contains(" s: simulated ")).collect();
+    assert!(warned.is_empty(), "{told}");
     assert_eq!(std::fs::read_to_string(kept.join("pytorch_model.bin")).expect("a file"), "mine");
     assert_eq!(std::fs::read_dir(&kept).expect("a folder").count(), 1);
 }
