@@ -10,9 +10,11 @@ use barrier_check::commands::engines::{Engine, Mode};
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::SchemaOf;
 use barrier_check::commands::study::study;
+use barrier_check::commands::told::Format;
 use barrier_check::commands::validate::{Selection, validate};
 use barrier_check::terminal;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
 
 /// Checks a debris-flow barrier: guideline loads, granular-flow simulation, limits, report.
 #[derive(Parser)]
@@ -26,7 +28,7 @@ struct Arguments {
 
 #[derive(Args)]
 struct CheckArguments {
-    /// Design file in YAML, for example designs/small_net.yaml
+    /// Design file in YAML, for example designs/small_net.yaml; - reads it from standard input
     #[arg(required = true)]
     design: Option<PathBuf>,
     /// Tells how many grains, steps, minutes and megabytes the run would take, and runs nothing
@@ -39,6 +41,9 @@ struct CheckArguments {
     how: HowArguments,
     #[command(flatten)]
     keep: KeepArguments,
+    /// How problems of the design and the verdict are printed
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Format::Text)]
+    format: Format,
 }
 
 /// How a run is kept.
@@ -79,8 +84,8 @@ struct HowArguments {
 }
 
 impl HowArguments {
-    fn options(&self) -> Options {
-        Options { threads: self.threads.map(usize::from), starts: self.seeds, vary: self.vary, vtk: self.vtk }
+    fn options(&self, format: Format) -> Options {
+        Options { threads: self.threads.map(usize::from), starts: self.seeds, vary: self.vary, vtk: self.vtk, format }
     }
 }
 
@@ -88,11 +93,14 @@ impl HowArguments {
 enum Command {
     /// Checks a design by the equations alone, without the simulation
     Loads {
-        /// Design file in YAML
+        /// Design file in YAML; - reads it from standard input
         design: PathBuf,
         /// Folder for the report [default: out/<name of the design file>_loads]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// How problems of the design and the verdict are printed
+        #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Format::Text)]
+        format: Format,
     },
     /// Holds several designs side by side on one page
     Compare {
@@ -122,6 +130,11 @@ enum Command {
         threads: Option<u16>,
         #[command(flatten)]
         keep: KeepArguments,
+    },
+    /// Prints a script that completes commands and options in a shell
+    Completions {
+        /// Shell, for example bash: `source <(barrier-check completions bash)`
+        shell: Shell,
     },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
@@ -204,6 +217,16 @@ fn main() {
     });
 }
 
+/// Prints what was asked for; the exit code.
+fn print(text: String) -> i32 {
+    if terminal::say(text.trim_end()) {
+        0
+    } else {
+        terminal::warn("error: standard output could not be written to");
+        2
+    }
+}
+
 /// The command that was given; its exit code.
 fn run() -> i32 {
     let arguments = match Arguments::try_parse() {
@@ -216,16 +239,14 @@ fn run() -> i32 {
         Err(told) => return if terminal::say(told.render().to_string().trim_end()) { 0 } else { 2 },
     };
     match arguments.command {
-        Some(Command::Schema { of }) => {
-            if terminal::say(format_args!("{:#}", of.schema())) {
-                0
-            } else {
-                terminal::warn("error: the schema could not be written to standard output");
-                2
-            }
+        Some(Command::Schema { of }) => print(format!("{:#}", of.schema())),
+        Some(Command::Completions { shell }) => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "barrier-check", &mut script);
+            print(String::from_utf8_lossy(&script).into_owned())
         }
-        Some(Command::Loads { design, out }) => loads(&design, out.as_deref()) as i32,
-        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options()) as i32,
+        Some(Command::Loads { design, out, format }) => loads(&design, out.as_deref(), format) as i32,
+        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options(Format::Text)) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
         Some(Command::Resume { folder, threads, keep }) => {
             resume(&folder, threads.map(usize::from), keep.every()) as i32
@@ -235,11 +256,11 @@ fn run() -> i32 {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, dry_run: only_tell, out, how, keep } = arguments.check;
+            let CheckArguments { design, dry_run: only_tell, out, how, keep, format } = arguments.check;
             let design = design.unwrap_or_default();
             match only_tell {
-                true => dry_run(&design, how.options()) as i32,
-                false => check(&design, out.as_deref(), how.options(), keep.every()) as i32,
+                true => dry_run(&design, how.options(format)) as i32,
+                false => check(&design, out.as_deref(), how.options(format), keep.every()) as i32,
             }
         }
     }

@@ -119,3 +119,45 @@ fn the_schemas_are_plain() {
         });
     }
 }
+
+/// What editors and scripts are told: a design on standard input, right or wrong, gives one document that its schema holds.
+#[test]
+fn what_a_command_tells_in_json_is_valid() {
+    let told = |text: &str, arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_barrier-check"));
+        let mut child = command
+            .args(arguments)
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .expect("the program");
+        std::io::Write::write_all(&mut child.stdin.take().expect("input"), text.as_bytes()).expect("written");
+        let output = child.wait_with_output().expect("an end");
+        let told: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+        validator("told").validate(&told).unwrap_or_else(|error| panic!("{error}: {told}"));
+        (output.status.code(), told)
+    };
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("told");
+    let out = out.to_str().expect("a path");
+    let loads = ["loads", "-", "--format", "json", "--out", out];
+
+    let (code, wrong) =
+        told(&SMALL_NET.replacen("width: 3 m", "width: 3", 1).replacen("revision", "revison", 1), &loads);
+    assert_eq!((code, &wrong["verdict"], &wrong["design"]), (Some(2), &Value::Null, &json!("stdin")));
+    let problem = |path: &str| {
+        let list = wrong["problems"].as_array().expect("problems");
+        list.iter().find(|problem| problem["path"] == path).expect(path).clone()
+    };
+    let line = 1 + SMALL_NET.lines().position(|line| line.contains("width: 3 m")).expect("a width");
+    assert_eq!(problem("channel.width")["line"], line);
+    assert_eq!(problem("project.revison")["hint"], "did you mean `revision`?");
+
+    let (code, right) = told(SMALL_NET, &loads);
+    assert_eq!((code, &right["verdict"], &right["report"]), (Some(2), &json!("undecided"), &json!(out)));
+    assert_eq!(right["problems"], json!([]));
+
+    let (code, estimated) = told(SMALL_NET, &["-", "--dry-run", "--format", "json"]);
+    assert_eq!((code, &estimated["estimate"]["simulations"]), (Some(0), &json!(1)));
+    assert!(estimated["estimate"]["grains"].as_f64().expect("a number") > 300.0);
+}

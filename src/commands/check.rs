@@ -7,14 +7,15 @@ use std::time::Duration;
 use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, CheckpointStore, Request};
 use crate::commands::ExitCode;
-use crate::commands::input::{self, LONGEST_TEXT};
-use crate::commands::output::{exit_code, hand_over, summarise, write_report};
+use crate::commands::input;
+use crate::commands::output::{exit_code, hand_over, write_report};
 use crate::commands::progress::Progress;
 use crate::commands::signals::{listen, stop};
+use crate::commands::told::Format;
 use crate::design::FidelityWish;
 use crate::design::attached::within;
 use crate::design::entries::Purpose;
-use crate::design::read::{DesignFile, read_design_for};
+use crate::design::read::{DesignFile, read_design_for, stem};
 use crate::fidelity::choose;
 use crate::load_cases::cases;
 use crate::pipeline::{Run, by_equations, climb, run, vary};
@@ -41,12 +42,13 @@ pub struct Options {
     pub vary: bool,
     /// Whether to write files for ParaView.
     pub vtk: bool,
+    pub format: Format,
 }
 
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given. The run is kept every so often, so
 /// that it can be resumed.
 pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Duration) -> ExitCode {
-    let (file, folder) = match prepare(Purpose::Simulation, path, out) {
+    let (file, folder) = match prepare(Purpose::Simulation, path, out, options.format) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
@@ -134,7 +136,7 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
     }
     let Request { starts, vary, vtk, .. } = request;
     let store = open_store(folder, request, &file, keep_every, false).watched(claimed.watch());
-    run_kept(file, claimed, Options { threads, starts, vary, vtk }, &store)
+    run_kept(file, claimed, Options { threads, starts, vary, vtk, format: Format::Text }, &store)
 }
 
 fn open_store(
@@ -158,7 +160,7 @@ fn run_kept(file: DesignFile, mut folder: Folder, options: Options, store: &Chec
     match ran.and_then(|run| Ok((write_report(&run, &mut folder, options.vtk)?, run))) {
         Ok((view, run)) => {
             store.clear();
-            summarise(&view, folder.path(), options.vtk);
+            options.format.tell_verdict(&run, &view, folder.path(), options.vtk);
             exit_code(run.verdict)
         }
         Err(error) => {
@@ -193,7 +195,7 @@ pub fn dry_run(path: &Path, options: Options) -> ExitCode {
     let file = match load(path) {
         Ok(file) => file,
         Err(problems) => {
-            terminal::warn(problems.to_string().trim_end());
+            options.format.tell_problems(&problems);
             return ExitCode::Undecided;
         }
     };
@@ -208,6 +210,10 @@ pub fn dry_run(path: &Path, options: Options) -> ExitCode {
     let starts = if auto { 1 } else { options.starts as usize } * cases;
     let varied = if options.vary { 2 * variants(&file.design).len() } else { 0 };
     let runs = starts + varied;
+    if options.format == Format::Json {
+        Format::tell_estimate(&file.name, &estimate, runs, seconds);
+        return decided(&estimate);
+    }
     let say = |line: String| {
         let _ = terminal::say(line);
     };
@@ -231,6 +237,11 @@ pub fn dry_run(path: &Path, options: Options) -> ExitCode {
         let most = "this is one run; a marginal design takes up to eleven, five of them with the finest model";
         say(format!("fidelity: auto    {most}"));
     }
+    decided(&estimate)
+}
+
+/// How a program ends that was asked what a run would take.
+fn decided(estimate: &Estimate) -> ExitCode {
     match estimate.too_much() {
         Some(reason) => {
             terminal::warn(format_args!("error: this design is not run: {reason}"));
@@ -249,16 +260,21 @@ fn duration(seconds: f64) -> String {
 }
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
-pub fn loads(path: &Path, out: Option<&Path>) -> ExitCode {
-    let (file, mut folder) = match prepare(Purpose::Equations, path, out) {
+pub fn loads(path: &Path, out: Option<&Path>, format: Format) -> ExitCode {
+    let (file, mut folder) = match prepare(Purpose::Equations, path, out, format) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
-    hand_over(&by_equations(file), &mut folder, false)
+    hand_over(&by_equations(file), &mut folder, false, format)
 }
 
 /// The design, and the folder its report goes to.
-fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignFile, Folder), ExitCode> {
+fn prepare(
+    purpose: Purpose,
+    path: &Path,
+    out: Option<&Path>,
+    format: Format,
+) -> Result<(DesignFile, Folder), ExitCode> {
     let (suffix, kind) = match purpose {
         Purpose::Simulation => ("", Kind::Simulation),
         Purpose::Equations => ("_loads", Kind::Equations),
@@ -271,8 +287,8 @@ fn prepare(purpose: Purpose, path: &Path, out: Option<&Path>) -> Result<(DesignF
             Ok((file, folder))
         }
         Err(problems) => {
-            terminal::warn(problems.to_string().trim_end());
-            tell_of_earlier_run(&folder_of(&path.file_stem().unwrap_or_default().to_string_lossy()));
+            format.tell_problems(&problems);
+            tell_of_earlier_run(&folder_of(&stem(&problems.file)));
             Err(ExitCode::Undecided)
         }
     }
@@ -300,9 +316,8 @@ pub fn load(path: &Path) -> Result<DesignFile, Problems> {
 
 /// The same for a purpose.
 fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
-    // A line break in the name would begin a line that the program seems to say.
-    let name = path.display().to_string().replace(['\n', '\r'], "\u{fffd}");
-    match input::read(path, LONGEST_TEXT, b"") {
+    let name = input::name_of(path);
+    match input::read_text(path) {
         Ok(bytes) => read_design_for(purpose, &name, &bytes, &|other| input::beside(path, other)),
         Err(error) => {
             let problem = Problem::new("", format!("a file that cannot be read: {error}"), "a design file in YAML")

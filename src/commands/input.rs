@@ -17,7 +17,7 @@ pub fn read(path: &Path, longest: u64, head: &[u8]) -> io::Result<Vec<u8>> {
         return Err(io::Error::other("it is not a regular file"));
     }
     if found.len() > longest {
-        return Err(io::Error::other(format!("it is longer than {} MB", longest >> 20)));
+        return Err(too_long(longest));
     }
     let mut file = File::open(path)?;
     let mut bytes = Vec::new();
@@ -27,6 +27,34 @@ pub fn read(path: &Path, longest: u64, head: &[u8]) -> io::Result<Vec<u8>> {
         file.take(longest).read_to_end(&mut bytes)?;
     }
     Ok(bytes)
+}
+
+/// What stands for standard input where a design file is named.
+const STANDARD_INPUT: &str = "-";
+
+/// The name of a design file as it is shown: a line break in it would begin a line that the program seems to say.
+pub fn name_of(path: &Path) -> String {
+    match path == Path::new(STANDARD_INPUT) {
+        true => "stdin".to_string(),
+        false => path.display().to_string().replace(['\n', '\r'], "\u{fffd}"),
+    }
+}
+
+/// The text of a design file, or of standard input where it is named `-`; the files that such a design names are sought in the current folder.
+pub fn read_text(path: &Path) -> io::Result<Vec<u8>> {
+    if path != Path::new(STANDARD_INPUT) {
+        return read(path, LONGEST_TEXT, b"");
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().take(LONGEST_TEXT + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > LONGEST_TEXT {
+        true => Err(too_long(LONGEST_TEXT)),
+        false => Ok(bytes),
+    }
+}
+
+fn too_long(longest: u64) -> io::Error {
+    io::Error::other(format!("it is longer than {} MB", longest >> 20))
 }
 
 /// Folder of a report in which the files lie that its design names.

@@ -15,6 +15,7 @@ pub(crate) mod signals;
 mod size;
 pub mod study;
 mod sweep;
+pub mod told;
 pub mod validate;
 
 /// How the program ends.

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::ATTACHED;
+use crate::commands::told::Format;
 use crate::pipeline::{Run, Verdict};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;
@@ -21,14 +22,14 @@ use crate::terminal;
 const HISTORIES: &str = "histories.csv";
 
 /// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
-pub fn hand_over(run: &Run, folder: &mut Folder, with_vtk: bool) -> ExitCode {
+pub fn hand_over(run: &Run, folder: &mut Folder, with_vtk: bool, format: Format) -> ExitCode {
     match write_report(run, folder, with_vtk) {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
         Ok(view) => {
-            summarise(&view, folder.path(), with_vtk);
+            format.tell_verdict(run, &view, folder.path(), with_vtk);
             exit_code(run.verdict)
         }
     }

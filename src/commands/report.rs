@@ -6,6 +6,7 @@ use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::{self, LONGEST_RECORDING};
 use crate::commands::output::hand_over;
+use crate::commands::told::Format;
 use crate::pipeline::Run;
 use crate::report::folder::{Folder, Named};
 use crate::report::kind::Kind;
@@ -22,7 +23,7 @@ pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
         Ok(run) => {
             let claimed = Folder::claim(folder, None, Named::Explicitly);
             match claimed.and_then(|folder| folder.for_recorded(kind_of(&run))) {
-                Ok(mut folder) => hand_over(&run, &mut folder, with_vtk),
+                Ok(mut folder) => hand_over(&run, &mut folder, with_vtk, Format::Text),
                 Err(refusal) => {
                     terminal::warn(format_args!("error: {refusal}"));
                     ExitCode::Undecided

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
+use crate::commands::told::ToldFile;
 use crate::design::key::{Key, Kind, Need};
 use crate::design::schema::{DESIGN, EITHER, Either};
 use crate::report::json::ResultFile;
@@ -28,6 +29,8 @@ pub enum SchemaOf {
     Reliability,
     /// sweep.json of a study
     Sweep,
+    /// What --format json prints
+    Told,
 }
 
 impl SchemaOf {
@@ -38,6 +41,7 @@ impl SchemaOf {
             Self::Size => of_a_file::<SizeFile>(),
             Self::Reliability => of_a_file::<ReliabilityFile>(),
             Self::Sweep => of_a_file::<SweepFile>(),
+            Self::Told => of_a_file::<ToldFile>(),
         }
     }
 }

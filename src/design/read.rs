@@ -229,7 +229,8 @@ fn nearest_position(document: &Document, path: &str) -> Option<crate::problem::P
     }
 }
 
-fn stem(file: &str) -> String {
+/// The name of a design, from that of its file: without folder and extension.
+pub fn stem(file: &str) -> String {
     std::path::Path::new(file)
         .file_stem()
         .map_or_else(|| "design".to_string(), |stem| harmless(&stem.to_string_lossy()))

@@ -1,0 +1,145 @@
+//! What a command prints for a person or, with `--format json`, for an editor or a script: one JSON document on standard output.
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::commands::output::summarise;
+use crate::design::read::stem;
+use crate::pipeline::Run;
+use crate::problem::{Problem, Problems};
+use crate::report::view::View;
+use crate::scene::estimate::Estimate;
+use crate::terminal;
+
+/// Version of this contract: fields may be added; it is raised when one changes or goes.
+const SCHEMA_VERSION: u32 = 1;
+
+/// How a command prints what it has to say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// Lines for a person
+    #[default]
+    Text,
+    /// One JSON document: the problems of the design with their places, or the verdict
+    Json,
+}
+
+/// The document that `--format json` prints.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ToldFile {
+    schema_version: u32,
+    /// Name of the design: of its file, without folder and extension; `stdin` for standard input.
+    design: String,
+    /// All that is wrong with it; nothing was run unless this is empty.
+    problems: Vec<ProblemPart>,
+    /// pass, fail or undecided; null where nothing was run.
+    verdict: Option<String>,
+    /// Folder of the report; null where none was written.
+    report: Option<String>,
+    /// What the run would take; only with --dry-run.
+    estimate: Option<EstimatePart>,
+}
+
+/// One thing that is wrong with a design.
+#[derive(Debug, Serialize, JsonSchema)]
+struct ProblemPart {
+    /// Key path such as `barrier.flexible_net.height`; empty for the file as a whole.
+    path: String,
+    /// Counted from 1; null where the problem has no place in the file.
+    line: Option<usize>,
+    column: Option<usize>,
+    found: String,
+    allowed: String,
+    hint: Option<String>,
+}
+
+/// What a run would take, within a factor of two.
+#[derive(Debug, Serialize, JsonSchema)]
+struct EstimatePart {
+    grains: f64,
+    steps: f64,
+    /// How many simulations the run makes.
+    simulations: usize,
+    /// Of the event that is simulated.
+    event_s: f64,
+    /// Of all simulations together, on one core.
+    time_s: f64,
+    /// Of each simulation.
+    memory_mb: f64,
+}
+
+impl From<&Problem> for ProblemPart {
+    fn from(problem: &Problem) -> Self {
+        Self {
+            path: problem.path.clone(),
+            line: problem.position.map(|position| position.line),
+            column: problem.position.map(|position| position.column),
+            found: problem.found.clone(),
+            allowed: problem.allowed.clone(),
+            hint: problem.hint.as_deref().map(String::from),
+        }
+    }
+}
+
+impl ToldFile {
+    fn of(design: impl Into<String>) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            design: design.into(),
+            problems: Vec::new(),
+            verdict: None,
+            report: None,
+            estimate: None,
+        }
+    }
+
+    fn say(&self) {
+        if let Ok(text) = serde_json::to_string_pretty(self) {
+            terminal::say(text);
+        }
+    }
+}
+
+impl Format {
+    /// All that is wrong with a design.
+    pub fn tell_problems(self, problems: &Problems) {
+        match self {
+            Self::Text => {
+                terminal::warn(problems.to_string().trim_end());
+            }
+            Self::Json => {
+                let list = problems.list.iter().map(ProblemPart::from).collect();
+                ToldFile { problems: list, ..ToldFile::of(stem(&problems.file)) }.say();
+            }
+        }
+    }
+
+    /// How a run ended, whose report was written into `folder`.
+    pub fn tell_verdict(self, run: &Run, view: &View, folder: &Path, with_vtk: bool) {
+        match self {
+            Self::Text => summarise(view, folder, with_vtk),
+            Self::Json => ToldFile {
+                verdict: Some(run.verdict.word().to_string()),
+                report: Some(folder.display().to_string()),
+                ..ToldFile::of(run.file.name.as_str())
+            }
+            .say(),
+        }
+    }
+
+    /// What a run of `simulations` simulations would take, each with this estimate and `seconds` on one core; for a program only, a person is
+    /// told in lines.
+    pub fn tell_estimate(design: &str, estimate: &Estimate, simulations: usize, seconds: f64) {
+        let part = EstimatePart {
+            grains: estimate.grains,
+            steps: estimate.steps,
+            simulations,
+            event_s: estimate.simulated,
+            time_s: seconds * simulations as f64,
+            memory_mb: estimate.bytes / 1e6,
+        };
+        ToldFile { estimate: Some(part), ..ToldFile::of(design) }.say();
+    }
+}
