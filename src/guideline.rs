@@ -21,7 +21,7 @@ use crate::loads::input::GuidelineInput;
 use crate::loads::ring_net::{RingLoad, RingNet};
 use crate::loads::rope::Yielding;
 use crate::loads::run_up;
-use crate::loads::wall::WallInput;
+use crate::loads::wall::{Ground, WallInput};
 use crate::section::Section;
 use crate::units::GRAVITY;
 
@@ -269,7 +269,7 @@ impl EventFill {
         let reservoir = reservoir(design);
         // The smaller the last surge is, the more lies there already.
         let later = design.flow.later.iter().map(|later| later.volume);
-        let last = later.fold(design.flow.volume(), f64::min);
+        let last = later.chain(design.flow.last_of_the_event()).fold(design.flow.volume(), f64::min);
         // Before the last of the hardest moments of a hydrograph lies what has come until then, and more where the event is larger.
         let to_come = design.flow.hydrograph.as_ref().map_or(last, |hydrograph| {
             design.flow.volume() - hydrograph.hard.iter().map(|hard| hard.before).fold(0.0, larger_or_nan)
@@ -343,12 +343,18 @@ fn bolt_spaces(design: &Design) -> Option<f64> {
 pub fn point_load(design: &Design) -> Option<(f64, f64)> {
     let of_boulders = || {
         let on_a_wall = matches!(design.barrier, BarrierDesign::RigidWall(_)) && !design.flow.boulders.is_empty();
-        let (depth, velocity) = incoming(design);
-        let [diameter, mass] = design.flow.largest();
-        let force = design.loads.impact_reduction * hertz(0.5 * diameter, mass, velocity);
-        on_a_wall.then(|| (force, larger_or_nan(depth, 0.5 * diameter).min(height_over_bed(design))))
+        let depth = larger_or_nan(incoming(design).0, 0.5 * design.flow.largest()[0]);
+        on_a_wall.then(|| (hit_of_the_largest(design), depth.min(height_over_bed(design))))
     };
     design.loads.point_load.or_else(of_boulders)
+}
+
+/// Force with which the largest grain or boulder of the flow hits a wall by Hertz, times the share of it that the design takes (N); NaN where
+/// the grains are not given.
+pub fn hit_of_the_largest(design: &Design) -> f64 {
+    let (_, velocity) = incoming(design);
+    let [diameter, mass] = design.flow.largest();
+    design.loads.impact_reduction * hertz(0.5 * diameter, mass, velocity)
 }
 
 fn extras(design: &Design) -> Extras {
@@ -419,9 +425,18 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
     let stability = wall.stability?;
     let (base_slope, bed_slope) = (stability.base_slope.unwrap_or(0.0), design.channel.slope);
+    let cosine = libm::cos(base_slope);
+    // The base comes nearer to the surface downstream, where the bed is steeper.
+    let rises = stability.base_width * (cosine * libm::tan(bed_slope) - libm::sin(base_slope));
+    let flow = input(design);
+    let ground = Ground {
+        density: stability.ground_density,
+        surcharge: flow.density * GRAVITY * flow.fill_height / libm::cos(bed_slope),
+        in_front: (stability.founding_depth - rises).max(0.0) * cosine,
+        factor: design.factors.load,
+    };
     Some(WallInput {
-        height: wall.height * libm::cos(wall.lean - bed_slope + base_slope)
-            + stability.founding_depth * libm::cos(base_slope),
+        height: wall.height * libm::cos(wall.lean - bed_slope + base_slope) + stability.founding_depth * cosine,
         thickness: stability.thickness,
         base_width: stability.base_width,
         density: stability.density,
@@ -430,7 +445,8 @@ pub fn wall_of(design: &Design) -> Option<WallInput> {
         bed_slope,
         face_lean: wall.lean,
         water_head: stability.water_head.unwrap_or(0.0),
-        buried: stability.founding_depth * libm::cos(base_slope),
+        buried: stability.founding_depth * cosine,
+        ground,
     })
 }
 

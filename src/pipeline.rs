@@ -6,7 +6,7 @@ use crate::arriving;
 use crate::checks::check_all;
 use crate::checks::not_covered::known::{FirstSurge, Known};
 use crate::checks::not_covered::leave_open_not_covered;
-use crate::checks::outcome::{CheckVerdict, Outcome};
+use crate::checks::outcome::{CheckVerdict, Outcome, most_used};
 use crate::checks::range::leave_open_outside_range;
 use crate::checks::ropes::leave_open_what_sockets_alone_hold;
 use crate::demand::Demands;
@@ -207,15 +207,10 @@ pub fn confirm_by(mut file: DesignFile, starts: u32, by: &Simulate) -> Result<Ru
     run_by(None, file, starts, by)
 }
 
-/// The check that uses most of what it has, and how much.
-pub fn most_used(outcomes: &[Outcome]) -> Option<(f64, &Outcome)> {
-    let used = outcomes.iter().filter_map(|outcome| Some((outcome.utilisation?, outcome)));
-    used.max_by(|a, b| a.0.total_cmp(&b.0))
-}
-
-/// The same in words.
+/// The check that uses most of what it has, in words.
 fn governing(outcomes: &[Outcome]) -> String {
-    most_used(outcomes).map_or(String::new(), |(used, outcome)| format!("{} ({:.0} %)", outcome.title, 100.0 * used))
+    let words = |outcome: &Outcome| Some(format!("{} ({:.0} %)", outcome.title, 100.0 * outcome.used()?));
+    most_used(outcomes).and_then(words).unwrap_or_default()
 }
 
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.

@@ -109,7 +109,10 @@ fn a_probability_never_passes_a_barrier() {
     // A sample that is no design counts as failed.
     let beyond = ANCHORS.replace("lognormal: {mean: 150 kN, variation: 10 %}", "uniform: {from: 0.1 N, to: 150 kN}");
     let ran = study(&here, &format!("{beyond}target: 1e-9\nsamples: 500\n"), "2");
-    assert!(ran.status.code() != Some(0), "{}", said(&ran));
+    assert_eq!(ran.status.code(), Some(1), "{}", said(&ran));
+    let found = json(&here);
+    let [refused, failing] = [&found["refused"], &found["barrier"]["probability"]["value"]].map(|it| it.as_f64());
+    assert!(refused.expect("a count") > 0.0 && failing.expect("a number") > 0.0, "{found}");
 }
 
 #[test]

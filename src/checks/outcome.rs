@@ -197,6 +197,12 @@ pub struct Outcome {
     pub source: &'static str,
 }
 
+/// The check that uses most of its capacity, of those that have a share to tell.
+pub fn most_used<'a>(outcomes: impl IntoIterator<Item = &'a Outcome>) -> Option<&'a Outcome> {
+    let used = outcomes.into_iter().filter_map(|outcome| Some((outcome.used()?, outcome)));
+    used.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, outcome)| outcome)
+}
+
 /// A characteristic resistance and the partial factor on it, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resistance {
@@ -296,6 +302,11 @@ impl Outcome {
     /// The check holds parts against each other, whatever the event.
     pub fn between_parts(self) -> Self {
         Self { of_parts: true, ..self.whatever_the_pressures() }
+    }
+
+    /// What is used of the capacity, for sorting: what is not a number, of either sign, stands above all. Nothing where the check has no share.
+    pub fn used(&self) -> Option<f64> {
+        self.utilisation.map(|used| if used.is_nan() { f64::NAN.abs() } else { used })
     }
 
     pub fn leave_open(&mut self, why: Opening) {

@@ -57,6 +57,7 @@ mod tests {
             base_slope: Some(0.0),
             founding_depth: 0.0,
             base_friction: 0.7,
+            ground_density: 2200.0,
             sliding_factor: 1.1,
             overturning_factor: 1.5,
             bearing_resistance: None,

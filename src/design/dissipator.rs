@@ -15,6 +15,8 @@ pub struct DissipatorDesign {
     pub stiffness: f64,
     /// Least force over that of the curve, where it is known.
     pub lower_bound: Option<f64>,
+    /// How many devices it is made of, in series and side by side.
+    pub devices: f64,
 }
 
 impl DissipatorDesign {

@@ -69,5 +69,6 @@ pub fn dissipators(e: &Entries, place: &str) -> Option<DissipatorDesign> {
         stroke: stroke * in_series,
         stiffness: number("stiffness")? * side_by_side / in_series,
         lower_bound: number("lower_bound"),
+        devices: in_series * side_by_side,
     })
 }

@@ -130,6 +130,16 @@ impl Flow {
         self.event_volume > 1.001 * self.volume_of_all()
     }
 
+    /// Volume of the last surge of an event that is more than the surges that are given (m³): what surges as large as the first leave. Nothing where
+    /// the event is no more.
+    pub fn last_of_the_event(&self) -> Option<f64> {
+        let surge = self.volume();
+        let beyond = self.is_part_of_its_event().then(|| self.event_volume - self.volume_of_all())?;
+        let left = beyond - surge * (beyond / surge).floor();
+        // Rounding leaves no surge.
+        Some(if left > 1e-3 * surge { left } else { surge })
+    }
+
     /// Mass of its grains without the boulders (kg).
     pub fn mass_of_grains(&self) -> f64 {
         self.mass - self.boulders.iter().map(Boulders::mass).sum::<f64>()

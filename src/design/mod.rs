@@ -211,6 +211,8 @@ pub struct Stability {
     pub founding_depth: f64,
     /// tan φ between base and ground.
     pub base_friction: f64,
+    /// Of the ground, with what is in its pores (kg/m³).
+    pub ground_density: f64,
     /// Partial factors on the resistance to sliding and on the moment that holds the wall.
     pub sliding_factor: f64,
     pub overturning_factor: f64,

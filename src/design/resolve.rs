@@ -205,6 +205,7 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
             base_slope: value("base_slope"),
             founding_depth: value("founding_depth")?,
             base_friction: value("base_friction").map_or(f64::NAN, libm::tan),
+            ground_density: value("ground_density")?,
             sliding_factor: value("sliding_factor")?,
             overturning_factor: value("overturning_factor")?,
             bearing_resistance: value("bearing_resistance"),

@@ -453,7 +453,17 @@ const STABILITY: &[Key] = &[
         "0 m",
         "depth of the base below the bed at the face of the wall, down to which the wall goes on; a base that would stand above the ground downstream stays open",
     ),
-    Key::required("base_friction", FRICTION, "friction angle between base and ground"),
+    Key::required(
+        "base_friction",
+        FRICTION,
+        "friction angle between base and ground, no more than that of the ground; the ground's pressure on the buried part of the face is worked out with it",
+    ),
+    Key::default(
+        "ground_density",
+        quantity(D::Density, 1000.0, 3000.0),
+        "2200 kg/m3",
+        "bulk density of the ground that the wall is founded in, which presses on the buried part of its face; by default that of a dense wet gravel, on the safe side",
+    ),
     Key::required(
         "sliding_factor",
         Kind::Number { low: 1.0, high: 5.0 },

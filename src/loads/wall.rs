@@ -11,6 +11,13 @@
 //! stand without the flow as well. Water under the base, with a head h at its upstream edge and none at its downstream edge, lifts with
 //! U = ρ_w g h b/2 at 2 b/3 from the downstream edge: U tan φ and 2 U b/3 come beside the load, and N − U bears. The weight of the flow and
 //! its friction on the wall are left out, which is on the safe side.
+//!
+//! The ground presses on the buried part of the face, of the depth d, with E = K (γ d²/2 + q d), and M_E = K (γ d³/6 + q d²/2) about the base,
+//! both times the factor on loads and cos (α − β), because the pressure goes along the surface: K is Rankine's of active pressure under a surface
+//! that rises with the bed, with the friction of the base, which is no more than that of the ground, and q what lies on the ground; that it
+//! presses the wall down is left out. The ground in front, of the depth d₂ at the downstream edge, holds
+//! with no more than its active pressure under a level surface, K₀ γ d₂²/2: the passive resistance, for which the wall would have to move, is
+//! left out.
 
 use crate::larger::larger_or_nan;
 
@@ -33,6 +40,29 @@ pub struct WallInput {
     pub water_head: f64,
     /// How far the face goes on below the bed (m).
     pub buried: f64,
+    pub ground: Ground,
+}
+
+/// The ground that a wall is founded in, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// With what is in its pores (kg/m³).
+    pub density: f64,
+    /// What lies on it upstream of the wall (Pa).
+    pub surcharge: f64,
+    /// Its depth over the downstream edge of the base (m).
+    pub in_front: f64,
+    /// Partial factor on what it presses with.
+    pub factor: f64,
+}
+
+/// Rankine's coefficient of active pressure (-) of ground with the friction tan φ whose surface rises from the wall with the slope β (rad); where the
+/// ground is no steeper than it stands, that of its steepest slope.
+fn active(friction: f64, slope: f64) -> f64 {
+    let steepest = libm::atan(friction);
+    let cosine = libm::cos(slope.min(steepest));
+    let root = (cosine * cosine - libm::cos(steepest).powi(2)).max(0.0).sqrt();
+    cosine * (cosine - root) / (cosine + root)
 }
 
 /// kg/m³
@@ -54,6 +84,20 @@ impl WallInput {
         let (head, depth) = (self.water_head, self.water_head.min(self.buried));
         let unit = WATER * crate::units::GRAVITY;
         [unit * depth * (head - 0.5 * depth), unit * depth * depth * (0.5 * head - depth / 3.0)]
+    }
+
+    /// What the ground presses with on the buried part of the face, less what that in front holds (N/m), and its moment about the base (N m/m).
+    pub fn earth_thrust(&self) -> [f64; 2] {
+        let Ground { density, surcharge, in_front, factor } = self.ground;
+        let (unit, depth) = (density * crate::units::GRAVITY, self.buried);
+        let [behind, before] = [self.bed_slope, 0.0].map(|slope| active(self.base_friction, slope));
+        let behind = behind * libm::cos(self.difference());
+        let pressed = factor * behind * depth * (0.5 * unit * depth + surcharge);
+        let tipped = factor * behind * depth * depth * (unit * depth / 6.0 + 0.5 * surcharge);
+        let held = before * unit * in_front * in_front * 0.5;
+        // Asked so that what is not a number stays so.
+        let no_less = |value: f64| if value <= 0.0 { 0.0 } else { value };
+        [no_less(pressed - held), no_less(tipped - held * in_front / 3.0)]
     }
 
     /// What of the weight presses on the ground, the uplift taken off (N/m); 0 for a wall that floats.
@@ -141,23 +185,28 @@ impl WallInput {
         if lift <= 0.0 { 0.0 } else { lift }
     }
 
-    /// Per width, without partial factor (N/m): N tan φ, which friction holds, and T + U tan φ, which the wall's own pull down the slope and
-    /// the uplift add to the load.
+    /// Per width (N/m): N tan φ, which friction holds, without partial factor, and T + U tan φ with the thrust of water and ground on the buried
+    /// face, which come beside the load.
     pub fn sliding(&self) -> [f64; 2] {
         [
             self.weight() * libm::cos(self.base_slope) * self.base_friction,
-            self.weight() * libm::sin(self.base_slope) + self.base_friction * self.uplift() + self.water_thrust()[0],
+            self.weight() * libm::sin(self.base_slope)
+                + self.base_friction * self.uplift()
+                + self.water_thrust()[0]
+                + self.earth_thrust()[0],
         ]
     }
 
-    /// Moments about the downstream edge (N m/m): what holds, and what the wall's own pull and the uplift add to the load.
+    /// Moments about the downstream edge (N m/m): what holds, and what the wall's own pull, the uplift and the thrust on the buried face add to the
+    /// load.
     pub fn overturning(&self) -> [f64; 2] {
         let arm = self.base_width - 0.5 * self.thickness + self.hangs_upstream();
         [
             self.weight() * libm::cos(self.base_slope) * arm,
             self.weight() * libm::sin(self.base_slope) * 0.5 * self.height
                 + self.uplift() * self.base_width * 2.0 / 3.0
-                + self.water_thrust()[1],
+                + self.water_thrust()[1]
+                + self.earth_thrust()[1],
         ]
     }
 }
@@ -179,7 +228,33 @@ mod tests {
         face_lean: 0.0,
         water_head: 0.0,
         buried: 0.0,
+        ground: Ground { density: 2000.0, surcharge: 0.0, in_front: 0.0, factor: 1.0 },
     };
+
+    /// Level ground of 30° has K = 1/3: 2 t/m³ on 3 m of the face press with 19.613 · 9/6 = 29.42 kN/m at 1 m, 30 kPa on it with 30 kN/m at 1.5 m. As deep
+    /// in front it holds the first part of itself. Under a surface of its own steepness, 30°, K = cos 30°, under one of 20° 0.4142 (of tables).
+    #[test]
+    fn the_ground_presses_on_the_buried_face() {
+        let friction = libm::tan(30_f64.to_radians());
+        let wall = |surcharge: f64, in_front: f64| WallInput {
+            base_friction: friction,
+            buried: 3.0,
+            ground: Ground { surcharge, in_front, ..BLOCK.ground },
+            ..BLOCK
+        };
+        let [force, moment] = wall(0.0, 0.0).earth_thrust();
+        assert_relative_eq!(force, 29.42e3, max_relative = 1e-3);
+        assert_relative_eq!(moment, force, max_relative = 1e-9);
+        let [with, about] = wall(30e3, 0.0).earth_thrust();
+        assert_relative_eq!(with - force, 30e3, max_relative = 1e-9);
+        assert_relative_eq!(about - moment, 45e3, max_relative = 1e-9);
+        assert_eq!(wall(0.0, 3.0).earth_thrust(), [0.0, 0.0]);
+        assert_relative_eq!(wall(30e3, 3.0).earth_thrust()[0], 30e3, max_relative = 1e-9);
+        assert!(wall(f64::NAN, 3.0).earth_thrust()[0].is_nan());
+        assert_relative_eq!(active(friction, 30_f64.to_radians()), 0.866_025_4, max_relative = 1e-6);
+        assert_relative_eq!(active(friction, 20_f64.to_radians()), 0.4142, max_relative = 1e-3);
+        assert_eq!(active(friction, 0.7), active(friction, 30_f64.to_radians()));
+    }
 
     #[test]
     fn a_block_on_level_ground_slides_at_w_tan_phi_and_tips_at_half_its_thickness() {

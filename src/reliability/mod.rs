@@ -54,7 +54,7 @@ impl Probability {
 }
 
 /// A seed for one part of the work.
-fn seed_of(seed: u64, part: u64) -> u64 {
+pub fn seed_of(seed: u64, part: u64) -> u64 {
     // Odd multipliers spread neighbouring numbers over all bits.
     (seed ^ part.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_mul(0xbf58_476d_1ce4_e5b9)
 }

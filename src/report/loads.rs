@@ -387,7 +387,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row(
             "Demand for sliding",
             format!("R · {:.3} + {}", wall.sliding_share(), with_unit(pull, "N/m")),
-            "R (cos δ + tan θ sin δ + tan φ · lift share) + W sin β + U tan φ, δ = α − β, θ the lean of the face from the bed's normal; R with the partial factor on loads. By the simulation the parts of the force vector along and off the base stand for R",
+            "R (cos δ + tan θ sin δ + tan φ · lift share) + W sin β + U tan φ + the thrust of water and ground on the buried face, δ = α − β, θ the lean of the face from the bed's normal; R with the partial factor on loads. By the simulation the parts of the force vector along and off the base stand for R",
         ),
         row(
             "Holds against overturning",
@@ -397,7 +397,7 @@ pub fn wall(run: &Run) -> Vec<Row> {
         row(
             "Demand for overturning",
             format!("M + R · {:.3} + {}", wall.lift_share() * wall.base_width, with_unit(tilt, "N m/m")),
-            "M of the load about the upstream end of the base + lift × width of the base + W sin β H/2 + 2 U b/3",
+            "M of the load about the upstream end of the base + lift × width of the base + W sin β H/2 + 2 U b/3 + the moment of water and ground on the buried face",
         ),
         row(
             "Left out, which is conservative",
@@ -408,6 +408,11 @@ pub fn wall(run: &Run) -> Vec<Row> {
             "Uplift by water under the base",
             with_unit(wall.uplift(), "N/m"),
             "ρ_w g h b/2, h being the head at the upstream edge (barrier.rigid_wall.stability.water_head); its share tan φ is in the demand for sliding, its moment at 2 b/3 in that for overturning",
+        ),
+        row(
+            "Thrust of the ground on the buried face",
+            with_unit(wall.earth_thrust()[0], "N/m"),
+            "γ_F K (γ d²/2 + q d) cos δ − K₀ γ d₂²/2: active pressure under a surface that rises with the bed and along it, q the weight of what fills the barrier, d₂ the depth of the ground over the downstream edge; it is in the demand for sliding, its moment about the base in that for overturning",
         ),
         row("Not checked", "–".into(), "the ground but for its bearing resistance, and scour"),
     ]

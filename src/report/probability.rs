@@ -277,7 +277,7 @@ fn row_of(check: &OfCheck) -> [String; 6] {
 
 fn point_note(check: &OfCheck) -> String {
     match &check.point {
-        Ok(_) => "Where the check that is most likely to fail would most likely fail. The factor is what the design's own value would have to be multiplied with (a load) or divided by (a resistance) to stand there: what partial factors would give this barrier the reliability that it has.".into(),
+        Ok(_) => "Where the check that is most likely to fail would most likely fail. The factor is what the design's own value would have to be multiplied with (a load) or divided by (a resistance) to stand there: what partial factors would give this barrier the reliability that it has. Of an angle of friction it is the factor on its tangent.".into(),
         Err(why) => format!("No design point: {}.", why.words()),
     }
 }
@@ -288,13 +288,22 @@ fn in_the_design(told: &Told, input: &Input) -> Option<f64> {
     Amount::parse(&entry.typed).filter(|amount| amount.unit == input.unit).map(|amount| amount.value)
 }
 
+/// A value as a partial factor stands on it: of an angle of friction its tangent (EN 1997-1, γ_φ), of all else itself.
+fn as_factored(input: &Input, value: f64) -> f64 {
+    match input.unit.as_str() {
+        "deg" | "°" if input.key.contains("friction") => libm::tan(value.to_radians()),
+        _ => value,
+    }
+}
+
 fn design_point(told: &Told, point: &DesignPoint) -> Vec<[String; 6]> {
     let medians = (told.values)(&vec![0.0; told.inputs.len()]);
     let (there, alpha) = ((told.values)(&point.u), (told.weights)(&point.alpha));
     let row = |(number, input): (usize, &Input)| {
         let design = in_the_design(told, input);
         let factor = design.map(|design| {
-            let (over, under) = if alpha[number] >= 0.0 { (there[number], design) } else { (design, there[number]) };
+            let [there, design] = [there[number], design].map(|value| as_factored(input, value));
+            let (over, under) = if alpha[number] >= 0.0 { (there, design) } else { (design, there) };
             over / under
         });
         [

@@ -24,7 +24,7 @@ pub fn row(name: impl Into<String>, value: impl Into<String>, remark: impl Into<
 pub fn worst_first(run: &Run) -> Vec<&Outcome> {
     let mut outcomes: Vec<&Outcome> = run.outcomes.iter().collect();
     outcomes.sort_by(|a, b| {
-        let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(-1.0);
+        let used = |outcome: &Outcome| outcome.used().unwrap_or(f64::NEG_INFINITY);
         rank(a.verdict).cmp(&rank(b.verdict)).then(used(b).total_cmp(&used(a)))
     });
     outcomes

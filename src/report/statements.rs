@@ -226,8 +226,8 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
         ),
         (
             matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.founding_depth > 0.0)),
-            "The earth pressure on the part of the wall below the bed, and the resistance of the ground in front of it, are left out.",
-            UNSAFE,
+            "The ground presses on the part of the wall below the bed with active earth pressure (Rankine, with the friction of the base and the slope of the bed), and with what the deposit adds as it lies on the ground. The ground in front holds with no more than its active pressure; its passive resistance is left out.",
+            SAFE,
         ),
         (
             matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.block_length.is_some()))

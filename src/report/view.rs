@@ -4,7 +4,7 @@ use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, row, us
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
+use crate::checks::outcome::{CheckVerdict, Kind, Outcome, most_used};
 use crate::demand::USED_UP;
 use crate::design::entries::Origin;
 use crate::design::hydrograph::{Hard, Moment};
@@ -276,9 +276,7 @@ pub fn summary(run: &Run) -> String {
     let sorted = worst_first(run);
     let held: Vec<_> = run.outcomes.iter().filter(|outcome| outcome.verdict != CheckVerdict::Info).collect();
     let count = |verdict: CheckVerdict| held.iter().filter(|outcome| outcome.verdict == verdict).count();
-    let used = |outcome: &Outcome| outcome.utilisation.unwrap_or(0.0).abs();
-    let judged = sorted.iter().filter(|outcome| outcome.utilisation.is_some() && !is_stop(outcome));
-    let governing = judged.max_by(|a, b| used(a).total_cmp(&used(b)));
+    let governing = most_used(sorted.iter().copied().filter(|outcome| !is_stop(outcome)));
     let governing = governing.map_or(String::new(), |outcome| format!(" Governing: {}.", in_a_line(outcome)));
     let rules = detailing::rules(&run.file.design, &run.guideline);
     let broken = match rules.iter().filter(|rule| !rule.holds()).count() {

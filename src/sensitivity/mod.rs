@@ -5,7 +5,7 @@ pub(crate) mod simulated;
 use serde::{Deserialize, Serialize};
 
 use crate::checks::check_all;
-use crate::checks::outcome::Outcome;
+use crate::checks::outcome::{Outcome, most_used};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
@@ -117,10 +117,7 @@ fn outcomes_with(design: &Design, (_, _, change): Change, factor: f64) -> (Guide
 impl Point {
     /// The largest total force (N), and the outcome with the largest utilisation.
     pub fn of(force: f64, outcomes: &[Outcome]) -> Self {
-        // A utilisation that is not a number stands above all.
-        let used = |outcome: &Outcome| outcome.utilisation.map_or(f64::NEG_INFINITY, f64::abs);
-        let order = |a: &&Outcome, b: &&Outcome| used(a).total_cmp(&used(b));
-        let governing = outcomes.iter().filter(|outcome| outcome.utilisation.is_some()).max_by(order);
+        let governing = most_used(outcomes);
         Self {
             force,
             utilisation: governing.and_then(|outcome| outcome.utilisation),

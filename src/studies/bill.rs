@@ -22,12 +22,15 @@ pub enum Measure {
     Bolts,
     /// Sum of the characteristic resistances of all bolts.
     BoltResistance,
+    /// Each device, those in series and side by side counted one by one.
     Dissipators,
     /// Sum over all dissipators of what they take up along their whole stroke.
     DissipatorEnergy,
     Posts,
-    /// Of a gravity wall, without its base.
+    /// Of a gravity wall above the ground.
     WallVolume,
+    /// What a gravity wall takes below the ground, excavated and filled: as wide as its base, down to its founding depth.
+    FoundationVolume,
     WallArea,
 }
 
@@ -44,7 +47,8 @@ impl Measure {
             Self::Dissipators => ["Dissipators", ""],
             Self::DissipatorEnergy => ["Energy of all dissipators", "kJ"],
             Self::Posts => ["Posts", ""],
-            Self::WallVolume => ["Volume of the wall", "m³"],
+            Self::WallVolume => ["Volume of the wall above the ground", "m³"],
+            Self::FoundationVolume => ["Volume of the foundation", "m³"],
             Self::WallArea => ["Face of the wall", "m²"],
         }
     }
@@ -58,6 +62,9 @@ impl Measure {
                 match self {
                     Self::WallArea => area,
                     Self::WallVolume => area * wall.stability.map_or(0.0, |stability| stability.thickness),
+                    Self::FoundationVolume => wall
+                        .stability
+                        .map_or(0.0, |stability| stability.base_width * stability.founding_depth * area / wall.height),
                     _ => 0.0,
                 }
             }
@@ -97,17 +104,17 @@ impl Measure {
                 let one = net.bed_bolts.and_then(|bolts| bolts.resistance).unwrap_or(0.0);
                 Self::Bolts.of_a_net(net, design) * one / 1e3
             }
-            Self::Dissipators => dissipators(net).iter().map(|(count, _)| count).sum(),
+            Self::Dissipators => dissipators(net).iter().map(|(count, design)| count * design.devices).sum(),
             Self::DissipatorEnergy => {
                 dissipators(net).iter().map(|(count, design)| count * energy(design)).sum::<f64>() / 1e3
             }
             Self::Posts => posts.map_or(0.0, |posts| posts.at.len() as f64),
-            Self::WallVolume | Self::WallArea => 0.0,
+            Self::WallVolume | Self::FoundationVolume | Self::WallArea => 0.0,
         }
     }
 }
 
-/// Dissipators of main and of retaining ropes, and how many there are of each.
+/// What stands at the ends of main and of retaining ropes, each made of one or more devices, and at how many ends.
 fn dissipators(net: &FlexibleNet) -> Vec<(f64, &DissipatorDesign)> {
     let free = net.ropes_held_by_bed()..net.main_ropes.levels.len();
     let ends: f64 = free.map(|level| 2.0 * f64::from(net.main_ropes.levels[level].ropes)).sum();
@@ -179,6 +186,14 @@ mod tests {
         let dissipator = net.dissipators.as_ref().expect("dissipators");
         let energy = 4.0 * dissipator.plateau * dissipator.stroke / 1e3;
         assert_relative_eq!(Measure::DissipatorEnergy.of(&design), energy, max_relative = 1e-9);
+        // Two in series and three side by side are six devices, and take up six times as much.
+        let text = include_str!("../../designs/small_net.yaml");
+        let several =
+            text.replacen("      plateau_force:", "      in_series: 2\n      side_by_side: 3\n      plateau_force:", 1);
+        assert_ne!(several, text);
+        let several = read_design("x", several.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
+        assert_eq!(Measure::Dissipators.of(&several), 24.0);
+        assert_relative_eq!(Measure::DissipatorEnergy.of(&several), 6.0 * energy, max_relative = 1e-9);
         // Ropes of 0.663 times a rod of steel, 7850 kg/m³: three main ropes of 28 mm over 2.86 m, two lateral ropes of 24 mm over 1.8 m, and ten by six
         // meshes of 286 by 300 mm, with 240 sides of 207 mm of 18 mm: 0.663 (41.5 + 12.8 + 99.4) = 101.9 kg.
         let steel = Measure::SteelMass.of(&design);
@@ -202,6 +217,10 @@ mod tests {
         assert_relative_eq!(Measure::WallArea.of(&design), area, max_relative = 1e-9);
         let thickness = wall.stability.expect("stability").thickness;
         assert_relative_eq!(Measure::WallVolume.of(&design), area * thickness, max_relative = 1e-9);
+        let stability = wall.stability.expect("stability");
+        let below = stability.base_width * stability.founding_depth * area / wall.height;
+        assert!(below > 0.0);
+        assert_relative_eq!(Measure::FoundationVolume.of(&design), below, max_relative = 1e-9);
         assert_eq!(Measure::SteelMass.of(&design), 0.0);
     }
 }

@@ -243,6 +243,9 @@ fn without_factors(design: &mut Design, given: &dyn Fn(&str) -> bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::key::{Key, Kind};
+    use crate::design::read::read_design;
+    use crate::design::schema::DESIGN as DESIGN_KEYS;
     use crate::reliability::surrogate::{self, learn};
     use crate::studies::plan::Study;
     use crate::studies::reliability_plan::ReliabilityPlan;
@@ -271,6 +274,53 @@ mod tests {
             only: &plan.checks,
             tally: Tally::default(),
         })
+    }
+
+    /// Every key that is a partial factor or a share that may be used is either set to 1 without factors, or is named here with why it stays.
+    #[test]
+    fn no_factor_stays_unseen() {
+        const STAY: &[&str] = &[
+            // Coefficients of the guideline's pressures.
+            "factors.earth_pressure",
+            "factors.dynamic_pressure",
+            "factors.wood",
+            // What the parts physically are: the strength that ends of ropes hold, and how much more than its plateau a dissipator pulls.
+            "factors.rope_end",
+            "factors.overstrength",
+            // The name of a set of the others.
+            "factors.set",
+        ];
+        fn paths(keys: &[Key], under: &str, found: &mut Vec<String>) {
+            for key in keys {
+                let path = if under.is_empty() { key.name.to_string() } else { format!("{under}.{}", key.name) };
+                match key.kind {
+                    Kind::Section(keys) | Kind::SectionOrNone(keys) | Kind::Sections(keys) | Kind::OneOf(keys) => {
+                        paths(keys, &path, found);
+                    }
+                    _ => found.push(path),
+                }
+            }
+        }
+        let mut all = Vec::new();
+        paths(DESIGN_KEYS, "", &mut all);
+        let is_factor =
+            |path: &String| path.starts_with("factors.") || path.ends_with("_factor") || path.ends_with("_utilisation");
+        let asked = std::cell::RefCell::new(Vec::new());
+        let note = |key: &str| {
+            asked.borrow_mut().push(key.to_string());
+            false
+        };
+        let mut wall = read_design("x", DESIGN).unwrap().design;
+        without_factors(&mut wall, &note);
+        let set = asked.into_inner();
+        assert!(set.len() > 8, "{set:?}");
+        let unseen: Vec<&String> = all
+            .iter()
+            .filter(|path| is_factor(path) && !set.contains(path) && !STAY.contains(&path.as_str()))
+            .collect();
+        assert!(unseen.is_empty(), "neither set to 1 by without_factors nor named above: {unseen:?}");
+        // A name above that is no key would hide one that comes later.
+        assert!(STAY.iter().all(|key| all.iter().any(|path| path == key)), "{all:?}");
     }
 
     /// The wall of the study slides against its own factor of 1.1 and a factor on loads, or against none.

@@ -9,10 +9,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
+use crate::checks::outcome::{CheckVerdict, Opening, Outcome, most_used};
 use crate::design::anchors::AnchorResistance;
 use crate::design::{BarrierDesign, Design, Project};
-use crate::pipeline::{Run, Verdict, most_used};
+use crate::pipeline::{Run, Verdict};
 
 /// What is asked of the way that is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,32 +100,34 @@ pub struct Found {
     pub out_of_budget: bool,
 }
 
-/// What refutes a way for certain: a check that fails by the equations, or one they judge and that uses more than the margin leaves.
+/// What refutes a way for certain: a check that fails by the equations, or one that uses more by them than the margin leaves. Where such a check
+/// is open, no simulation closes it so: the larger of both demands governs.
 fn refuted(run: &Run, wanted: &Wanted) -> Option<(String, f64)> {
     let limit = 1.0 - wanted.margin;
     let fails = |outcome: &&Outcome| {
-        let beyond = outcome.verdict == CheckVerdict::Pass && outcome.utilisation.is_some_and(|used| used > limit);
+        let judged = outcome.verdict != CheckVerdict::Info;
+        let beyond = judged && outcome.utilisation.is_some_and(|used| used > limit);
         outcome.fails_by_equations() || beyond
     };
-    let worst = run
-        .outcomes
-        .iter()
-        .filter(fails)
-        .max_by(|a, b| a.utilisation.unwrap_or(f64::INFINITY).total_cmp(&b.utilisation.unwrap_or(f64::INFINITY)));
-    worst.map(|outcome| (outcome.title.clone(), outcome.utilisation.unwrap_or(f64::INFINITY)))
+    worst_of(run.outcomes.iter().filter(fails))
+}
+
+/// The worst of checks that fail, and how much it uses; one without a share to tell, such as a dissipator that is used up, is beyond all.
+fn worst_of<'a>(failing: impl Iterator<Item = &'a Outcome>) -> Option<(String, f64)> {
+    let used = failing.map(|outcome| (outcome.used().unwrap_or(f64::INFINITY), outcome));
+    used.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(used, outcome)| (outcome.title.clone(), used))
 }
 
 /// What a run says of a way, with the margin wanted.
 fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
-    let titled = |(used, outcome): (f64, &Outcome)| (used, outcome.title.clone());
-    let (used, check) = most_used(&run.outcomes).map_or((f64::NAN, String::new()), titled);
+    let titled = |outcome: &Outcome| Some((outcome.used()?, outcome.title.clone()));
+    let (used, check) = most_used(&run.outcomes).and_then(titled).unwrap_or((f64::NAN, String::new()));
     let by = by.to_string();
     match run.verdict {
         Verdict::Fail => {
-            let is_failed = |outcome: &&Outcome| outcome.verdict == CheckVerdict::Fail;
-            let failed: Vec<Outcome> = run.outcomes.iter().filter(is_failed).cloned().collect();
-            let worst = most_used(&failed).map(|(_, outcome)| outcome).or(failed.first());
-            Fate::Fails { by, check: worst.map_or(check, |outcome| outcome.title.clone()), used }
+            let failed = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail);
+            let (check, used) = worst_of(failed).unwrap_or((check, used));
+            Fate::Fails { by, check, used }
         }
         Verdict::Undecided => {
             let open = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Open);
@@ -166,6 +168,10 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
             Err(why) => Way { number, price: None, fate: Fate::Impossible { why } },
         })
         .collect();
+    // What costs nothing is no cheapest: the order would be that of the list.
+    if list.iter().any(|way| way.price.is_some()) && list.iter().all(|way| way.price.is_none_or(|price| price <= 0.0)) {
+        return Err("prices: nothing that is priced is part of these barriers, so that all cost nothing (without prices the mass of steel counts, and a wall has none); price what the choices change, for example wall_volume and foundation_volume".into());
+    }
     let order = |way: &Way| way.price.unwrap_or(f64::INFINITY);
     list.sort_by(|a, b| order(a).total_cmp(&order(b)).then(a.number.cmp(&b.number)));
     let mut found = Found { ways: list, cheapest: None, out_of_budget: false };

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::checks::outcome::{CheckVerdict, Outcome};
-use crate::pipeline::{Run, most_used};
+use crate::checks::outcome::{CheckVerdict, Outcome, most_used};
+use crate::pipeline::Run;
 use crate::quantities::QUANTITIES;
 use crate::quantities::quantity::Of;
 use dem::simd::widest::instructions;
@@ -52,7 +52,7 @@ impl Ran {
     /// What a run came to.
     pub fn of(run: &Run) -> Self {
         let governing = most_used(&run.outcomes);
-        let of_the_event: Vec<Outcome> = run.outcomes.iter().filter(|outcome| !outcome.of_parts).cloned().collect();
+        let of_the_event = most_used(run.outcomes.iter().filter(|outcome| !outcome.of_parts));
         let why = run.doubts.first().cloned().or_else(|| first_open(&run.outcomes));
         let check = |outcome: &Outcome| CheckRan {
             id: outcome.id.clone(),
@@ -71,9 +71,9 @@ impl Ran {
         Self {
             verdict: run.verdict.word().into(),
             why: why.unwrap_or_default(),
-            governing: governing.map_or(String::new(), |(_, outcome)| outcome.title.clone()),
-            used: governing.map(|(used, _)| used),
-            used_in_the_event: most_used(&of_the_event).map(|(used, _)| used),
+            governing: governing.map_or(String::new(), |outcome| outcome.title.clone()),
+            used: governing.and_then(Outcome::used),
+            used_in_the_event: of_the_event.and_then(Outcome::used),
             checks: run.outcomes.iter().map(check).collect(),
             guideline_force: Some(run.guideline.face_force),
             measured: measured.collect(),

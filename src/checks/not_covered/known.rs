@@ -14,16 +14,16 @@ pub struct FirstSurge {
     pub hardest_push: f64,
     /// The largest force of one boulder on the barrier, as the next packing may exceed it with a probability of 5 % (N); 0 where the flow has none.
     pub boulder: f64,
-    /// Their largest moment about the foot of a wall, per width (N m/m).
+    /// The largest moment of the first surge about the foot of a wall, per width (N m/m).
     pub moment: f64,
-    /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged.
+    /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged (ratio, at least 1).
     pub sampled_over_smoothed: f64,
     pub moment_sampled_over_smoothed: f64,
     /// The velocity with which it arrives (m/s).
     pub velocity: f64,
     /// Its depth then, at bulk density (m).
     pub depth: f64,
-    /// Its momentum flux h v² over the one that the design gives; 1 where the design gives none.
+    /// Its momentum flux h v² over the one that the design gives (ratio); 1 where the design gives none.
     pub flux_share: f64,
     /// K that the deposit shows at rest, where there is one.
     pub earth_pressure: Option<f64>,

@@ -1,41 +1,80 @@
-//! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest stone, by the law of
-//! contacts, must be held there as a named one would have to be.
+//! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest stone must be held
+//! there as a named one would have to be: by the strength of the metre that is hit, under the hit by the law of contacts; and by the base of a
+//! wall that stands by its weight, under the reduced hit of a boulder. Where joints of the wall are not described, by a block of one metre.
 
 use super::known::Known;
 use crate::checks::check_all;
 use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{guideline_for, height_over_bed};
+use crate::guideline::{guideline_for, height_over_bed, hit_of_the_largest};
 
-pub fn leave_open(Known { design, guideline, .. }: Known, outcomes: &mut [Outcome]) {
+/// Length of the block (m) that stands for one that nobody described: joints are no closer.
+const SHORTEST_BLOCK: f64 = 1.0;
+
+pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
+    let design = known.design;
     if !matches!(design.barrier, BarrierDesign::RigidWall(_)) || design.loads.point_load.is_some() {
         return;
     }
-    let force = hit(design, guideline.input.velocity);
-    if force.is_nan() {
+    let strength = hit(design, known.guideline.input.velocity);
+    let then = struck(known, strength);
+    if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
-            outcome.leave_open(Opening::NotGiven(
-                "the grains of the flow are not given, and the largest one may break the metre of the wall that it hits (give flow.grain_sizes, solid_density and contact_modulus, or loads.point_load)".into(),
-            ));
+            outcome.leave_open(Opening::NotGiven(match strength.is_nan() {
+                true => unknown("break the metre of the wall that it hits"),
+                false => format!(
+                    "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN, and that metre would not hold it (give loads.point_load, or more resistance)",
+                    strength / 1e3
+                ),
+            }));
         }
+    }
+    if !design.flow.boulders.is_empty() {
+        // They are the point load of the base already.
         return;
     }
-    let height = guideline.input.depth.min(height_over_bed(design));
+    let on_the_base = hit_of_the_largest(design);
+    let then = struck(known, on_the_base);
+    for outcome in outcomes.iter_mut().filter(|outcome| is_of_the_base(outcome) && outcome.holds()) {
+        let holds = then.iter().any(|then| then.id == outcome.id && !outcome.would_fail(then));
+        if on_the_base.is_nan() {
+            outcome.leave_open(Opening::NotGiven(unknown("move the block of the wall that it hits")));
+        } else if !holds {
+            outcome.leave_open(Opening::NotGiven(format!(
+                "the largest stone of the flow may hit the wall with {:.0} kN, and {} would not hold it (give loads.point_load or flow.boulders, and barrier.rigid_wall.stability.block_length)",
+                on_the_base / 1e3,
+                if block_is_given(design) { "its block" } else { "a block of one metre" }
+            )));
+        }
+    }
+}
+
+fn unknown(may: &str) -> String {
+    format!(
+        "the grains of the flow are not given, and the largest one may {may} (give flow.grain_sizes, solid_density and contact_modulus, or loads.point_load)"
+    )
+}
+
+fn is_of_the_base(outcome: &Outcome) -> bool {
+    matches!(outcome.id.as_str(), "wall_sliding" | "wall_overturning" | "wall_bearing" | "wall_eccentricity")
+}
+
+fn block_is_given(design: &Design) -> bool {
+    matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.block_length.is_some()))
+}
+
+/// The checks of the wall where a stone hits it with a force (N) at the surface of the flow.
+fn struck(Known { design, guideline, .. }: Known, force: f64) -> Vec<Outcome> {
     let mut struck = design.clone();
-    struck.loads.point_load = Some((force, height));
+    struck.loads.point_load = Some((force, guideline.input.depth.min(height_over_bed(design))));
+    if let BarrierDesign::RigidWall(wall) = &mut struck.barrier
+        && let Some(stability) = &mut wall.stability
+    {
+        stability.block_length = stability.block_length.or(Some(SHORTEST_BLOCK));
+    }
     let asked = guideline_for(&struck, guideline.input);
-    let then = check_all(&struck, &Demands::by_equations(&asked, &design.factors));
-    let fails = |outcome: &Outcome| outcome.kind == Kind::WallStrength && outcome.fails_by_equations();
-    if !then.iter().any(fails) {
-        return;
-    }
-    for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
-        outcome.leave_open(Opening::NotGiven(format!(
-            "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN, and that metre would not hold it (give loads.point_load, or more resistance)",
-            force / 1e3
-        )));
-    }
+    check_all(&struck, &Demands::by_equations(&asked, &design.factors))
 }
 
 /// Largest force (N) of an elastic hit of the largest stone on a wall, v √(k m) with k = E r: the dashpot makes it somewhat less.
@@ -47,6 +86,7 @@ fn hit(design: &Design, velocity: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::checks::not_covered::known::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
@@ -94,6 +134,16 @@ mod tests {
             design.loads.point_load = Some((1.0, 1.0));
         };
         assert_eq!(verdict(&named), CheckVerdict::Pass);
+        // The base of a wall that stands by its weight: a pebble moves no block, a stone of 6 t does.
+        let on_its_base = |largest: f64| {
+            let mut design = read_design("x", include_bytes!("../../../designs/gravity_wall.yaml")).unwrap().design;
+            design.loads.point_load = None;
+            design.flow.boulders.clear();
+            design.flow.sizes = crate::design::sizes::SizeCurve::through(&[(0.0, 0.5 * largest), (1.0, largest)]);
+            crate::checks::not_covered::tests::verdict_after(leave_open, &design, "wall_sliding", FirstSurge::default())
+        };
+        assert_eq!([0.02, 1.6].map(on_its_base), [CheckVerdict::Pass, CheckVerdict::Open]);
+        assert_eq!(on_its_base(f64::NAN), CheckVerdict::Open);
         // Nothing is known of grains that are not given.
         let unknown = |design: &mut Design| {
             strength(design, 100.0);
