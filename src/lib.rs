@@ -37,7 +37,8 @@
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, a function of `arriving` or one beside it |
-//! | a warning to the reviewer | a function and a line in [`report::warnings`]; a usual range of an input in [`checks::implausible`] |
+//! | what a check, a load case or a warning is called and means | its text in [`explain`], from which `docs/reference.md` is made |
+//! | a warning to the reviewer | a function and a line in [`report::warnings`], its text in [`explain`]; a usual range of an input in [`checks::implausible`] |
 //! | a field of `result.json` | [`report::json`]; raise its `schema_version` where one changes or goes |
 //! | where a rule is from | [`sources`] |
 //! | a part of the program | a module here, and in `LAYERS` of `tests/layers.rs` whom it may name |
@@ -95,6 +96,7 @@ pub mod commands;
 pub mod container;
 pub mod demand;
 pub mod design;
+pub mod explain;
 pub mod fidelity;
 pub mod guideline;
 mod larger;

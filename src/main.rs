@@ -7,6 +7,7 @@ use std::time::Duration;
 use barrier_check::commands::check::{MOST_STARTS, Options, check, dry_run, loads, resume};
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::engines::{Engine, Mode};
+use barrier_check::commands::explain::explain;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::SchemaOf;
 use barrier_check::commands::study::study;
@@ -112,6 +113,15 @@ enum Command {
         out: PathBuf,
         #[command(flatten)]
         how: HowArguments,
+    },
+    /// Tells what a check, a load case, a warning or a key of the design file is, with formula and source
+    Explain {
+        /// Id as in result.json, or a key or the end of its path; without it all ids are listed
+        #[arg(conflicts_with = "all")]
+        id: Option<String>,
+        /// Prints everything as Markdown
+        #[arg(long)]
+        all: bool,
     },
     /// Makes the report of an earlier run again, without running it
     Report {
@@ -247,6 +257,7 @@ fn run() -> i32 {
         }
         Some(Command::Loads { design, out, format }) => loads(&design, out.as_deref(), format) as i32,
         Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options(Format::Text)) as i32,
+        Some(Command::Explain { id, all }) => explain(id.as_deref(), all) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
         Some(Command::Resume { folder, threads, keep }) => {
             resume(&folder, threads.map(usize::from), keep.every()) as i32

@@ -32,6 +32,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("units", &["problem"]),
     ("design", &["lattice", "problem", "profile", "raster", "relief", "ring_law", "section", "units", "yield_curve"]),
     ("load_cases", &["design"]),
+    ("explain", &["design", "problem", "sources"]),
     ("loads", &["larger", "lattice", "profile", "relief", "section", "sources", "units", "yield_curve"]),
     ("checkpoint", &["dem", "lock", "program", "container", "terminal"]),
     ("guideline", &["design", "larger", "loads", "section", "units"]),
@@ -164,6 +165,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         &[
             "checkpoint",
             "design",
+            "explain",
             "fidelity",
             "load_cases",
             "pipeline",

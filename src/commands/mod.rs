@@ -3,6 +3,7 @@
 pub mod check;
 pub mod compare;
 pub mod engines;
+pub mod explain;
 pub(crate) mod input;
 pub(crate) mod kept;
 mod kept_simulations;

@@ -10,6 +10,7 @@ use crate::pipeline::Run;
 use crate::program::PROGRAM;
 use crate::report::measured::Measured;
 use crate::report::spreads::over_packings;
+use crate::report::warnings;
 use crate::simulated::Simulated;
 use crate::stages::{Stage, stages};
 use crate::starts::Spread;
@@ -25,6 +26,8 @@ pub struct ResultFile {
     pub verdict: String,
     /// Why the simulation cannot be relied on; only a failure by the equations stands beside one.
     pub doubts: Vec<String>,
+    /// What a reviewer should know before the numbers.
+    pub warnings: Vec<warnings::Told>,
     pub checks: Vec<CheckPart>,
     pub guideline: GuidelinePart,
     /// What the first start showed; absent where the equations alone were asked for.
@@ -192,6 +195,7 @@ impl ResultFile {
             design: DesignPart { name: run.file.name.clone(), sha256: run.file.sha256.clone() },
             verdict: run.verdict.word().to_string(),
             doubts: run.doubts.clone(),
+            warnings: warnings::warnings(run),
             checks: run.outcomes.iter().map(check_part).collect(),
             guideline: guideline_part(&run.guideline),
             simulation: run.simulated.as_ref().map(simulation_part),

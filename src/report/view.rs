@@ -27,7 +27,7 @@ use crate::report::site;
 use crate::report::statements::{Assumption, assumptions, not_checked, references};
 use crate::report::surges::{self, Surges};
 use crate::report::table::Table;
-use crate::report::warnings::{left_by_simulation, warnings};
+use crate::report::warnings::{self, left_by_simulation};
 use crate::simulated::Simulated;
 use crate::sources::VOLKWEIN_2014;
 
@@ -39,7 +39,7 @@ pub struct View {
     pub verdict_line: String,
     pub doubts: Vec<String>,
     /// What a reviewer should know before the numbers.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<warnings::Told>,
     pub utilisation: Option<Chart>,
     pub checks: Vec<CheckRow>,
     /// Whether any tells the demand of the flow without partial factors.
@@ -156,7 +156,7 @@ impl View {
             verdict: run.verdict.word(),
             verdict_line: summary(run),
             doubts: run.doubts.clone(),
-            warnings: warnings(run),
+            warnings: warnings::warnings(run),
             utilisation: pictures::utilisation_chart(run),
             has_characteristic: outcomes.iter().any(|outcome| outcome.demand.characteristic.is_some()),
             checks: outcomes.iter().map(|outcome| check_row(outcome)).collect(),

@@ -1,5 +1,8 @@
 //! What a reviewer should know before the numbers, each with what to do about it. One function for each warning.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::checks::credibility::ESCAPED_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::implausible::implausible;
@@ -20,31 +23,31 @@ use dem::recorders::of_dissipators;
 
 type Warning = fn(&Run) -> Option<String>;
 
-/// All warnings, in the order of the report.
-const WARNINGS: &[Warning] = &[
-    inputs_far_from_usual,
-    flow_not_stopped,
-    flow_that_stopped_upstream,
-    slows_on_its_way,
-    event_larger_than_the_flow,
-    discharge_and_volume,
-    grains_that_hide_losses,
-    grains_scaled_to_the_mass,
-    escaped,
-    run_up_over_the_banks,
-    storage_without_an_end,
-    gully_turns,
-    force_beyond_the_guideline,
-    faster_flow_than_the_guideline_was_given,
-    dissipators_used_up,
-    ropes_broken,
-    sag_beyond_the_equations,
-    formulas_that_stand,
-    parts_that_no_check_sees,
-    loads_without_factor,
-    rope_ends_that_hold_all,
-    soft_ropes,
-    validation_case_like_this,
+/// All warnings with their ids, in the order of the report.
+const WARNINGS: &[(&str, Warning)] = &[
+    ("inputs_far_from_usual", inputs_far_from_usual),
+    ("flow_not_stopped", flow_not_stopped),
+    ("flow_that_stopped_upstream", flow_that_stopped_upstream),
+    ("slows_on_its_way", slows_on_its_way),
+    ("event_larger_than_the_flow", event_larger_than_the_flow),
+    ("discharge_and_volume", discharge_and_volume),
+    ("grains_that_hide_losses", grains_that_hide_losses),
+    ("grains_scaled_to_the_mass", grains_scaled_to_the_mass),
+    ("escaped", escaped),
+    ("run_up_over_the_banks", run_up_over_the_banks),
+    ("storage_without_an_end", storage_without_an_end),
+    ("gully_turns", gully_turns),
+    ("force_beyond_the_guideline", force_beyond_the_guideline),
+    ("faster_flow_than_the_guideline_was_given", faster_flow_than_the_guideline_was_given),
+    ("dissipators_used_up", dissipators_used_up),
+    ("ropes_broken", ropes_broken),
+    ("sag_beyond_the_equations", sag_beyond_the_equations),
+    ("formulas_that_stand", formulas_that_stand),
+    ("parts_that_no_check_sees", parts_that_no_check_sees),
+    ("loads_without_factor", loads_without_factor),
+    ("rope_ends_that_hold_all", rope_ends_that_hold_all),
+    ("soft_ropes", soft_ropes),
+    ("validation_case_like_this", validation_case_like_this),
 ];
 
 /// What is allowed, but mostly a slip.
@@ -98,8 +101,21 @@ fn rope_ends_that_hold_all(run: &Run) -> Option<String> {
     })
 }
 
-pub fn warnings(run: &Run) -> Vec<String> {
-    WARNINGS.iter().filter_map(|warning| warning(run)).collect()
+/// A warning as a report tells it.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Told {
+    /// `barrier-check explain` knows it by this.
+    pub id: &'static str,
+    pub text: String,
+}
+
+pub fn warnings(run: &Run) -> Vec<Told> {
+    WARNINGS.iter().filter_map(|(id, warning)| Some(Told { id, text: warning(run)? })).collect()
+}
+
+/// Of all warnings that there are.
+pub fn ids() -> impl Iterator<Item = &'static str> {
+    WARNINGS.iter().map(|(id, _)| *id)
 }
 
 fn net(run: &Run) -> Option<&FlexibleNet> {
