@@ -277,6 +277,22 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, NotAQuantity> {
     }
 }
 
+/// One typed quantity over another of the same dimension, or one plain number over another; nothing where they cannot be compared.
+pub fn ratio(one: &str, other: &str) -> Option<f64> {
+    let si = |text: &str| {
+        let text = text.trim();
+        let end = text.find(|letter: char| !(letter.is_ascii_digit() || "+-.".contains(letter))).unwrap_or(text.len());
+        let value: f64 = text[..end].parse().ok()?;
+        let symbol = text[end..].trim().replace('^', "").replace('³', "3").replace('²', "2").replace('°', "deg");
+        match symbol.as_str() {
+            "" => Some((None, value)),
+            symbol => factor_of(symbol).map(|(dimension, factor)| (Some(dimension), value * factor)),
+        }
+    };
+    let ((of_one, one), (of_other, other)) = (si(one)?, si(other)?);
+    (of_one == of_other && other != 0.0).then(|| one / other)
+}
+
 /// What is found and what to write where the digits of a number are separated by something else than one point, if they are.
 pub fn separators(text: &str) -> Option<(String, String)> {
     const MARKS: [char; 5] = [',', '.', '\'', '’', '_'];
@@ -433,6 +449,13 @@ fn plainly(si: f64, dimension: Dimension) -> String {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn quantities_of_one_dimension_are_compared_in_any_unit() {
+        assert!((ratio("4 km/h", "4 m/s").unwrap() - 1.0 / 3.6).abs() < 1e-12);
+        assert_eq!(ratio("0.5", "2"), Some(0.25));
+        assert_eq!((ratio("1 m", "1 kN"), ratio("1 m", "0 m"), ratio("1", "1 m")), (None, None, None));
+    }
 
     #[test]
     fn every_unit_reads_as_its_si_value() {

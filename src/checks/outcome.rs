@@ -3,6 +3,7 @@
 
 use crate::checks::between_bolts::{end_bolt_under_more, tension_under_more};
 use crate::demand::Demand;
+use crate::larger::larger_or_nan;
 use crate::loads::posts::Strut;
 use crate::loads::wall::WallInput;
 use crate::quantities::quantity::{Quantity, Unit};
@@ -194,7 +195,18 @@ pub struct Outcome {
     pub growth: Growth,
     /// What of the guideline's demand is from the simulation: the pull of a lateral rope (N).
     pub beside: f64,
+    /// Where by the guideline more presses on the barrier than was simulated: how many times as much, and the utilisation scaled up to that.
+    pub scaled: Option<Scaled>,
     pub source: &'static str,
+}
+
+/// A simulated demand under the larger load that the guideline has for the barrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scaled {
+    /// Load by the guideline over the one that was simulated.
+    pub more: f64,
+    /// Utilisation under it.
+    pub used: f64,
 }
 
 /// The check that uses most of its capacity, of those that have a share to tell.
@@ -304,9 +316,21 @@ impl Outcome {
         Self { of_parts: true, ..self.whatever_the_pressures() }
     }
 
-    /// What is used of the capacity, for sorting: what is not a number, of either sign, stands above all. Nothing where the check has no share.
+    /// What is used of the capacity, under the load as it was simulated or scaled up to what the guideline has, whichever is more; what is not a
+    /// number, of either sign, stands above all. Nothing where the check has no share.
     pub fn used(&self) -> Option<f64> {
-        self.utilisation.map(|used| if used.is_nan() { f64::NAN.abs() } else { used })
+        let scaled = self.scaled.map_or(f64::NEG_INFINITY, |scaled| scaled.used);
+        self.utilisation
+            .map(|used| larger_or_nan(used, scaled))
+            .map(|used| if used.is_nan() { f64::NAN.abs() } else { used })
+    }
+
+    /// Takes down how much is used of a check that holds under a load larger than the simulated one.
+    pub fn scale_up(&mut self, more: f64, used: f64) {
+        self.scaled = Some(Scaled { more, used });
+        if self.verdict == CheckVerdict::Pass && used > WARN_FROM {
+            self.verdict = CheckVerdict::Warn;
+        }
     }
 
     pub fn leave_open(&mut self, why: Opening) {
@@ -405,6 +429,7 @@ impl Outcome {
             kind: Kind::Any,
             growth: Growth::default(),
             beside: 0.0,
+            scaled: None,
             source,
         };
         if capacity.is_some() && utilisation.is_none() {

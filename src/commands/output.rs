@@ -109,7 +109,8 @@ pub fn summarise(view: &View, folder: &Path, with_vtk: bool) {
     for check in &view.checks {
         let limit =
             if check.capacity.starts_with("at least") { format!(" ({})", check.capacity) } else { String::new() };
-        say(format!("{:<5} {:>7}  {}{limit}", check.verdict.to_uppercase(), check.utilisation, check.title));
+        let scaled = if check.scaled.is_empty() { String::new() } else { format!(" ({})", check.scaled) };
+        say(format!("{:<5} {:>7}  {}{limit}{scaled}", check.verdict.to_uppercase(), check.utilisation, check.title));
     }
     say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
     for more in [&view.margin, &view.why_enough] {

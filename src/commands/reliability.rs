@@ -13,7 +13,6 @@ use crate::commands::signals::listen;
 use crate::commands::{ExitCode, Failure};
 use crate::design::Design;
 use crate::design::changes::Changes;
-use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, Source};
 use crate::problem::Problems;
 use crate::report::assessment::Told;
@@ -40,7 +39,7 @@ pub fn reliability(plan: &ReliabilityPlan, beside: &Path, mut folder: Folder) ->
         attached.entry(name.to_string()).or_insert_with(|| input::beside(&path, name)).clone()
     };
     let as_it_is = source
-        .read(Purpose::Simulation, &open, &Changes::new(plan.set()))
+        .read(plan.by.purpose(), &open, &Changes::new(plan.set()))
         .map_err(|problems| format!("the design is not valid\n{problems}"))?;
     let (inputs, set) = (plan.list(), plan.set());
     let together = plan.together().ok_or("correlations that no inputs can have at once")?;
@@ -52,6 +51,7 @@ pub fn reliability(plan: &ReliabilityPlan, beside: &Path, mut folder: Folder) ->
         set: &set,
         factors: plan.factors,
         only: &plan.checks,
+        purpose: plan.by.purpose(),
         tally: Tally::default(),
     };
     let events: Vec<f64> = plan.events().iter().map(|value| inputs[0].of.score(*value)).collect();
@@ -95,9 +95,9 @@ pub fn reliability(plan: &ReliabilityPlan, beside: &Path, mut folder: Folder) ->
 fn judged(states: &LimitStates, asked: &Asked) -> Result<(), String> {
     let known = |id: &String| asked.checks.iter().any(|check| check.id == *id);
     if let Some(unknown) = states.only.iter().find(|id| !known(id)) {
-        let all: Vec<&str> = asked.checks.iter().map(|check| check.id.as_str()).collect();
-        let all = if all.is_empty() { "none".to_string() } else { all.join(", ") };
-        return Err(format!("checks: found {unknown}, which is not judged here; judged are: {all}"));
+        return Err(format!(
+            "checks: found {unknown}, which is no check of this design that is judged by this route; `barrier-check loads` with the design writes the ids of its checks into result.json, and `barrier-check explain` lists all"
+        ));
     }
     if asked.checks.is_empty() {
         return Err("no check of this design is judged this way, so there is no probability to tell".into());

@@ -38,6 +38,7 @@ struct Sizes<'a> {
     choices: &'a Choices,
     prices: &'a Prices,
     kept: &'a KeptResults,
+    purpose: Purpose,
     /// Files that designs name, read once.
     attached: Mutex<BTreeMap<String, Result<Vec<u8>, String>>>,
 }
@@ -50,8 +51,14 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
     let site = Site { name: path.display().to_string(), path: path.clone(), text };
     let (choices, prices) = (plan.choices(), plan.prices());
     let kept = KeptResults::within(folder.path())?;
-    let ways =
-        Sizes { site: &site, choices: &choices, prices: &prices, kept: &kept, attached: Mutex::new(BTreeMap::new()) };
+    let ways = Sizes {
+        site: &site,
+        choices: &choices,
+        prices: &prices,
+        kept: &kept,
+        purpose: plan.by.purpose(),
+        attached: Mutex::new(BTreeMap::new()),
+    };
     let wanted = plan.wanted();
     let found = search(&ways, &wanted)?;
     if let Some(Fate::Impossible { why }) =
@@ -109,14 +116,12 @@ impl Sizes<'_> {
             attached.entry(name.to_string()).or_insert_with(|| input::beside(&self.site.path, name)).clone()
         };
         let changes = self.choices.changes(number);
-        read_design_changed(Purpose::Simulation, &self.site.name, &self.site.text, &open, &changes).map_err(
-            |problems| {
-                let first = problems.list.first();
-                let told = first
-                    .map(|problem| format!("{}: found {}, allowed {}", problem.path, problem.found, problem.allowed));
-                told.unwrap_or_else(|| "it cannot be read".into())
-            },
-        )
+        read_design_changed(self.purpose, &self.site.name, &self.site.text, &open, &changes).map_err(|problems| {
+            let first = problems.list.first();
+            let told =
+                first.map(|problem| format!("{}: found {}, allowed {}", problem.path, problem.found, problem.allowed));
+            told.unwrap_or_else(|| "it cannot be read".into())
+        })
     }
 }
 

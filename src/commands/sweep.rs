@@ -12,7 +12,6 @@ use crate::commands::output::put;
 use crate::commands::signals::{listen, stop};
 use crate::commands::{ExitCode, Failure};
 use crate::design::changes::Changes;
-use crate::design::entries::Purpose;
 use crate::design::read::{Source, sha256};
 use crate::design::{Design, FidelityWish};
 use crate::fidelity::ladder::RungKind;
@@ -106,7 +105,7 @@ impl<'a> Sweep<'a> {
     fn ran(&self, run: usize) -> Result<Ran, String> {
         let site = &self.sites[run / self.ways];
         let open = |name: &str| input::beside(&site.path, name);
-        let file = match site.source.read(Purpose::Simulation, &open, &self.changes(run)) {
+        let file = match site.source.read(self.plan.by.purpose(), &open, &self.changes(run)) {
             Ok(file) => file,
             Err(problems) => {
                 let first = problems.list.first();
@@ -139,7 +138,7 @@ impl Site {
         let text = input::read(path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
         let source = Source::parse(&path.display().to_string(), &text).map_err(|problems| problems.to_string())?;
         let open = |name: &str| input::beside(path, name);
-        let as_it_is = source.read(Purpose::Simulation, &open, &Changes::default());
+        let as_it_is = source.read(plan.by.purpose(), &open, &Changes::default());
         let attached = as_it_is.map_err(|problems| format!("a design cannot be read\n{problems}"))?.attached;
         let mut digest = sha2::Sha256::new();
         digest.update(&text);

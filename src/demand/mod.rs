@@ -78,12 +78,6 @@ impl Demands {
         self
     }
 
-    /// Drops what the equations say of everything that the simulation shows.
-    pub fn leave_out_guideline_where_simulated(&mut self) {
-        let simulated = self.0.values_mut().flatten().filter(|demand| demand.simulation.is_some());
-        simulated.for_each(|demand| demand.guideline = None);
-    }
-
     /// Leaves what the simulation says alone.
     pub fn leave_out_guideline(&mut self) {
         self.0.values_mut().flatten().for_each(|demand| demand.guideline = None);

@@ -183,6 +183,13 @@ impl Bounded {
         })
     }
 
+    /// Share of the distribution that the bounds cut off.
+    pub fn cut(&self) -> f64 {
+        let below = self.least.map_or(0.0, |least| self.of.cumulative(least).below);
+        let above = self.most.map_or(0.0, |most| self.of.cumulative(most).above);
+        below + above
+    }
+
     fn kept(&self, least: f64, most: f64) -> f64 {
         self.of.cumulative(most).below - self.of.cumulative(least).below
     }

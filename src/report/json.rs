@@ -104,6 +104,8 @@ pub struct CheckPart {
     pub demand_characteristic: Option<f64>,
     pub capacity: Option<f64>,
     pub utilisation: Option<f64>,
+    /// Under the larger load that the guideline has for the barrier, where the check was simulated under less.
+    pub utilisation_scaled: Option<f64>,
     pub unit: String,
     /// pass, warn, fail, open or info
     pub verdict: String,
@@ -221,6 +223,7 @@ fn check_part(outcome: &Outcome) -> CheckPart {
         demand_characteristic: outcome.demand.characteristic,
         capacity: outcome.capacity,
         utilisation: outcome.utilisation,
+        utilisation_scaled: outcome.scaled.map(|scaled| scaled.used),
         unit: outcome.unit.symbol().to_string(),
         verdict: outcome.verdict.word().to_string(),
         open: outcome.open.as_ref().map_or(String::new(), |open| open.words().to_string()),

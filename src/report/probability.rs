@@ -17,6 +17,7 @@ use crate::studies::amount::{Amount, shown as shown_value};
 use crate::studies::reliability::{Answer, OfCheck, Way};
 use crate::studies::reliability_plan::{FactorsWish, Input};
 use crate::studies::size_plan::By;
+use crate::units::ratio;
 
 const HTML: &str = include_str!("../../templates/reliability.html");
 const MARKDOWN: &str = include_str!("../../templates/reliability.md");
@@ -178,7 +179,7 @@ fn notes(told: &Told) -> Vec<String> {
     let mut notes = Vec::new();
     notes.push(match plan.by {
         By::Equations => "The limit states are the guideline's equations. How far these are from the truth is not in the probability unless it is given as an input, for example a scatter of factors.load or factors.dynamic_lambda.".into(),
-        By::Simulation => "The limit states are simulations; what a simulation does not show (load cases of the equations alone) is taken from the equations. The scatter of packings is in the probability; a bias of the model is not, unless it is given as an input.".into(),
+        By::Simulation => "The limit states are simulations; where the equations have more (surges over a deposit, the full barrier), they govern, as in the verdict of a design. The scatter of packings is in the probability; a bias of the model is not, unless it is given as an input.".into(),
     });
     notes.push(match plan.factors {
         FactorsWish::None => "All partial factors are 1 and every resistance may be used up to its full value: failure is meant, not the loss of a margin. Inputs that are not listed have the values of the design, characteristic ones where these are characteristic; a resistance that is given as a design value keeps the factor in it.".into(),
@@ -217,7 +218,7 @@ fn notes(told: &Told) -> Vec<String> {
         ));
     }
     for (why, count) in assessed.refused.iter().take(5) {
-        notes.push(format!("Samples that are no valid design and count as failed: {count} ({why}). Bounds of the inputs (least, most) avoid that."));
+        notes.push(format!("Samples that are no valid design and count as failed: {count} ({why}). Change what in the design refuses them, where it can be changed: bounds of the inputs (least, most) cut off a tail, and with it what fails there."));
     }
     if assessed.lost() > 0 {
         notes.push(format!(
@@ -240,7 +241,46 @@ fn notes(told: &Told) -> Vec<String> {
         notes.push("Subset simulation met a plateau of the utilisation, where a dissipator caps the load, and could not go on to what may fail beyond it: only the bound from plain samples is known.".into());
     }
     notes.extend(assessed.checks.iter().filter_map(form_disagrees));
+    notes.extend(told.inputs.iter().filter_map(cut_off));
+    notes.extend(far_from_the_design(told));
     notes
+}
+
+/// Share of a distribution that bounds may cut off without a word.
+const CUT: f64 = 1e-3;
+
+/// What the bounds of an input cut off.
+fn cut_off(input: &Input) -> Option<String> {
+    let cut = input.of.cut();
+    (cut > CUT).then(|| {
+        format!(
+            "{}: its bounds cut off {} of the distribution, and what would fail there; its mean is {} with them.",
+            words(&input.key),
+            percent(Some(cut)),
+            with_unit(input.of.moments()[0], &input.unit)
+        )
+    })
+}
+
+/// How many times as much as in the design the median of an input is, or the design's as much as the median, from where it is worth a word.
+const FAR: f64 = 2.0;
+
+/// Inputs whose median is far from the design's own value: mostly a slip in the unit.
+fn far_from_the_design(told: &Told) -> Vec<String> {
+    let medians = (told.values)(&vec![0.0; told.inputs.len()]);
+    let far = |(input, median): (&Input, f64)| {
+        let typed = &told.design.entries.values.get(&input.key)?.typed;
+        let share = ratio(&format!("{median} {}", input.unit), typed)?;
+        (!(1.0 / FAR..=FAR).contains(&share)).then(|| {
+            format!(
+                "{}: its median of {} is {} times what the design has ({typed}); check the number and its unit.",
+                words(&input.key),
+                with_unit(median, &input.unit),
+                figures(share)
+            )
+        })
+    };
+    told.inputs.iter().zip(medians).filter_map(far).collect()
 }
 
 /// Where the first-order probability is outside the interval, by how much.

@@ -4,7 +4,7 @@ use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::demand::{CAP_TOLERANCE, USED_UP};
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
-use crate::report::numbers::{percent, with_unit};
+use crate::report::numbers::{figures, percent, with_unit};
 use serde::Serialize;
 
 /// A name with its value and, where it helps, a remark.
@@ -62,6 +62,14 @@ pub fn used(outcome: &Outcome) -> String {
     }
 }
 
+/// The utilisation under the larger load that the guideline has, where that is more.
+pub fn scaled(outcome: &Outcome) -> String {
+    let more = outcome.scaled.filter(|scaled| outcome.utilisation.is_none_or(|used| scaled.used > used));
+    more.map_or(String::new(), |scaled| {
+        format!("{} under {} times the load", percent(Some(scaled.used)), figures(scaled.more))
+    })
+}
+
 /// By which route a dissipator yields, where its stroke is not used up.
 fn at_the_plateau(outcome: &Outcome) -> &'static str {
     let plateau = outcome.capacity.unwrap_or(f64::INFINITY) / CAP_TOLERANCE;
@@ -86,6 +94,7 @@ pub fn in_a_line(outcome: &Outcome) -> String {
     let title = lower_first(&outcome.title);
     match outcome.capacity.filter(|_| is_share(outcome)) {
         Some(least) => format!("{title} ({}, at least {})", used(outcome), with_unit(least, outcome.unit.symbol())),
+        None if !scaled(outcome).is_empty() => format!("{title} ({}; {})", used(outcome), scaled(outcome)),
         None => format!("{title} ({})", used(outcome)),
     }
 }

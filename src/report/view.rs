@@ -1,6 +1,6 @@
 //! What the templates may see: texts and finished figures.
 
-use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, row, used, worst_first};
+use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, row, scaled, used, worst_first};
 use serde::Serialize;
 
 use crate::checks::detailing;
@@ -116,6 +116,8 @@ pub struct CheckRow {
     /// The capacity with its numbers.
     pub working: String,
     pub utilisation: String,
+    /// Under the larger load that the guideline has, where that uses more.
+    pub scaled: String,
     pub verdict: &'static str,
     pub source: &'static str,
 }
@@ -352,6 +354,7 @@ fn check_row(outcome: &Outcome) -> CheckRow {
         },
         working: working(outcome),
         utilisation: used(outcome),
+        scaled: scaled(outcome),
         verdict: outcome.verdict.word(),
         source: outcome.source,
     }

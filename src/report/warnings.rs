@@ -114,6 +114,7 @@ pub fn warnings(run: &Run) -> Vec<Told> {
 }
 
 /// Of all warnings that there are.
+#[cfg(test)]
 pub fn ids() -> impl Iterator<Item = &'static str> {
     WARNINGS.iter().map(|(id, _)| *id)
 }
@@ -486,7 +487,10 @@ fn in_a_line_by(outcome: &Outcome, share: f64) -> String {
     if is_share(outcome) {
         in_a_line(outcome)
     } else {
-        format!("{} ({:.0} %)", lower_first(&outcome.title), 100.0 * share)
+        let under = outcome.scaled.map_or(String::new(), |scaled| {
+            format!(" under {} times the load that was simulated, which the guideline has", figures(scaled.more))
+        });
+        format!("{} ({:.0} %{under})", lower_first(&outcome.title), 100.0 * share)
     }
 }
 
@@ -497,6 +501,7 @@ fn used_by_simulation(outcome: &Outcome) -> Option<f64> {
         return None;
     }
     match outcome.resistance {
+        Some(_) if outcome.scaled.is_some() => outcome.used(),
         Some(_) => Some(simulation / capacity),
         None => Some((1.0 - simulation) / (1.0 - capacity).max(1e-9)),
     }

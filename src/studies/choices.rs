@@ -83,6 +83,14 @@ fn of_range(key: &str, ends: [&str; 3]) -> Result<Choice, String> {
     if !(step > 0.0 && (0.0..=MOST_OF_A_RANGE).contains(&count)) {
         return Err(format!("found {} to {} by {}, allowed 1 to 1000 rising values", ends[0], ends[1], ends[2]));
     }
+    if (count - count.round()).abs() > 1e-6 {
+        let last = from + count.floor() * step;
+        let found = format!("found {} to {} by {}", ends[0], ends[1], ends[2]);
+        return Err(format!("{found}, allowed a step that leads to the end: the last value would be {last:.9}")
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_string());
+    }
     let option = |number: usize| {
         // Without the digits that a binary fraction adds.
         let value = format!("{:.9}", from + number as f64 * step);
@@ -109,8 +117,15 @@ fn of_options(name: &str, options: &[BTreeMap<String, Value>]) -> Result<Choice,
 }
 
 fn named(name: &str, options: Vec<ChosenOption>) -> Result<Choice, String> {
-    if options.is_empty() || options.iter().any(|option| option.changes.is_empty()) {
-        return Err("found no option, or one that changes nothing, allowed one at least".into());
+    if options.is_empty() {
+        return Err("found no option, allowed one at least".into());
+    }
+    // One that only has a label is the design as it is.
+    if options.iter().any(|option| option.changes.is_empty() && option.label.is_empty()) {
+        return Err(
+            "found an option that changes nothing, allowed one with keys, or with a label for the design as it is"
+                .into(),
+        );
     }
     let paths = options.iter().flat_map(|option| option.changes.iter().map(|(path, _)| path));
     if let Some(path) = paths.into_iter().find(|path| path.is_empty() || path.split('.').any(str::is_empty)) {

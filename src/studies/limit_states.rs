@@ -34,6 +34,8 @@ pub struct LimitStates<'a> {
     /// Values of the design that are others here.
     pub set: &'a [(String, Node)],
     pub factors: FactorsWish,
+    /// What a sample must be fit for: one that no simulation could be made of the equations may still judge.
+    pub purpose: Purpose,
     /// Ids of the checks that are asked of; all where none is named.
     pub only: &'a [String],
     pub tally: Tally,
@@ -98,7 +100,7 @@ impl LimitStates<'_> {
         let changes =
             values.map(|(value, input)| (input.key.clone(), Amount { value, unit: input.unit.clone() }.node()));
         let changes = Changes::new(self.set.iter().cloned().chain(changes).collect());
-        let mut file = self.source.read(Purpose::Simulation, self.open, &changes)?;
+        let mut file = self.source.read(self.purpose, self.open, &changes)?;
         if self.factors == FactorsWish::None {
             let given = |key: &str| {
                 self.inputs.iter().any(|input| input.key == key) || self.set.iter().any(|(set, _)| set == key)
@@ -112,8 +114,7 @@ impl LimitStates<'_> {
     fn outcomes(&self, design: &Design, simulated: Option<&Simulated>) -> Vec<Outcome> {
         let guideline = guideline(design);
         let seen = simulated.map(Simulated::seen).unwrap_or_default();
-        let mut demands = Demands::meet(&guideline, &seen, &design.factors);
-        demands.leave_out_guideline_where_simulated();
+        let demands = Demands::meet(&guideline, &seen, &design.factors);
         let mut outcomes = check_all(design, &demands);
         // What parts are to each other is no failure in the event, unless it is asked for.
         outcomes.retain(|outcome| match self.only.is_empty() {
@@ -124,7 +125,7 @@ impl LimitStates<'_> {
         outcomes
     }
 
-    /// Which checks are judged; `simulated` is what a simulation of that design showed, if one is asked. What a run of the design would leave open,
+    /// Which checks are judged, and which are not because the design leaves out what they rest on; `simulated` is what a simulation of that design showed, if one is asked. What a run of the design would leave open,
     /// because something is not covered or a formula is outside its range, is judged only in part.
     pub fn asked(&self, file: &DesignFile, simulated: Option<&Simulated>) -> Asked {
         let run = match simulated {
@@ -136,11 +137,13 @@ impl LimitStates<'_> {
             let by_a_run = run.outcomes.iter().find(|other| other.id == outcome.id);
             let open = by_a_run.and_then(|other| other.open.as_ref()).or(outcome.open.as_ref());
             let why = open.map(|open| open.words().to_string());
-            match outcome.utilisation.filter(|used| used.is_finite()) {
+            // A check that rests on what nobody has given is not judged as if it were harmless.
+            let untold = matches!(open, Some(Opening::NotGiven(_)));
+            match outcome.utilisation.filter(|used| used.is_finite() && !untold) {
                 Some(at_medians) => {
                     asked.checks.push(Judged { id: outcome.id, title: outcome.title, at_medians, partly: why });
                 }
-                None if outcome.verdict == CheckVerdict::Open => {
+                None if untold || outcome.verdict == CheckVerdict::Open => {
                     asked.unjudged.push([outcome.title, why.unwrap_or_default()]);
                 }
                 None => {}
@@ -165,9 +168,11 @@ impl LimitStates<'_> {
             (CheckVerdict::Fail, None) => Some(f64::INFINITY),
             (_, used) => used,
         };
-        let of = |check: &Judged| {
-            let outcome = outcomes.iter().find(|outcome| outcome.id == check.id);
-            outcome.and_then(used).unwrap_or(f64::NAN)
+        // A check that is judged at the medians and has no demand here is of a part that the flow does not reach: it does not fail.
+        let idle = |outcome: &Outcome| outcome.demand.largest().is_none() && outcome.verdict != CheckVerdict::Fail;
+        let of = |check: &Judged| match outcomes.iter().find(|outcome| outcome.id == check.id) {
+            Some(outcome) if idle(outcome) => 0.0,
+            found => found.and_then(used).unwrap_or(f64::NAN),
         };
         let mut all: Vec<f64> = checks.iter().map(of).collect();
         let others = outcomes.iter().filter(|outcome| checks.iter().all(|check| check.id != outcome.id));
@@ -188,7 +193,8 @@ impl LimitStates<'_> {
         }
     }
 
-    /// The same by a simulation of a design; nothing where it cannot be relied on. What the simulation does not show is by the equations.
+    /// The same by a simulation of a design, or by the equations where these have more, as in a verdict: surges over a deposit and the full barrier
+    /// are in them alone. Nothing where the simulation cannot be relied on.
     pub fn by_simulation(&self, design: &Design, simulated: &Simulated, checks: &[Judged]) -> Option<Vec<f64>> {
         let doubts = simulated.doubts.iter().cloned().chain(arriving::doubts(design, simulated));
         if let Some(doubt) = doubts.into_iter().next() {
@@ -272,6 +278,7 @@ mod tests {
             set: &set,
             factors,
             only: &plan.checks,
+            purpose: Purpose::Equations,
             tally: Tally::default(),
         })
     }

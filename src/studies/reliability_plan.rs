@@ -158,7 +158,10 @@ impl Units {
         let amount = Amount::of(value).ok_or_else(allowed)?;
         match self.0.get_or_insert_with(|| amount.unit.clone()) {
             unit if *unit == amount.unit => Ok(amount.value),
-            unit => Err(format!("found {}, allowed the unit of the other values, {unit}", shown(&node(value)))),
+            unit if unit.is_empty() => {
+                Err(format!("found {}, allowed a plain number like the values before it", shown(&node(value))))
+            }
+            unit => Err(format!("found {}, allowed the unit of the values before it, {unit}", shown(&node(value)))),
         }
     }
 }
@@ -210,7 +213,7 @@ impl InputText {
         let mut bound = |value: &Option<Value>| value.as_ref().map(|value| units.take(value)).transpose();
         let of = Bounded { of, least: bound(&self.least)?, most: bound(&self.most)? };
         if let Some(allowed) = of.wrong() {
-            return Err(format!("found a distribution that is none, allowed {allowed}"));
+            return Err(format!("found numbers that make no such distribution, allowed: {allowed}"));
         }
         let unit = units.0.unwrap_or_default();
         Ok(Input { key: self.key.clone(), of, unit, origin: self.origin.clone() })
@@ -293,8 +296,8 @@ impl ReliabilityPlan {
         }
         self.wrong_correlations(&mut wrong);
         self.wrong_fragility(&mut wrong);
-        if self.target.is_some_and(|target| !(target > 0.0 && target < 1.0)) {
-            wrong.push(["target".into(), "found no probability, allowed one above 0 and below 1".into()]);
+        if let Some(target) = self.target.filter(|target| !(*target > 0.0 && *target < 1.0)) {
+            wrong.push(["target".into(), format!("found {target}, allowed a probability above 0 and below 1")]);
         }
         let accuracy = self.accuracy.as_deref().map(share);
         if accuracy.as_ref().is_some_and(|share| !share.as_ref().is_ok_and(|share| *share >= 0.01)) {

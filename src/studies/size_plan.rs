@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
+use crate::design::entries::Purpose;
 use crate::studies::bill::Prices;
 use crate::studies::choices::{ChoiceText, Choices, MOST_COMBINATIONS};
 use crate::studies::sizing::Wanted;
@@ -19,6 +20,16 @@ pub enum By {
     Equations,
 }
 
+impl By {
+    /// What a design has to be fit for.
+    pub fn purpose(self) -> Purpose {
+        match self {
+            Self::Simulation => Purpose::Simulation,
+            Self::Equations => Purpose::Equations,
+        }
+    }
+}
+
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SizePlan {
@@ -29,7 +40,7 @@ pub struct SizePlan {
     /// Design file, relative to the study's own.
     pub design: PathBuf,
     #[serde(default)]
-    by: By,
+    pub by: By,
     /// Share of what every check may use that is to be left, as 0.1 or 10 %.
     #[serde(default)]
     margin: Option<String>,

@@ -62,8 +62,17 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
             outcome.leave_open(Opening::TooClose(format!(
                 "{full}: scaled up it would pass, but by less than the error of the simulation (run with --seeds 5 or simulation.fidelity: auto)"
             )));
+        } else if !known_by_equations(outcome) {
+            outcome.scale_up(more, used);
         }
     }
+}
+
+/// Whether the equations, which know the full barrier, tell more than the simulation. They spread the load evenly over bolts and rings, so that theirs
+/// is no measure of the worst one.
+fn known_by_equations(outcome: &Outcome) -> bool {
+    let spread = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts | Kind::NetRopes);
+    outcome.governed_by_equations() && !spread
 }
 
 /// Utilisation by the simulation with `more` times the load, as simulated and with the largest error that the simulation may have;
@@ -90,9 +99,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         | Kind::Stroke
         | Kind::OnTheBase => {}
     }
-    // The equations spread the load evenly over bolts and rings, so theirs is no measure of the worst one.
-    let spread = matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts | Kind::NetRopes);
-    let known = outcome.governed_by_equations() && !spread;
+    let known = known_by_equations(outcome);
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
         let full = outcome.demand_under(Route::Simulation, more * (1.0 + band)).unwrap_or(f64::NAN);

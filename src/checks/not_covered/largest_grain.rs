@@ -1,6 +1,6 @@
 //! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest stone must be held
-//! there as a named one would have to be: by the strength of the metre that is hit, under the hit by the law of contacts; and by the base of a
-//! wall that stands by its weight, under the reduced hit of a boulder. Where joints of the wall are not described, by a block of one metre.
+//! there as a named one would have to be: by the strength of the metre that is hit, under the hit by the law of contacts or the reduced hit of a
+//! boulder, whichever is harder; and by the base of a wall that stands by its weight, under the latter. Where joints of the wall are not described, by a block of one metre.
 
 use super::known::Known;
 use crate::checks::check_all;
@@ -8,6 +8,7 @@ use crate::checks::outcome::{Kind, Opening, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::guideline::{guideline_for, height_over_bed, hit_of_the_largest};
+use crate::larger::larger_or_nan;
 
 /// Length of the block (m) that stands for one that nobody described: joints are no closer.
 const SHORTEST_BLOCK: f64 = 1.0;
@@ -17,7 +18,9 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     if !matches!(design.barrier, BarrierDesign::RigidWall(_)) || design.loads.point_load.is_some() {
         return;
     }
-    let strength = hit(design, known.guideline.input.velocity);
+    // The law of contacts with a soft modulus hits more gently than stone does.
+    let on_the_base = hit_of_the_largest(design);
+    let strength = larger_or_nan(hit(design, known.guideline.input.velocity), on_the_base);
     let then = struck(known, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
@@ -34,7 +37,6 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         // They are the point load of the base already.
         return;
     }
-    let on_the_base = hit_of_the_largest(design);
     let then = struck(known, on_the_base);
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_the_base(outcome) && outcome.holds()) {
         let holds = then.iter().any(|then| then.id == outcome.id && !outcome.would_fail(then));

@@ -15,6 +15,7 @@ pub(crate) mod pore_fluid;
 pub(crate) mod rigid_wall;
 pub(crate) mod short_peaks;
 pub(crate) mod side_strips;
+pub(crate) mod soft_contacts;
 pub(crate) mod thinner_flow;
 
 use self::known::Known;
@@ -29,6 +30,7 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
     heaped::leave_open,
     hanging_base::leave_open,
     short_peaks::leave_open,
+    soft_contacts::leave_open,
     rigid_wall::leave_open,
     largest_grain::leave_open,
     load_factor::leave_open,
