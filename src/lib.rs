@@ -45,6 +45,7 @@
 //! | a unit | a line in [`units`] |
 //! | a set of factors that a code gives | [`design::factor_sets`] |
 //! | a kind of report | [`report::kind`] |
+//! | a question that a new design asks | a line in [`new_design::QUESTIONS`], its flag in `src/main.rs`, its place in `templates/new_design.yaml` |
 //! | a command | a file in [`commands`], its arguments in `src/main.rs` |
 //! | a time series of the barrier | a channel in the file of its body in [`dem::recorders`] and a line in `CHANNELS` there |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
@@ -104,6 +105,7 @@ pub mod lattice;
 pub mod load_cases;
 mod loads;
 mod lock;
+mod new_design;
 pub mod pipeline;
 mod problem;
 pub mod profile;

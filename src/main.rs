@@ -8,6 +8,7 @@ use barrier_check::commands::check::{MOST_STARTS, Options, check, dry_run, loads
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::engines::{Engine, Mode};
 use barrier_check::commands::explain::explain;
+use barrier_check::commands::new::{Given, new};
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::SchemaOf;
 use barrier_check::commands::study::study;
@@ -103,6 +104,8 @@ enum Command {
         #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Format::Text)]
         format: Format,
     },
+    /// Writes a commented design that runs at once, from ten answers: asked for, or given as flags
+    New(Box<NewArguments>),
     /// Holds several designs side by side on one page
     Compare {
         /// Design files, or folders of earlier runs; the first is what the others are compared with
@@ -160,6 +163,64 @@ enum Command {
     },
     /// Runs validation cases: scenes with known answers
     Validate(ValidateArguments),
+}
+
+#[derive(Args)]
+struct NewArguments {
+    /// Design file to be written, for example my_site.yaml; one that is there already is never replaced
+    file: PathBuf,
+    /// Name of the project
+    #[arg(long)]
+    project: Option<String>,
+    /// net (of ropes), rings (a ring net) or wall (a gravity wall)
+    #[arg(long)]
+    barrier: Option<String>,
+    /// Width of the bed, for example "6 m"
+    #[arg(long)]
+    width: Option<String>,
+    /// vertical, an angle ("45 deg") or a ratio of rise to run ("1:1")
+    #[arg(long)]
+    banks: Option<String>,
+    /// Slope of the bed, for example "20 deg"
+    #[arg(long)]
+    slope: Option<String>,
+    /// Height of the barrier, for example "3 m"
+    #[arg(long)]
+    height: Option<String>,
+    /// Volume of the event with pores, for example "50 m3"
+    #[arg(long)]
+    volume: Option<String>,
+    /// Depth of the flow at the barrier, for example "0.8 m"
+    #[arg(long)]
+    depth: Option<String>,
+    /// Velocity of the flow at the barrier, for example "4 m/s"
+    #[arg(long)]
+    velocity: Option<String>,
+    /// Grain size which 90 % of the mass is finer than, for example "0.4 m"
+    #[arg(long)]
+    d90: Option<String>,
+    /// Bulk density of the flow
+    #[arg(long, default_value = "1800 kg/m3")]
+    density: String,
+    /// Set of partial factors: none, en_1997, onr_24810 or onr_24810_cc3
+    #[arg(long, default_value = "en_1997")]
+    factors: String,
+    /// Kit that supplies the barrier, from the folder of the design, for example kits/ring_net_4m.yaml
+    #[arg(long)]
+    kit: Option<String>,
+}
+
+impl NewArguments {
+    fn given(self) -> Given {
+        let Self { file, project, barrier, width, banks, slope, height, volume, depth, velocity, d90, .. } = self;
+        Given {
+            file,
+            answers: [project, barrier, width, banks, slope, height, volume, depth, velocity, d90],
+            density: self.density,
+            factors: self.factors,
+            kit: self.kit,
+        }
+    }
 }
 
 /// What is done with the runs of a sweep.
@@ -256,6 +317,7 @@ fn run() -> i32 {
             print(String::from_utf8_lossy(&script).into_owned())
         }
         Some(Command::Loads { design, out, format }) => loads(&design, out.as_deref(), format) as i32,
+        Some(Command::New(arguments)) => new(&arguments.given()) as i32,
         Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options(Format::Text)) as i32,
         Some(Command::Explain { id, all }) => explain(id.as_deref(), all) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,

@@ -387,7 +387,7 @@ mod tests {
     }
 
     /// 50 kN/m along a bed of 14° press on a plumb face with 50/cos 14° = 51.53 kN/m along a level base: 1.8 m deeper they tip with 92.76 kN m/m
-    /// more.
+    /// more, and the ground on the buried face with its own moment.
     #[test]
     fn a_wall_tips_about_the_base_that_it_is_founded_on() {
         let overturning = |depth: f64| {
@@ -398,9 +398,12 @@ mod tests {
             let demands =
                 Demands::default().with(&quantity::PRESS, &[of(50e3)]).with(&quantity::OVERTURNING, &[of(100e3)]);
             let outcomes = check(&design, &demands);
-            outcomes.iter().find(|outcome| outcome.id == "wall_overturning").expect("a check").demand.guideline
+            let outcome = outcomes.iter().find(|outcome| outcome.id == "wall_overturning").expect("a check");
+            [outcome.demand.guideline.expect("a moment"), wall_of(&design).expect("a wall").earth_thrust()[1]]
         };
-        let more = overturning(1.8).expect("a moment") - overturning(0.0).expect("a moment");
+        let [[deep, ground], [shallow, none]] = [1.8, 0.0].map(overturning);
+        assert!(ground > 1e3 && none == 0.0);
+        let more = deep - ground - shallow;
         assert!((more / 92.756e3 - 1.0).abs() < 1e-3, "{more}");
     }
 }

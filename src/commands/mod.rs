@@ -7,6 +7,7 @@ pub mod explain;
 pub(crate) mod input;
 pub(crate) mod kept;
 mod kept_simulations;
+pub mod new;
 pub(crate) mod output;
 pub(crate) mod progress;
 mod reliability;

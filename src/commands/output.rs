@@ -100,32 +100,3 @@ fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Fail
     files.push(ReportFile::new("result.json", serde_json::to_string_pretty(&ResultFile::of(run))? + "\n"));
     Ok(files)
 }
-
-/// Verdict and checks for the terminal.
-pub fn summarise(view: &View, folder: &Path, with_vtk: bool) {
-    let say = |line: String| {
-        let _ = terminal::say(line);
-    };
-    for check in &view.checks {
-        let limit =
-            if check.capacity.starts_with("at least") { format!(" ({})", check.capacity) } else { String::new() };
-        let scaled = if check.scaled.is_empty() { String::new() } else { format!(" ({})", check.scaled) };
-        say(format!("{:<5} {:>7}  {}{limit}{scaled}", check.verdict.to_uppercase(), check.utilisation, check.title));
-    }
-    say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
-    for more in [&view.margin, &view.why_enough] {
-        if !more.is_empty() {
-            say(format!("  {more}"));
-        }
-    }
-    for doubt in &view.doubts {
-        say(format!("  {doubt}"));
-    }
-    for reason in &view.open {
-        say(format!("  open, because {}: {}", reason.why, reason.checks));
-    }
-    if with_vtk {
-        say(format!("paraview: {}", folder.join(vtk::FOLDER).display()));
-    }
-    say(format!("report: {}", folder.join("report.html").display()));
-}

@@ -5,11 +5,11 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::commands::output::summarise;
 use crate::design::read::stem;
 use crate::pipeline::Run;
 use crate::problem::{Problem, Problems};
 use crate::report::view::View;
+use crate::report::vtk;
 use crate::scene::estimate::Estimate;
 use crate::terminal;
 
@@ -142,4 +142,33 @@ impl Format {
         };
         ToldFile { estimate: Some(part), ..ToldFile::of(design) }.say();
     }
+}
+
+/// Verdict and checks for the terminal.
+fn summarise(view: &View, folder: &Path, with_vtk: bool) {
+    let say = |line: String| {
+        let _ = terminal::say(line);
+    };
+    for check in &view.checks {
+        let limit =
+            if check.capacity.starts_with("at least") { format!(" ({})", check.capacity) } else { String::new() };
+        let scaled = if check.scaled.is_empty() { String::new() } else { format!(" ({})", check.scaled) };
+        say(format!("{:<5} {:>7}  {}{limit}{scaled}", check.verdict.to_uppercase(), check.utilisation, check.title));
+    }
+    say(format!("{}: {}", view.verdict.to_uppercase(), view.verdict_line));
+    for more in [&view.margin, &view.why_enough] {
+        if !more.is_empty() {
+            say(format!("  {more}"));
+        }
+    }
+    for doubt in &view.doubts {
+        say(format!("  {doubt}"));
+    }
+    for reason in &view.open {
+        say(format!("  open, because {}: {}", reason.why, reason.checks));
+    }
+    if with_vtk {
+        say(format!("paraview: {}", folder.join(vtk::FOLDER).display()));
+    }
+    say(format!("report: {}", folder.join("report.html").display()));
 }

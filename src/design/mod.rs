@@ -175,7 +175,7 @@ impl Channel {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum BarrierDesign {
-    RigidWall(RigidWall),
+    RigidWall(Box<RigidWall>),
     FlexibleNet(Box<FlexibleNet>),
 }
 

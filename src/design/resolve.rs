@@ -179,7 +179,7 @@ fn later_surges(e: &Entries, cut: Option<&CurveCut>) -> Option<Vec<LaterSurge>> 
 
 fn barrier(e: &Entries) -> Option<BarrierDesign> {
     if e.has_section("barrier.rigid_wall") {
-        return Some(BarrierDesign::RigidWall(rigid_wall(e)?));
+        return Some(BarrierDesign::RigidWall(Box::new(rigid_wall(e)?)));
     }
     Some(BarrierDesign::FlexibleNet(Box::new(flexible_net(e)?)))
 }

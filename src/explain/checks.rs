@@ -1,6 +1,6 @@
 //! The checks. Each holds a demand with partial factors against a design resistance; its utilisation is the one over the other.
 
-use crate::explain::Text;
+use crate::explain::entry::Text;
 use crate::sources::{
     ANCHOR_FACTOR, DESIGN_LIMIT, NOTHING_BREAKS, PLATEAU_DATA, POST_STRENGTH, RING_FACTOR, ROPE_FACTOR, STROKE_DATA,
     WALL_BALANCE,

@@ -2,7 +2,7 @@
 
 use crate::design::key::{Key, Kind, Need};
 use crate::design::schema::DESIGN;
-use crate::explain::{Entry, Of};
+use crate::explain::entry::{Entry, Of};
 
 /// Every key by its path; one of a list of groups has `[]` in its path.
 pub fn entries() -> Vec<Entry> {

@@ -1,6 +1,6 @@
 //! The load cases.
 
-use crate::explain::Text;
+use crate::explain::entry::Text;
 use crate::sources::VOLKWEIN_2014;
 
 /// In the order of the report.

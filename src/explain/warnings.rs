@@ -1,6 +1,6 @@
 //! The warnings of a report: points for the reviewer.
 
-use crate::explain::Text;
+use crate::explain::entry::Text;
 
 /// In the order of the report.
 pub const WARNINGS: &[Text] = &[

@@ -345,7 +345,8 @@ mod tests {
         assert_relative_eq!(force, 24.525e3, max_relative = 1e-4);
         assert_relative_eq!(moment, 11.445e3, max_relative = 1e-4);
         assert_eq!(thrust(3.0, 0.0), [0.0, 0.0]);
-        let wet = WallInput { water_head: 3.55, buried: 4.7, ..BLOCK };
+        let ground = Ground { density: 0.0, ..BLOCK.ground };
+        let wet = WallInput { water_head: 3.55, buried: 4.7, ground, ..BLOCK };
         assert_relative_eq!(wet.sliding()[1] - wet.base_friction * wet.uplift(), 61.816e3, max_relative = 1e-4);
     }
 }

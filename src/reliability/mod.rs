@@ -47,6 +47,11 @@ pub struct Probability {
 }
 
 impl Probability {
+    /// This one beside that of plain samples: what these have seen stands, as subset simulation may follow one way to failure and miss another.
+    pub fn or_seen(self, plain: Self) -> Self {
+        if self.high < plain.low { plain } else { self }
+    }
+
     /// Reliability index β = −Φ⁻¹(p).
     pub fn index(&self) -> f64 {
         -normal::quantile(self.value)
@@ -54,7 +59,7 @@ impl Probability {
 }
 
 /// A seed for one part of the work.
-pub fn seed_of(seed: u64, part: u64) -> u64 {
+fn seed_of(seed: u64, part: u64) -> u64 {
     // Odd multipliers spread neighbouring numbers over all bits.
     (seed ^ part.wrapping_mul(0x9e37_79b9_7f4a_7c15)).wrapping_mul(0xbf58_476d_1ce4_e5b9)
 }

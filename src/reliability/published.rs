@@ -92,7 +92,7 @@ fn monte_carlo_finds_what_is_published() {
 fn nineteen_of_twenty_intervals_of_subset_simulation_hold_what_is_published() {
     for case in PUBLISHED {
         let inside = (0..100).filter(|seed| {
-            let asked = subset::Asked { samples: 1000, repeats: 10, seed: *seed, workers: 2 };
+            let asked = subset::Asked { samples: 1000, repeats: 10, seed: *seed, workers: 2, floor: 0.0 };
             let found = subset(case.dimensions, &case.used, &asked).probability;
             found.low <= case.probability && case.probability <= found.high
         });

@@ -5,7 +5,7 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::reliability::monte_carlo::of_counts;
+use crate::reliability::monte_carlo::{Counted, of_counts};
 use crate::reliability::normal::{draw, draw_many};
 use crate::reliability::{LimitStates, Probability, fails, largest, seed_of};
 use crate::starts::{Spread, side_by_side};
@@ -19,6 +19,8 @@ pub struct Asked {
     pub repeats: usize,
     pub seed: u64,
     pub workers: usize,
+    /// Probability below which it is not followed further.
+    pub floor: f64,
 }
 
 /// What came of it.
@@ -37,23 +39,72 @@ pub struct Found {
 const SHARE: f64 = 0.1;
 /// Levels at the most: a probability below some 10⁻¹² is told as none.
 const LEVELS: usize = 12;
+/// Share of the probability of all checks together below which one of them alone does not matter, and the least that is sought of one alone.
+const MATTERS: f64 = 1e-2;
+const LEAST: f64 = 1e-8;
 /// Share of moves that are to be accepted, and chains after which the spread of the moves adapts (Papaioannou et al.).
 const ACCEPTED: f64 = 0.44;
 const GROUP: usize = 10;
 
-impl Found {
-    /// The probability beside that of plain samples: what these have seen stands, as subset simulation may follow one way to failure and miss
-    /// another.
-    pub fn beside(&self, plain: Probability) -> Probability {
-        if self.probability.high < plain.low { plain } else { self.probability }
-    }
+/// What came of all checks together and of each alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rare {
+    /// That any check fails, with what plain samples have seen.
+    pub any: Probability,
+    pub each: Vec<Probability>,
+    /// How often all together were asked, and each.
+    pub repeats: usize,
+    pub evaluations: usize,
+    pub stuck: bool,
 }
 
-/// The probability that any check fails.
+/// The probability that any check fails, and each of the first `checks` of them, where plain samples saw too few failures to tell. All together
+/// subset simulation follows the check whose utilisation rises first, which need not be the one that fails first: so each is asked of alone as well,
+/// and where one fails more often than all are said to, the checks are taken to fail at different times, which is the most that they can.
+pub fn rare(dimensions: usize, states: &LimitStates, checks: usize, plain: &Counted, asked: &Asked) -> Rare {
+    let together = subset(dimensions, states, asked);
+    let mut evaluations = together.evaluations;
+    let each: Vec<Probability> = (0..checks)
+        .map(|number| {
+            let seen = plain.of_check(number);
+            if checks == 1 {
+                return together.probability.or_seen(seen);
+            }
+            let matters = MATTERS * together.probability.value;
+            let asked = Asked {
+                seed: seed_of(asked.seed, 1000 + number as u64),
+                floor: matters.max(LEAST).max(asked.floor),
+                ..*asked
+            };
+            let mut alone = |asked: &Asked| {
+                let found = subset(dimensions, &|u| vec![states(u)[number]], asked);
+                evaluations += found.evaluations;
+                found.probability
+            };
+            // A rough figure first: most checks are far from failing.
+            let rough = alone(&Asked { samples: asked.samples.div_ceil(2), repeats: 2, ..asked });
+            if rough.value > matters { alone(&asked).or_seen(seen) } else { seen }
+        })
+        .collect();
+    let missed = each.iter().any(|of_check| of_check.value > together.probability.high);
+    let any = match missed {
+        true => Probability {
+            value: each.iter().map(|it| it.value).sum::<f64>().min(1.0),
+            low: each.iter().map(|it| it.low).fold(together.probability.low, f64::max),
+            high: each.iter().map(|it| it.high).sum::<f64>().min(1.0),
+        },
+        false => together.probability,
+    };
+    let any = any.or_seen(plain.probability());
+    Rare { any, each, repeats: asked.repeats, evaluations, stuck: together.stuck }
+}
+
+/// The probability that any check fails, of all together.
 pub fn subset(dimensions: usize, states: &LimitStates, asked: &Asked) -> Found {
     let used = |u: &[f64]| largest(&states(u));
     let ran = side_by_side(asked.workers, asked.repeats, |repeat| {
-        once(dimensions, &used, asked.samples, &mut fastrand::Rng::with_seed(seed_of(asked.seed, repeat as u64)))
+        let mut random = fastrand::Rng::with_seed(seed_of(asked.seed, repeat as u64));
+        once(dimensions, &used, asked.samples, asked.floor, &mut random)
     });
     let repeats: Vec<f64> = ran.iter().map(|repeat| repeat.probability).collect();
     let stuck = ran.iter().any(|repeat| repeat.stuck);
@@ -72,7 +123,7 @@ pub fn subset(dimensions: usize, states: &LimitStates, asked: &Asked) -> Found {
 
 /// Points that fail, as they come given failure, from one repeat; none where it finds none.
 pub fn failing_points(dimensions: usize, states: &LimitStates, samples: usize, seed: u64) -> Vec<Vec<f64>> {
-    once(dimensions, &|u| largest(&states(u)), samples, &mut fastrand::Rng::with_seed(seed)).failing
+    once(dimensions, &|u| largest(&states(u)), samples, 0.0, &mut fastrand::Rng::with_seed(seed)).failing
 }
 
 /// Mean of independent estimates, with the interval of Student's distribution on its logarithm.
@@ -98,7 +149,13 @@ struct Repeat {
     failing: Vec<Vec<f64>>,
 }
 
-fn once(dimensions: usize, used: &dyn Fn(&[f64]) -> f64, count: usize, random: &mut fastrand::Rng) -> Repeat {
+fn once(
+    dimensions: usize,
+    used: &dyn Fn(&[f64]) -> f64,
+    count: usize,
+    floor: f64,
+    random: &mut fastrand::Rng,
+) -> Repeat {
     let mut level: Vec<(Vec<f64>, f64)> = (0..count)
         .map(|_| {
             let u = draw_many(dimensions, random);
@@ -116,6 +173,9 @@ fn once(dimensions: usize, used: &dyn Fn(&[f64]) -> f64, count: usize, random: &
             repeat.probability = repeat.reached;
             repeat.failing = level.into_iter().filter(|(_, value)| fails(*value)).map(|(u, _)| u).collect();
             return repeat;
+        }
+        if repeat.reached <= floor {
+            break;
         }
         level.sort_by(|a, b| b.1.total_cmp(&a.1));
         let mut threshold = level[seeds - 1].1;
@@ -191,7 +251,7 @@ mod tests {
             let states = |u: &[f64]| vec![1.0 + (u[0] + u[1] - u[2] + u[3]) / 2.0 - beta];
             let exact = cumulative(-beta);
             let inside = (0..20).filter(|seed| {
-                let asked = Asked { samples: 1000, repeats: 10, seed: *seed, workers: 2 };
+                let asked = Asked { samples: 1000, repeats: 10, seed: *seed, workers: 2, floor: 0.0 };
                 let found = subset(4, &states, &asked);
                 found.probability.low <= exact && exact <= found.probability.high
             });
@@ -203,18 +263,15 @@ mod tests {
     /// Plain samples that failed are not overruled by a subset simulation that went another way.
     #[test]
     fn what_plain_samples_have_seen_stands() {
-        let found = |low: f64, high: f64| {
-            let probability = Probability { value: 0.5 * (low + high), low, high };
-            Found { probability, repeats: Vec::new(), evaluations: 0, stuck: false }
-        };
+        let found = |low: f64, high: f64| Probability { value: 0.5 * (low + high), low, high };
         let plain = of_counts(2, 20_000);
-        assert_eq!(found(0.0, 1e-12).beside(plain), plain);
-        assert_eq!(found(5e-5, 2e-4).beside(plain).high, 2e-4);
+        assert_eq!(found(0.0, 1e-12).or_seen(plain), plain);
+        assert_eq!(found(5e-5, 2e-4).or_seen(plain).high, 2e-4);
     }
 
     #[test]
     fn what_cannot_fail_does_not_and_what_always_fails_does() {
-        let asked = Asked { samples: 200, repeats: 4, seed: 1, workers: 1 };
+        let asked = Asked { samples: 200, repeats: 4, seed: 1, workers: 1, floor: 0.0 };
         let never = subset(2, &|u: &[f64]| vec![1.0 + u[0] - 20.0], &asked);
         assert_eq!((never.probability.value, never.stuck), (0.0, false));
         // Twelve levels of a tenth; moves that were refused leave equal values, and with them a little more.

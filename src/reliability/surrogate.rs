@@ -15,7 +15,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::reliability::monte_carlo::{self, monte_carlo};
 use crate::reliability::normal::draw_many;
-use crate::reliability::subset::{self, failing_points, subset};
+use crate::reliability::subset::{self, failing_points, rare};
 use crate::reliability::{Probability, seed_of};
 use crate::starts::Spread;
 
@@ -346,14 +346,15 @@ impl Surrogate {
             let states = |u: &[f64]| self.shifted(u, shift);
             let plain = monte_carlo::Asked { samples, variation: 0.02, seed, workers: asked.workers };
             let counted = monte_carlo(dimensions, &states, &plain);
-            let each: Vec<Probability> = (0..self.checks.len()).map(|check| counted.of_check(check)).collect();
             if counted.failed >= 50 {
-                return (counted.probability(), each);
+                let each = (0..self.checks.len()).map(|check| counted.of_check(check));
+                return (counted.probability(), each.collect());
             }
             // While it learns a rough figure is enough.
             let repeats = if samples == COUNTED[0] { 2 } else { 6 };
-            let rare = subset::Asked { samples: 1000, repeats, seed, workers: asked.workers };
-            (subset(dimensions, &states, &rare).beside(counted.probability()), each)
+            let asked_of_rare = subset::Asked { samples: 1000, repeats, seed, workers: asked.workers, floor: 0.0 };
+            let found = rare(dimensions, &states, self.checks.len(), &counted, &asked_of_rare);
+            (found.any, found.each)
         };
         let [low, middle, high] = [-WIDE, 0.0, WIDE].map(at);
         let each = low.1.iter().zip(&middle.1).zip(&high.1).map(|((low, middle), high)| wide([*low, *middle, *high]));

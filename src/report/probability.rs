@@ -460,8 +460,8 @@ fn work(told: &Told) -> Vec<[String; 2]> {
             ));
             if let Some(rare) = rare {
                 rows.push(row(
-                    "Subset simulation, because few samples failed; interval of its repeats",
-                    format!("{} repeats, {} samples in all", rare.repeats.len(), rare.evaluations),
+                    "Subset simulation of all checks and of each, because few samples failed; interval of its repeats",
+                    format!("{} repeats, {} samples in all", rare.repeats, rare.evaluations),
                 ));
             }
             rows

@@ -288,12 +288,12 @@ mod tests {
     fn no_factor_stays_unseen() {
         const STAY: &[&str] = &[
             // Coefficients of the guideline's pressures.
-            "factors.earth_pressure",
-            "factors.dynamic_pressure",
-            "factors.wood",
+            "factors.earth_pressure_k",
+            "factors.dynamic_lambda",
+            "loads.wood_factor",
             // What the parts physically are: the strength that ends of ropes hold, and how much more than its plateau a dissipator pulls.
             "factors.rope_end",
-            "factors.overstrength",
+            "factors.dissipator_overstrength",
             // The name of a set of the others.
             "factors.set",
         ];
@@ -338,8 +338,8 @@ mod tests {
             with(&plan, factors, |states| {
                 let file = states.design(&[0.0; 3]).unwrap();
                 let asked = states.asked(&file, None);
-                // A run of this wall leaves the check open: a simulation may show more.
-                assert!(asked.checks[0].partly.is_some());
+                // A run of this wall fails the check with its factors, and without them leaves it open: a simulation may show more.
+                assert_eq!(asked.checks[0].partly.is_some(), factors == FactorsWish::None);
                 assert_eq!((asked.checks.len(), asked.checks[0].id.as_str()), (1, "wall_sliding"));
                 let used = states.by_equations(&[0.0; 3], &asked.checks);
                 assert_eq!((used[0], used[1]), (asked.checks[0].at_medians, f64::NEG_INFINITY));

@@ -7,9 +7,9 @@ use serde::Serialize;
 use crate::reliability::form::{DesignPoint, NoPoint, form};
 use crate::reliability::monte_carlo::{self, Counted, monte_carlo};
 use crate::reliability::sobol::{Indices, sobol};
-use crate::reliability::subset::{self, Found, subset};
+use crate::reliability::subset::{self, Rare, rare};
 use crate::reliability::surrogate::{self, Learned, Surrogate, learn};
-use crate::reliability::{LimitStates, Probability, largest, seed_of};
+use crate::reliability::{LimitStates, Probability, largest};
 use crate::studies::limit_states::{Judged, Tally};
 
 /// What is asked.
@@ -32,7 +32,7 @@ pub struct Wanted<'a> {
 #[derive(Debug)]
 pub enum Way {
     /// By the equations: samples, and where few of them fail, subset simulation.
-    Equations { counted: Counted, rare: Option<Found> },
+    Equations { counted: Counted, rare: Option<Rare> },
     /// By simulations and a surrogate.
     Simulations(Box<Learned>),
 }
@@ -98,29 +98,21 @@ pub fn by_equations(
         workers: wanted.workers,
     };
     let counted = monte_carlo(dimensions, states, &asked);
-    // Of another seed, so that the two do not share samples.
-    let of_rare = |seed: u64| subset::Asked { samples: LEVEL, repeats: REPEATS, seed, workers: wanted.workers };
-    let rare = (counted.failed < FEW).then(|| subset(dimensions, states, &of_rare(!wanted.seed)));
-    let mut evaluations = rare.as_ref().map_or(0, |rare| rare.evaluations);
-    let mut of_check = |(number, check): (usize, &Judged)| {
-        let plain = counted.of_check(number);
-        let alone = |rare: &Found| match checks.len() {
-            1 => rare.clone(),
-            _ => subset(dimensions, &|u| vec![states(u)[number]], &of_rare(!seed_of(wanted.seed, 1 + number as u64))),
-        };
-        let probability = rare.as_ref().map(alone).map_or(plain, |found| {
-            if checks.len() > 1 {
-                evaluations += found.evaluations;
-            }
-            found.beside(plain)
-        });
-        OfCheck { check: check.clone(), probability, point: form(dimensions, &|u| states(u)[number]) }
-    };
-    let of_checks: Vec<OfCheck> = checks.iter().enumerate().map(&mut of_check).collect();
+    let rare = (counted.failed < FEW).then(|| {
+        // Of another seed, so that the two do not share samples.
+        let asked =
+            subset::Asked { samples: LEVEL, repeats: REPEATS, seed: !wanted.seed, workers: wanted.workers, floor: 0.0 };
+        rare(dimensions, states, checks.len(), &counted, &asked)
+    });
     let (refused, outside) = tally.take();
-    let probability = rare
-        .as_ref()
-        .map_or_else(|| counted.probability(), |rare| of_any(rare.beside(counted.probability()), &of_checks));
+    let of_check = |(number, check): (usize, &Judged)| OfCheck {
+        check: check.clone(),
+        probability: rare.as_ref().map_or_else(|| counted.of_check(number), |rare| rare.each[number]),
+        point: form(dimensions, &|u| states(u)[number]),
+    };
+    let of_checks: Vec<OfCheck> = checks.iter().enumerate().map(of_check).collect();
+    let probability =
+        rare.as_ref().map_or_else(|| counted.probability(), |rare| no_less_than_by_form(rare.any, &of_checks));
     Assessed {
         probability,
         checks: of_checks,
@@ -128,28 +120,16 @@ pub fn by_equations(
         fragility: fragility(dimensions, states, wanted),
         refused,
         outside,
-        samples: counted.samples + evaluations,
+        samples: counted.samples + rare.as_ref().map_or(0, |rare| rare.evaluations),
         way: Way::Equations { counted, rare },
     }
 }
 
-/// The probability that any check fails, as subset simulation finds it of all together, held against that of each check alone. All together it
-/// follows the check whose utilisation rises first, which need not be the one that fails first: where another fails more often than all are said
-/// to, the checks are taken to fail at different times, which is the most that they can. What the first-order method finds is a bound as well: it
-/// starts from the medians and sees what no sample has.
-fn of_any(together: Probability, checks: &[OfCheck]) -> Probability {
-    let each = || checks.iter().map(|check| check.probability);
-    let missed = each().any(|of_check| of_check.value > together.high);
-    let found = match missed {
-        true => Probability {
-            value: each().map(|it| it.value).sum::<f64>().min(1.0),
-            low: each().map(|it| it.low).fold(together.low, f64::max),
-            high: each().map(|it| it.high).sum::<f64>().min(1.0),
-        },
-        false => together,
-    };
+/// A rare probability whose upper bound is no less than what the first-order method finds of any check: it starts from the medians and sees what no
+/// sample has.
+fn no_less_than_by_form(any: Probability, checks: &[OfCheck]) -> Probability {
     let by_form = checks.iter().filter_map(|check| Some(check.point.as_ref().ok()?.probability()));
-    Probability { high: by_form.fold(found.high, f64::max), ..found }
+    Probability { high: by_form.fold(any.high, f64::max), ..any }
 }
 
 /// By simulations.

@@ -296,7 +296,7 @@ mod tests {
             let mut file = self.file.clone();
             let BarrierDesign::RigidWall(wall) = &mut file.design.barrier else { panic!("a wall") };
             let stability = wall.stability.as_mut().expect("stability");
-            stability.thickness = 2.5 + 0.5 * digit(0);
+            stability.thickness = 3.0 + 0.5 * digit(0);
             stability.base_width = stability.thickness;
             stability.founding_depth = 1.9 + 0.1 * digit(1);
             stability.base_friction = 0.4 + 0.03 * digit(2);
