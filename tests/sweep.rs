@@ -172,7 +172,7 @@ fn waiting_for_slurm_can_be_interrupted() {
     while !here.join("asked").exists() {
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
-    let killed = Command::new("kill").args(["-INT", &program.id().to_string()]).status().expect("kill");
+    let killed = Command::new("kill").args(["-TERM", &program.id().to_string()]).status().expect("kill");
     assert!(killed.success());
     let ended = program.wait_with_output().expect("it ends");
     let told = String::from_utf8_lossy(&ended.stderr);

@@ -4,7 +4,7 @@ use crate::design::Design;
 use crate::design::attached::{Attached, Open, read_attached};
 use crate::design::changes::Changes;
 use crate::design::dissipator_rules;
-use crate::design::document::Document;
+use crate::design::document::{Document, Node};
 use crate::design::entries::{Entries, Origin, Purpose, Value, read};
 use crate::design::factor_sets;
 use crate::design::grain_lengths;
@@ -78,6 +78,11 @@ impl Source {
     pub fn parse(file: &str, bytes: &[u8]) -> Result<Self, Problems> {
         let document =
             Document::parse(bytes, KEYS).map_err(|problem| Problems { file: file.to_string(), list: vec![problem] })?;
+        if let Some(kind) = kind_of_a_study(&document.root) {
+            let problem = Problem::new("", format!("a study (kind: {kind})"), KEYS)
+                .hint(format!("run it with `barrier-check study {file}`"));
+            return Err(Problems { file: file.to_string(), list: vec![problem] });
+        }
         Ok(Self { file: file.to_string(), bytes: bytes.to_vec(), sha256: sha256(bytes), document })
     }
 
@@ -145,6 +150,14 @@ impl Source {
         }
         Err(refuse(problems))
     }
+}
+
+/// What kind of a study a file is, if it is one and no design.
+fn kind_of_a_study(root: &Node) -> Option<String> {
+    let Node::Map(keys) = root else { return None };
+    let is_there = |name: &str| keys.iter().any(|(key, _)| key == name);
+    let kind = keys.iter().find(|(key, _)| key == "kind").map(|(_, value)| value.describe());
+    kind.filter(|_| !is_there("project") && !is_there("barrier"))
 }
 
 /// Hands every value the comment that stands on its line. A value that stands in several places of the design, by an alias or a merge, stands

@@ -232,6 +232,8 @@ fn without_factors(design: &mut Design, given: &dyn Fn(&str) -> bool) {
         // By default it is the factor on loads.
         factors.overstrength = factors.load;
     }
+    // It is 1 here on purpose, whether the design gives one or not.
+    factors.load_given = true;
     let limits = &mut design.limits;
     one("limits.rope_utilisation", &mut limits.rope_utilisation);
     one("limits.anchor_utilisation", &mut limits.anchor_utilisation);
@@ -350,6 +352,21 @@ mod tests {
         let BarrierDesign::RigidWall(wall) = &design.barrier else { panic!("a wall") };
         let sliding = wall.stability.unwrap().sliding_factor;
         assert!(factored > free * sliding && design.factors.load > 1.0, "{free} {factored}");
+    }
+
+    /// A wall of which nobody says what water stands under it is not taken as drained.
+    #[test]
+    fn what_is_not_given_is_not_judged() {
+        let text = PLAN.replacen("set:", "set:\n  barrier.rigid_wall.stability.water_head: ~", 1);
+        let plan = match Study::read(&text) {
+            Ok(Study::Reliability(plan)) => *plan,
+            other => panic!("{other:?}"),
+        };
+        with(&plan, FactorsWish::None, |states| {
+            let asked = states.asked(&states.design(&[0.0; 3]).unwrap(), None);
+            assert!(asked.checks.is_empty(), "{asked:?}");
+            assert!(asked.unjudged.iter().any(|[_, why]| why.contains("water_head")), "{asked:?}");
+        });
     }
 
     /// What makes no design is told and counts as failed.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 use crate::design::document::{Document, Node};
-use crate::problem::Problem;
+use crate::problem::{Problem, nearest};
 use crate::studies::knobs::Knob;
 use crate::studies::reliability_plan::ReliabilityPlan;
 use crate::studies::size_plan::SizePlan;
@@ -51,6 +51,12 @@ impl Study {
         let doubled = doubled("", &document.root);
         if !doubled.is_empty() {
             return Err(doubled.iter().map(|path| format!("{}{path}: given twice", at(path))).collect());
+        }
+        if let Node::Map(keys) = &document.root {
+            let is_there = |name: &str| keys.iter().any(|(key, _)| key == name);
+            if !is_there("kind") && is_there("barrier") && is_there("flow") {
+                return Err(vec![format!("found a design, allowed {KEYS}; run a design with `barrier-check FILE`")]);
+            }
         }
         let misread = |error: serde_yaml::Error| vec![plainly(&error.to_string())];
         // The kind first: the place of a fault is lost where serde has to look ahead for it.
@@ -97,7 +103,17 @@ fn plainly(error: &str) -> String {
         ("unknown variant", "unknown value"),
         ("path string", "the name of a file"),
     ];
-    words.iter().fold(error.to_string(), |text, (from, to)| text.replace(from, to))
+    let text = words.iter().fold(error.to_string(), |text, (from, to)| text.replace(from, to));
+    let near = meant(&text).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
+    text + &near
+}
+
+/// The name that an unknown one is nearest to, of those that the same line says are expected.
+fn meant(text: &str) -> Option<String> {
+    let (_, rest) = text.split_once("unknown key `").or_else(|| text.split_once("unknown value `"))?;
+    let (unknown, rest) = rest.split_once('`')?;
+    let expected = rest.split('`').skip(1).step_by(2);
+    nearest(unknown, expected).map(String::from)
 }
 
 /// A problem of the whole text in one line.
@@ -235,13 +251,15 @@ mod tests {
     fn a_slip_is_told() {
         let text = include_str!("../../designs/studies/speed_accuracy.yaml");
         assert!(Study::read(text).is_ok());
+        let design = Study::read(include_str!("../../designs/small_net.yaml")).unwrap_err();
+        assert!(design[0].starts_with("found a design") && design[0].contains("`barrier-check FILE`"), "{design:?}");
         let wrong = Study::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
         assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
         assert!(Study::read(&format!("\u{feff}{text}")).is_ok());
         assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
         for (from, to, wanted) in [
             ("starts: ", "starts: few # ", "starts: found the text \"few\", expected a whole number at line "),
-            ("name: ", "nam: ", "unknown key `nam`, expected one of"),
+            ("name: ", "nam: ", "(did you mean `name`?)"),
             (
                 "kind: speed_accuracy",
                 "kind: speed",

@@ -198,7 +198,13 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
                             found.cheapest = Some(place);
                         }
                     }
-                    None => left.push(place),
+                    None => {
+                        match run.outcomes.iter().find(|outcome| matches!(outcome.open, Some(Opening::NotGiven(_)))) {
+                            // No simulation gives what the design leaves out.
+                            Some(_) => found.ways[place].fate = fate_of(&run, BY_EQUATIONS, wanted),
+                            None => left.push(place),
+                        }
+                    }
                 }
             }
             if found.cheapest.is_some() {
