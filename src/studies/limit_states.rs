@@ -386,10 +386,10 @@ mod tests {
         });
     }
 
-    /// A million samples of this study give 1.42e-3 (1.34e-3 to 1.49e-3); a surrogate of sixty evaluations is to hold that in 19 of 20 intervals.
+    /// 250,000 samples of this study give 1.336e-2 (1.291e-2 to 1.381e-2); a surrogate of sixty evaluations is to hold that in 19 of 20 intervals.
     #[test]
     #[ignore = "five minutes"]
-    fn nineteen_of_twenty_surrogates_hold_what_a_million_samples_give() {
+    fn nineteen_of_twenty_surrogates_hold_what_many_samples_give() {
         let plan = plan();
         let held = with(&plan, FactorsWish::None, |states| {
             let checks = states.asked(&states.design(&[0.0; 3]).unwrap(), None).checks;
@@ -399,7 +399,7 @@ mod tests {
             let holds = |seed: &u64| {
                 let asked = surrogate::Asked { runs: 60, repeats: 1, variation: 0.1, seed: *seed, workers: 2 };
                 let found = learn(3, &runs, &asked).unwrap().probability;
-                found.low <= 1.49e-3 && found.high >= 1.34e-3 && found.high < 10.0 * found.low
+                found.low <= 1.381e-2 && found.high >= 1.291e-2 && found.high < 10.0 * found.low
             };
             (1..=20).filter(holds).count()
         });
