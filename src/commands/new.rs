@@ -107,9 +107,12 @@ fn ask(question: &Question) -> Result<String, Failure> {
     }
 }
 
-/// Makes the file, never over another.
+/// Makes the file, never over another and never by half.
 fn create(path: &Path, text: &str) -> std::io::Result<()> {
     let mut file = std::fs::File::create_new(path)?;
-    file.write_all(text.as_bytes())?;
-    file.sync_all()
+    let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
+    if written.is_err() {
+        let _ = std::fs::remove_file(path);
+    }
+    written
 }

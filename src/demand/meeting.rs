@@ -181,9 +181,9 @@ impl Meeting<'_> {
         }
     }
 
-    /// A rope that the equations put a load on.
+    /// A rope that the equations put a load on, or one that is not a number.
     fn loaded(&self, rope: usize) -> Option<&RopeLoad> {
-        self.guideline.ropes.get(rope).filter(|rope| rope.load > 0.0)
+        self.guideline.ropes.get(rope).filter(|rope| rope.load > 0.0 || rope.load.is_nan())
     }
 
     /// Tension by the equations, with the overstrength of a dissipator that yields.

@@ -456,7 +456,7 @@ const STABILITY: &[Key] = &[
     Key::required(
         "base_friction",
         FRICTION,
-        "friction angle between base and ground, no more than that of the ground; the ground's pressure on the buried part of the face is worked out with it",
+        "friction angle between base and ground, no more than that of the ground; the pressure of the ground on the buried part of the face is worked out with it, or with 35 deg where it is more",
     ),
     Key::default(
         "ground_density",

@@ -130,7 +130,7 @@ pub const CHECKS: &[Text] = &[
     },
     Text {
         id: "post_N_foot",
-        meaning: "The push of a post on its foundation, along and across the post.",
+        meaning: "The force of a post on its foundation, all directions taken together.",
         formula: "F ≤ anchor_utilisation · R_k/γ_M",
         source: ANCHOR_FACTOR,
     },
@@ -172,7 +172,7 @@ pub const CHECKS: &[Text] = &[
     },
     Text {
         id: "residual_height",
-        meaning: "The height that a net keeps under load over its height before, at its lowest point in the simulation.",
+        meaning: "The height of a net at the end of the simulation over its height before it.",
         formula: "(1 − h/h₀)/(1 − limit) ≤ 1",
         source: DESIGN_LIMIT,
     },

@@ -14,8 +14,8 @@
 //!
 //! The ground presses on the buried part of the face, of the depth d, with E = K (γ d²/2 + q d), and M_E = K (γ d³/6 + q d²/2) about the base,
 //! both times the factor on loads and cos (α − β), because the pressure goes along the surface: K is Rankine's of active pressure under a surface
-//! that rises with the bed, with the friction of the base, which is no more than that of the ground, and q what lies on the ground; that it
-//! presses the wall down is left out. The ground in front, of the depth d₂ at the downstream edge, holds
+//! that rises with the bed, with the friction of the base, or 35° where that is more, and q what lies on the ground; that it presses the wall
+//! down is left out. The ground in front, of the depth d₂ at the downstream edge, holds
 //! with no more than its active pressure under a level surface, K₀ γ d₂²/2: the passive resistance, for which the wall would have to move, is
 //! left out.
 
@@ -56,10 +56,16 @@ pub struct Ground {
     pub factor: f64,
 }
 
-/// Rankine's coefficient of active pressure (-) of ground with the friction tan φ whose surface rises from the wall with the slope β (rad); where the
-/// ground is no steeper than it stands, that of its steepest slope.
+/// Friction angle (rad) beyond which the ground behind the face is not relied on: 35 degrees. A base that is rougher stands on rock or is keyed in,
+/// and what its face is filled against need not be.
+const MOST_FRICTION: f64 = 35.0 * std::f64::consts::PI / 180.0;
+
+/// Rankine's coefficient of active pressure (-) of ground with the friction tan φ whose surface rises from the wall with the slope β (rad); a surface
+/// steeper than such ground can stand is taken as steep as it can.
 fn active(friction: f64, slope: f64) -> f64 {
     let steepest = libm::atan(friction);
+    // Asked so that what is not a number stays so.
+    let steepest = if steepest > MOST_FRICTION { MOST_FRICTION } else { steepest };
     let cosine = libm::cos(slope.min(steepest));
     let root = (cosine * cosine - libm::cos(steepest).powi(2)).max(0.0).sqrt();
     cosine * (cosine - root) / (cosine + root)
@@ -254,6 +260,9 @@ mod tests {
         assert_relative_eq!(active(friction, 30_f64.to_radians()), 0.866_025_4, max_relative = 1e-6);
         assert_relative_eq!(active(friction, 20_f64.to_radians()), 0.4142, max_relative = 1e-3);
         assert_eq!(active(friction, 0.7), active(friction, 30_f64.to_radians()));
+        // A base on rock says nothing of what its face is filled against.
+        assert_relative_eq!(active(2.0, 0.0), 0.271, max_relative = 1e-3);
+        assert!(active(f64::NAN, 0.0).is_nan());
     }
 
     #[test]

@@ -62,11 +62,16 @@ pub fn used(outcome: &Outcome) -> String {
     }
 }
 
-/// The utilisation under the larger load that the guideline has, where that is more.
+/// The utilisation, or the share that is kept, under the larger load that the guideline has, where that is worse.
 pub fn scaled(outcome: &Outcome) -> String {
     let more = outcome.scaled.filter(|scaled| outcome.utilisation.is_none_or(|used| scaled.used > used));
     more.map_or(String::new(), |scaled| {
-        format!("{} under {} times the load", percent(Some(scaled.used)), figures(scaled.more))
+        // Of a share that must be kept, what would be kept.
+        let told = match outcome.capacity.filter(|_| is_share(outcome)) {
+            Some(least) => with_unit(1.0 - scaled.used * (1.0 - least), outcome.unit.symbol()),
+            None => percent(Some(scaled.used)),
+        };
+        format!("{told} under {} times the load", figures(scaled.more))
     })
 }
 

@@ -226,7 +226,7 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
         ),
         (
             matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.founding_depth > 0.0)),
-            "The ground presses on the part of the wall below the bed with active earth pressure (Rankine, with the friction of the base and the slope of the bed), and with what the deposit adds as it lies on the ground. The ground in front holds with no more than its active pressure; its passive resistance is left out.",
+            "The ground presses on the part of the wall below the bed with active earth pressure (Rankine, with the friction of the base, 35° at the most, and the slope of the bed), and with what the deposit adds as it lies on the ground. The ground in front holds with no more than its active pressure; its passive resistance is left out.",
             SAFE,
         ),
         (

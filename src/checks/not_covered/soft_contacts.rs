@@ -1,7 +1,7 @@
 //! Grains that are softer than stone hit a net more gently than stone would. What the flow as a whole presses with does not depend on it; what
 //! single grains do, to the net, its edges and the rope and bolts at the bed, does: with 1 GPa in place of 0.05 GPa the simulated loads of two rope
 //! nets were 1.0 to 1.5 (lateral ropes), 1.2 to 1.8 (bolts), 1.25 to 1.9 (the rope between them) and 1.5 to 1.9 times as large, and those of main
-//! ropes and anchors 0.8 to 1.1 times (means of four packings each). That is at most the fourth root of the ratio of the moduli, 2.1, which is asked
+//! ropes and anchors 0.8 to 1.1 times (95 % fractiles over four packings each). That is at most the fourth root of the ratio of the moduli, 2.1, which is asked
 //! for here; of an elastic hit on something that does not give it would be the square root.
 
 use super::known::Known;
