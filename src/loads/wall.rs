@@ -66,8 +66,9 @@ fn active(friction: f64, slope: f64) -> f64 {
     let steepest = libm::atan(friction);
     // Asked so that what is not a number stays so.
     let steepest = if steepest > MOST_FRICTION { MOST_FRICTION } else { steepest };
-    let cosine = libm::cos(slope.min(steepest));
-    let root = (cosine * cosine - libm::cos(steepest).powi(2)).max(0.0).sqrt();
+    let cosine = libm::cos(if slope < steepest { slope } else { steepest });
+    let under_the_root = cosine * cosine - libm::cos(steepest).powi(2);
+    let root = if under_the_root < 0.0 { 0.0 } else { under_the_root.sqrt() };
     cosine * (cosine - root) / (cosine + root)
 }
 
