@@ -1,6 +1,7 @@
 //! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest stone must be held
 //! there as a named one would have to be: by the strength of the metre that is hit, under the hit by the law of contacts or the reduced hit of a
-//! boulder, whichever is harder; and by the base of a wall that stands by its weight, under the latter. Where joints of the wall are not described, by a block of one metre.
+//! boulder, whichever is harder; and by the base of a wall that stands by its weight, under the latter. Where joints of the wall are not
+//! described, by a block of one metre. A point load that the design gives stands for the stone if it is no smaller than that reduced hit.
 
 use super::known::Known;
 use crate::checks::check_all;
@@ -15,25 +16,37 @@ const SHORTEST_BLOCK: f64 = 1.0;
 
 pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let design = known.design;
-    if !matches!(design.barrier, BarrierDesign::RigidWall(_)) || design.loads.point_load.is_some() {
+    if !matches!(design.barrier, BarrierDesign::RigidWall(_)) {
         return;
     }
-    // The law of contacts with a soft modulus hits more gently than stone does.
     let on_the_base = hit_of_the_largest(design);
-    let strength = larger_or_nan(hit(design, known.guideline.input.velocity), on_the_base);
+    let given = design.loads.point_load.map(|(force, _)| force);
+    // A load that is given says enough about grains that are not.
+    if given.is_some_and(|given| on_the_base.is_nan() || on_the_base <= given) {
+        return;
+    }
+    let strength = match given {
+        Some(_) => on_the_base,
+        // The law of contacts with a soft modulus hits more gently than stone does.
+        None => larger_or_nan(hit(design, known.guideline.input.velocity), on_the_base),
+    };
+    let more_than_given = given.map_or(String::new(), |given| {
+        format!(", more than loads.point_load of {:.1} kN", given / 1e3)
+    });
     let then = struck(known, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
             outcome.leave_open(Opening::NotGiven(match strength.is_nan() {
                 true => unknown("break the metre of the wall that it hits"),
                 false => format!(
-                    "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN, and that metre would not hold it (give loads.point_load, or more resistance)",
-                    strength / 1e3
+                    "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN{more_than_given}, and that metre would not hold it ({}, or more resistance)",
+                    strength / 1e3,
+                    if given.is_some() { "give as much, or loads.impact_reduction" } else { "give loads.point_load" }
                 ),
             }));
         }
     }
-    if !design.flow.boulders.is_empty() {
+    if given.is_none() && !design.flow.boulders.is_empty() {
         // They are the point load of the base already.
         return;
     }
@@ -44,9 +57,10 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
             outcome.leave_open(Opening::NotGiven(unknown("move the block of the wall that it hits")));
         } else if !holds {
             outcome.leave_open(Opening::NotGiven(format!(
-                "the largest stone of the flow may hit the wall with {:.0} kN, and {} would not hold it (give loads.point_load or flow.boulders, and barrier.rigid_wall.stability.block_length)",
+                "the largest stone of the flow may hit the wall with {:.0} kN{more_than_given}, and {} would not hold it ({}, and barrier.rigid_wall.stability.block_length)",
                 on_the_base / 1e3,
-                if block_is_given(design) { "its block" } else { "a block of one metre" }
+                if block_is_given(design) { "its block" } else { "a block of one metre" },
+                if given.is_some() { "give as much, or loads.impact_reduction" } else { "give loads.point_load or flow.boulders" }
             )));
         }
     }
@@ -131,11 +145,16 @@ mod tests {
             design.flow.modulus = 1e11;
         };
         assert_eq!(verdict(&harder), CheckVerdict::Open);
-        let named = |design: &mut Design| {
-            harder(design);
-            design.loads.point_load = Some((1.0, 1.0));
+        // A load that is given stands for the stone, unless the stone hits harder.
+        let named = |force: f64| {
+            verdict(&|design| {
+                strength(design, 3.0);
+                design.flow.modulus = 1e11;
+                design.loads.impact_reduction = 1.0;
+                design.loads.point_load = Some((force, 1.0));
+            })
         };
-        assert_eq!(verdict(&named), CheckVerdict::Pass);
+        assert_eq!([1.0, 1e9].map(named), [CheckVerdict::Open, CheckVerdict::Pass]);
         // The base of a wall that stands by its weight: a pebble moves no block, a stone of 6 t does.
         let on_its_base = |largest: f64| {
             let mut design = read_design("x", include_bytes!("../../../designs/gravity_wall.yaml")).unwrap().design;
