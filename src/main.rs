@@ -9,8 +9,10 @@ use barrier_check::commands::compare::compare;
 use barrier_check::commands::engines::{Engine, Mode};
 use barrier_check::commands::explain::explain;
 use barrier_check::commands::new::{Given, new};
+use barrier_check::commands::progress::Audience;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::SchemaOf;
+use barrier_check::commands::serve::{self, serve};
 use barrier_check::commands::study::study;
 use barrier_check::commands::told::Format;
 use barrier_check::commands::validate::{Selection, validate};
@@ -46,6 +48,22 @@ struct CheckArguments {
     /// How problems of the design and the verdict are printed
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    watched: WatchedArguments,
+}
+
+/// Whether another program runs this one.
+#[derive(Args)]
+struct WatchedArguments {
+    /// For a program that runs this one: tells progress as lines of JSON on standard error, and stops the run, kept, when standard input ends
+    #[arg(long)]
+    watched: bool,
+}
+
+impl WatchedArguments {
+    fn audience(&self) -> Audience {
+        if self.watched { Audience::Program } else { Audience::Person }
+    }
 }
 
 /// How a run is kept.
@@ -86,8 +104,9 @@ struct HowArguments {
 }
 
 impl HowArguments {
-    fn options(&self, format: Format) -> Options {
-        Options { threads: self.threads.map(usize::from), starts: self.seeds, vary: self.vary, vtk: self.vtk, format }
+    fn options(&self, format: Format, audience: Audience) -> Options {
+        let threads = self.threads.map(usize::from);
+        Options { threads, starts: self.seeds, vary: self.vary, vtk: self.vtk, format, audience }
     }
 }
 
@@ -143,6 +162,8 @@ enum Command {
         threads: Option<u16>,
         #[command(flatten)]
         keep: KeepArguments,
+        #[command(flatten)]
+        watched: WatchedArguments,
     },
     /// Prints a script that completes commands and options in a shell
     Completions {
@@ -151,6 +172,18 @@ enum Command {
     },
     /// Prints a JSON Schema
     Schema { of: SchemaOf },
+    /// Serves a page to this machine's browser: designs to write, judged while they are typed, to simulate, and their reports
+    Serve {
+        /// Folder of the designs; reports go to its folder out
+        #[arg(default_value = ".")]
+        folder: PathBuf,
+        /// Port on the loopback address [default: one that is free]
+        #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+        port: u16,
+        /// Opens no browser
+        #[arg(long)]
+        no_open: bool,
+    },
     /// Makes many runs and what follows from them: a table over values of keys, the cheapest barrier that passes, the probability that it fails, what a choice of the model costs, where steps break
     Study {
         /// Study file in YAML, for example designs/studies/size_gully.yaml
@@ -318,22 +351,30 @@ fn run() -> i32 {
         }
         Some(Command::Loads { design, out, format }) => loads(&design, out.as_deref(), format) as i32,
         Some(Command::New(arguments)) => new(&arguments.given()) as i32,
-        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options(Format::Text)) as i32,
+        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options(Format::Text, Audience::Person)) as i32,
         Some(Command::Explain { id, all }) => explain(id.as_deref(), all) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
-        Some(Command::Resume { folder, threads, keep }) => {
-            resume(&folder, threads.map(usize::from), keep.every()) as i32
+        Some(Command::Resume { folder, threads, keep, watched }) => {
+            resume(&folder, threads.map(usize::from), watched.audience(), keep.every()) as i32
+        }
+        Some(Command::Serve { folder, port, no_open }) => {
+            serve(&serve::Options { folder, port, open: !no_open }) as i32
         }
         Some(Command::Study { file, out, runs }) => study(&file, out.as_deref(), &runs.mode()) as i32,
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
             validate(&Selection { names: &names, quick_only: quick }, &out) as i32
         }
         None => {
-            let CheckArguments { design, dry_run: only_tell, out, how, keep, format } = arguments.check;
+            let CheckArguments { design, dry_run: only_tell, out, how, keep, format, watched } = arguments.check;
             let design = design.unwrap_or_default();
+            let options = how.options(format, watched.audience());
+            if watched.watched && design == std::path::Path::new("-") {
+                terminal::warn("error: with --watched standard input is what stops the run: name the file of the design");
+                return 2;
+            }
             match only_tell {
-                true => dry_run(&design, how.options(format)) as i32,
-                false => check(&design, out.as_deref(), how.options(format), keep.every()) as i32,
+                true => dry_run(&design, options) as i32,
+                false => check(&design, out.as_deref(), options, keep.every()) as i32,
             }
         }
     }

@@ -20,7 +20,7 @@ use crate::load_cases::{self, LoadCase, cases};
 use crate::quantities::observed::Observed;
 use crate::quantities::{boulder, earth_pressure, total_force, wall};
 use crate::scene::estimate::estimate;
-use crate::scene::event::Watch;
+use crate::scene::event::{ProgressReport, Watch};
 use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
 use crate::simulated::{Detail, RunError, Simulated, Start, simulate};
@@ -121,7 +121,11 @@ pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch
         // The first is told in full; of the others what was observed.
         let detail = if index == 0 { first } else { Detail::Observed };
         let seed = design.simulation.seed.wrapping_add(u64::from(start));
-        simulate(design, &choose(design), &crate::guideline::guideline(design), seed, detail, watch)
+        let progress = |report: ProgressReport| {
+            (watch.progress)(ProgressReport { number: index, of: jobs.len(), ..report });
+        };
+        let watch = Watch { progress: &progress, ..*watch };
+        simulate(design, &choose(design), &crate::guideline::guideline(design), seed, detail, &watch)
     };
     let runs = if jobs.len() == 1 { vec![one(0)] } else { side_by_side(threads, jobs.len(), one) };
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -216,12 +220,16 @@ fn governing(outcomes: &[Outcome]) -> String {
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.
 pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     let variants = variants(&run.file.design);
-    let answer = |design: &Design| -> Result<Point, RunError> {
+    let answer = |number: usize, design: &Design| -> Result<Point, RunError> {
         // Forces and strokes are designed for the factored flow alone.
         let design = load_cases::governing(design);
         let guideline = guideline(&design);
         let seed = design.simulation.seed;
-        let simulated = simulate(&design, &choose(&design), &guideline, seed, Detail::Observed, watch)?;
+        let progress = |report: ProgressReport| {
+            (watch.progress)(ProgressReport { number, of: 2 * variants.len(), ..report });
+        };
+        let watch = Watch { progress: &progress, ..*watch };
+        let simulated = simulate(&design, &choose(&design), &guideline, seed, Detail::Observed, &watch)?;
         let mut demands = Demands::meet(&guideline, &simulated.seen(), &design.factors);
         demands.leave_out_guideline();
         let point = Point::of(simulated.first().one(&total_force::PEAK), &check_all(&design, &demands));
@@ -229,7 +237,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     };
     let points = side_by_side(rayon::current_num_threads(), variants.len(), |index| {
         let [down, up] = &variants[index].designs;
-        Ok([answer(down)?, answer(up)?])
+        Ok([answer(2 * index, down)?, answer(2 * index + 1, up)?])
     });
     run.varied = swings(variants, points.into_iter().collect::<Result<_, RunError>>()?);
     Ok(())

@@ -9,8 +9,8 @@ use crate::checkpoint::{self, CheckpointStore, Request};
 use crate::commands::ExitCode;
 use crate::commands::input;
 use crate::commands::output::{exit_code, hand_over, write_report};
-use crate::commands::progress::Progress;
-use crate::commands::signals::{listen, stop};
+use crate::commands::progress::{Audience, Progress, duration};
+use crate::commands::signals::{listen, listen_to_whoever_started_it, stop};
 use crate::commands::told::Format;
 use crate::design::FidelityWish;
 use crate::design::attached::within;
@@ -43,6 +43,8 @@ pub struct Options {
     /// Whether to write files for ParaView.
     pub vtk: bool,
     pub format: Format,
+    /// Whom progress is told.
+    pub audience: Audience,
 }
 
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given. The run is kept every so often, so
@@ -100,7 +102,7 @@ fn tell_what_auto_leaves_out(file: &DesignFile, options: Options) {
 }
 
 /// Goes on with a run that was interrupted, whose report was to go to `folder`.
-pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> ExitCode {
+pub fn resume(folder: &Path, threads: Option<usize>, audience: Audience, keep_every: Duration) -> ExitCode {
     let claimed = match folder.is_dir().then(|| claim(folder, None, Named::Explicitly, Kind::Simulation)).transpose() {
         Ok(claimed) => claimed,
         Err(code) => return code,
@@ -136,7 +138,7 @@ pub fn resume(folder: &Path, threads: Option<usize>, keep_every: Duration) -> Ex
     }
     let Request { starts, vary, vtk, .. } = request;
     let store = open_store(folder, request, &file, keep_every, false).watched(claimed.watch());
-    run_kept(file, claimed, Options { threads, starts, vary, vtk, format: Format::Text }, &store)
+    run_kept(file, claimed, Options { threads, starts, vary, vtk, format: Format::Text, audience }, &store)
 }
 
 fn open_store(
@@ -251,14 +253,6 @@ fn decided(estimate: &Estimate) -> ExitCode {
     }
 }
 
-fn duration(seconds: f64) -> String {
-    match seconds {
-        seconds if seconds < 90.0 => format!("{seconds:.0} s"),
-        seconds if seconds < 5400.0 => format!("{:.0} minutes", seconds / 60.0),
-        seconds => format!("{:.1} hours", seconds / 3600.0),
-    }
-}
-
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
 pub fn loads(path: &Path, out: Option<&Path>, format: Format) -> ExitCode {
     let (file, mut folder) = match prepare(Purpose::Equations, path, out, format) {
@@ -330,7 +324,10 @@ fn load_for(purpose: Purpose, path: &Path) -> Result<DesignFile, Problems> {
 /// Runs inside a pool of its own, so that no step has to enter one; shows progress.
 pub fn simulate(file: DesignFile, options: Options, store: Option<&CheckpointStore>) -> Result<Run, Failure> {
     listen();
-    let progress = Progress::begin();
+    if options.audience == Audience::Program {
+        listen_to_whoever_started_it();
+    }
+    let progress = Progress::begin(options.audience);
     let show = |report: ProgressReport| progress.show(&report);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0))

@@ -1,6 +1,7 @@
 //! Being asked to end: by Ctrl-C, by the system, by a terminal that closes.
 
-use std::sync::atomic::AtomicBool;
+use std::io::Read;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock};
 
 /// Whether the run is asked to end.
@@ -9,6 +10,18 @@ static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 /// What tells a run that it is to end at its next stop.
 pub fn stop() -> &'static AtomicBool {
     &STOP
+}
+
+/// Takes the end of standard input as being asked to end: whoever started this program closes it to stop it, or is gone.
+pub fn listen_to_whoever_started_it() {
+    let wait = || {
+        let mut stdin = std::io::stdin().lock();
+        let mut bytes = [0; 64];
+        while stdin.read(&mut bytes).is_ok_and(|read| read > 0) {}
+        stop().store(true, Ordering::Relaxed);
+    };
+    // Without the thread the run cannot be stopped this way, and goes on to its end.
+    let _ = std::thread::Builder::new().spawn(wait);
 }
 
 /// Listens: the first time the run is kept at its next stop and ends, the second time the program ends at once. What was ignored when the
@@ -40,7 +53,7 @@ fn ignored_signals() -> u64 {
 #[cfg(not(unix))]
 pub fn listen() {
     let _ = ctrlc::set_handler(|| {
-        if STOP.swap(true, std::sync::atomic::Ordering::Relaxed) {
+        if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(2);
         }
     });

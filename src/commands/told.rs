@@ -44,7 +44,7 @@ pub struct ToldFile {
 
 /// One thing that is wrong with a design.
 #[derive(Debug, Serialize, JsonSchema)]
-struct ProblemPart {
+pub struct ProblemPart {
     /// Key path such as `barrier.flexible_net.height`; empty for the file as a whole.
     path: String,
     /// Counted from 1; null where the problem has no place in the file.

@@ -11,6 +11,7 @@ use crate::scene::flow::packing::PackingError;
 use crate::scene::inlet::Feed;
 use crate::scene::patience::Patience;
 use crate::scene::surges::{Next, Ready};
+use dem::recorders::film::Film;
 use dem::recorders::histories::{Histories, tail_mean};
 use dem::recorders::recorder::Recorder;
 use dem::simulation::{Simulation, Unstable};
@@ -35,14 +36,20 @@ pub enum Ending {
     Interrupted,
 }
 
-/// What is told while the run goes on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProgressReport {
+/// What is told while a simulation goes on.
+#[derive(Clone, Copy, Debug)]
+pub struct ProgressReport<'a> {
+    /// Which simulation it is, counted from 0, of how many that run side by side or one after the other.
+    pub number: usize,
+    pub of: usize,
+    /// s
     pub time: f64,
-    /// Rough share of the run that is done, 0 to 1.
+    /// Rough share of it that is done, 0 to 1.
     pub share: f64,
     /// Force on the barrier now (N).
     pub force: f64,
+    /// What it has looked like so far.
+    pub film: &'a Film,
 }
 
 /// How a run is watched and stopped from outside, and where it is kept, if it is.
@@ -205,7 +212,8 @@ impl Ongoing {
         self.energy_error = worse(self.energy_error, error);
         let force = histories.force.last().map_or(0.0, |force| force.norm());
         let time = self.simulation.time;
-        (watch.progress)(ProgressReport { time, share: (time / self.expected_time).min(0.99), force });
+        let share = (time / self.expected_time).min(0.99);
+        (watch.progress)(ProgressReport { number: 0, of: 1, time, share, force, film: &histories.film });
         if watch.store.is_none() && watch.stop.load(Ordering::Relaxed) {
             return Some(Ending::Interrupted);
         }

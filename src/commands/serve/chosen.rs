@@ -1,0 +1,176 @@
+//! The folder that was chosen: the designs in it. Nothing outside it is read or written, whatever a request or a design names.
+
+use std::io::Write;
+use std::path::{Component, Path, PathBuf};
+use std::{fs, io};
+
+use axum::http::StatusCode;
+use serde::Serialize;
+
+use super::answer::Refused;
+use crate::commands::input;
+use crate::design::entries::Purpose;
+use crate::design::read::{DesignFile, read_design_for, sha256};
+use crate::problem::Problems;
+
+/// Designs are sought so many folders deep, and so many are listed at the most.
+const DEEPEST: usize = 4;
+const MOST: usize = 500;
+/// Folders in which nobody looks for designs of their own: reports keep copies of theirs.
+const PASSED_BY: [&str; 3] = ["out", "target", "node_modules"];
+
+pub struct Chosen {
+    root: PathBuf,
+}
+
+/// A file in YAML.
+#[derive(Debug, Serialize)]
+pub struct Listed {
+    path: String,
+    /// Whether it looks like a design; else it is a study or a kit.
+    design: bool,
+}
+
+/// A design as it stands on the disk.
+#[derive(Debug, Serialize)]
+pub struct Written {
+    pub path: String,
+    pub text: String,
+    /// SHA-256, by which it is told whether somebody else has changed it since.
+    pub digest: String,
+}
+
+impl Chosen {
+    pub fn open(folder: &Path) -> io::Result<Self> {
+        let root = folder.canonicalize()?;
+        if root.is_dir() { Ok(Self { root }) } else { Err(io::Error::other("it is not a folder")) }
+    }
+
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// All files in YAML, by their path.
+    pub fn designs(&self) -> Vec<Listed> {
+        let mut found = Vec::new();
+        self.seek(Path::new(""), 0, &mut found);
+        found.sort_by(|a, b| a.path.cmp(&b.path));
+        found
+    }
+
+    fn seek(&self, below: &Path, depth: usize, found: &mut Vec<Listed>) {
+        let Ok(entries) = fs::read_dir(self.root.join(below)) else { return };
+        for entry in entries.flatten() {
+            let Ok(name) = entry.file_name().into_string() else { continue };
+            let path = below.join(&name);
+            // A link is not followed: it may lead out of the folder.
+            let Ok(kind) = entry.file_type() else { continue };
+            if name.starts_with('.') || found.len() >= MOST {
+                continue;
+            }
+            if kind.is_dir() && depth < DEEPEST && !PASSED_BY.contains(&name.as_str()) {
+                self.seek(&path, depth + 1, found);
+            } else if kind.is_file() && is_yaml(&path) {
+                let text = input::read(&self.root.join(&path), input::LONGEST_TEXT, b"").unwrap_or_default();
+                found.push(Listed { path: with_slashes(&path), design: looks_like_a_design(&text) });
+            }
+        }
+    }
+
+    /// Where a design is, or is to be, by its path within the folder.
+    fn place(&self, path: &str) -> Result<PathBuf, Refused> {
+        let named = Path::new(path);
+        let plain = |part: Component| {
+            matches!(part, Component::Normal(name) if name.to_str().is_some_and(|name| !name.starts_with('.')))
+        };
+        let harmless = !path.contains(['\\', ':', '\0', '\n', '\r']) && path.len() <= 300;
+        if path.is_empty() || !harmless || !named.components().all(plain) || !is_yaml(named) {
+            return Err(Refused::bad(format!(
+                "`{}` is no name for a design: a file in this folder or one below it, with the ending .yaml",
+                crate::problem::harmless(path)
+            )));
+        }
+        let place = self.root.join(named);
+        let folder = place.parent().unwrap_or(&self.root);
+        let folder = folder.canonicalize().map_err(|_| Refused::missing("the folder of this design"))?;
+        let leads_out = !folder.starts_with(&self.root)
+            || fs::symlink_metadata(&place).is_ok_and(|found| found.is_symlink() || !found.is_file());
+        if leads_out { Err(Refused::bad("this name leads out of the folder")) } else { Ok(place) }
+    }
+
+    pub fn read(&self, path: &str) -> Result<Written, Refused> {
+        let place = self.place(path)?;
+        if !place.exists() {
+            return Err(Refused::missing(path));
+        }
+        let bytes = input::read(&place, input::LONGEST_TEXT, b"").map_err(Refused::failed)?;
+        let digest = sha256(&bytes);
+        let text = String::from_utf8(bytes).map_err(|_| Refused::bad(format!("{path} is no text in UTF-8")))?;
+        Ok(Written { path: path.to_string(), text, digest })
+    }
+
+    /// Writes a design in one piece. `before` is the digest of what it takes the place of, nothing where there is none yet: what somebody else has
+    /// written since is not overwritten.
+    pub fn write(&self, path: &str, text: &str, before: Option<&str>) -> Result<Written, Refused> {
+        let place = self.place(path)?;
+        if text.len() as u64 > input::LONGEST_TEXT {
+            return Err(Refused::new(StatusCode::PAYLOAD_TOO_LARGE, "the text is too long for a design"));
+        }
+        let there = match place.exists() {
+            true => Some(self.read(path)?.digest),
+            false => None,
+        };
+        if there.as_deref() != before {
+            return Err(Refused::conflict(match (there, before) {
+                (Some(_), None) => format!("{path} is there already"),
+                (Some(_), Some(_)) => format!("{path} was changed by somebody else since it was read here"),
+                (None, _) => format!("{path} is no longer there"),
+            }));
+        }
+        replace(&place, text.as_bytes()).map_err(|error| Refused::failed(format_args!("{path}: {error}")))?;
+        self.read(path)
+    }
+
+    /// Reads a text as the design with a path; the files that it names are sought beside it, within the folder.
+    pub fn design(&self, path: &str, text: &str) -> Result<Result<DesignFile, Problems>, Refused> {
+        let place = self.place(path)?;
+        let open = |other: &str| {
+            let named = place.parent().unwrap_or(&self.root).join(other);
+            // As the program reads it when it runs the design: there, or in the folder `attached`.
+            match named.canonicalize() {
+                Ok(real) if !real.starts_with(&self.root) => Err("it lies outside the folder that is served".to_string()),
+                _ => input::beside(&place, other),
+            }
+        };
+        Ok(read_design_for(Purpose::Simulation, path, text.as_bytes(), &open))
+    }
+}
+
+fn is_yaml(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml")
+}
+
+fn with_slashes(path: &Path) -> String {
+    path.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+}
+
+/// By the keys that every design has and nothing else.
+fn looks_like_a_design(text: &[u8]) -> bool {
+    let begins = |key: &[u8]| text.split(|byte| *byte == b'\n').any(|line| line.starts_with(key));
+    begins(b"project:") && (begins(b"channel:") || begins(b"flow:") || begins(b"barrier:"))
+}
+
+/// Puts a file in the place of another at once.
+fn replace(place: &Path, bytes: &[u8]) -> io::Result<()> {
+    let name = place.file_name().unwrap_or_default().to_string_lossy();
+    let beside = place.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+    let written = fs::File::create_new(&beside).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.sync_all()
+    });
+    let replaced = written.and_then(|()| fs::rename(&beside, place));
+    if replaced.is_err() {
+        let _ = fs::remove_file(&beside);
+    }
+    replaced
+}

@@ -1,0 +1,121 @@
+//! `barrier-check serve`: a page on the loopback address to write designs, see them judged by the equations while they are typed, simulate them
+//! and read their reports.
+
+mod answer;
+mod chosen;
+mod guard;
+mod look;
+mod page;
+mod requests;
+mod runs;
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use axum::extract::DefaultBodyLimit;
+use axum::middleware::{from_fn, from_fn_with_state};
+use axum::routing::{get, post};
+use axum::{Router, serve as serve_router};
+
+use crate::commands::input::LONGEST_TEXT;
+use crate::commands::signals::{listen, stop};
+use crate::commands::{ExitCode, Failure};
+use crate::terminal;
+
+use self::chosen::Chosen;
+use self::guard::Guard;
+use self::runs::Runs;
+
+/// How the page is served.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Where the designs are, and the reports go; nothing outside it is read or written.
+    pub folder: PathBuf,
+    /// One that is free unless given.
+    pub port: u16,
+    /// Whether to open the page in the browser of the system.
+    pub open: bool,
+}
+
+/// What every request may use.
+struct Served {
+    chosen: Chosen,
+    runs: Runs,
+    guard: Guard,
+}
+
+/// How long runs have to be kept when the program is asked to end.
+const LAST_WAIT: Duration = Duration::from_secs(60);
+/// How often it is looked whether the program is asked to end.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
+
+/// Serves the page until the program is asked to end.
+pub fn serve(options: &Options) -> ExitCode {
+    match run(options) {
+        Ok(()) => ExitCode::Pass,
+        Err(error) => {
+            terminal::warn(format_args!("error: {error}"));
+            ExitCode::Undecided
+        }
+    }
+}
+
+fn run(options: &Options) -> Result<(), Failure> {
+    listen();
+    let chosen = Chosen::open(&options.folder)
+        .map_err(|error| format!("{}: the folder cannot be served: {error}", options.folder.display()))?;
+    let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build()?;
+    runtime.block_on(async {
+        // No other address is ever listened on.
+        let listener = tokio::net::TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, options.port)))
+            .await
+            .map_err(|error| format!("port {} cannot be used ({error}): name another with --port", options.port))?;
+        let guard = Guard::new(listener.local_addr()?.port())?;
+        let address = guard.address();
+        terminal::say(format_args!(
+            "barrier-check serves {} at\n  {address}\nto this machine and whoever has that address alone. Ctrl-C ends it; runs that go on are kept, to be resumed.",
+            chosen.root().display()
+        ));
+        if options.open && open::that_detached(&address).is_err() {
+            terminal::warn("note: no browser could be opened: open the address above");
+        }
+        let runs = Runs::new(chosen.root());
+        let served = Arc::new(Served { chosen, runs, guard });
+        let asked_to_end = async {
+            while !stop().load(Ordering::Relaxed) {
+                tokio::time::sleep(LOOK_EVERY).await;
+            }
+        };
+        tokio::select! {
+            served = serve_router(listener, router(Arc::clone(&served))).into_future() => served?,
+            () = asked_to_end => {}
+        }
+        served.runs.stop_all(LAST_WAIT);
+        Ok(())
+    })
+}
+
+fn router(served: Arc<Served>) -> Router {
+    let router = Router::new()
+        .route("/", get(page::index))
+        .route("/page/{name}", get(page::asset))
+        .route("/report/{folder}/{*file}", get(requests::report_file))
+        .route("/api/start", get(requests::start))
+        .route("/api/design", get(requests::read).put(requests::write))
+        .route("/api/new", post(requests::new))
+        .route("/api/look", post(requests::look))
+        .route("/api/runs", get(requests::runs).post(requests::begin))
+        .route("/api/runs/{folder}", get(requests::progress))
+        .route("/api/runs/{folder}/stop", post(requests::stop))
+        .route("/api/runs/{folder}/resume", post(requests::resume))
+        .route("/api/compare", post(requests::compare))
+        .fallback(answer::nothing_there);
+    router
+        .layer(DefaultBodyLimit::max(2 * LONGEST_TEXT as usize))
+        .layer(from_fn_with_state(Arc::clone(&served), guard::admit))
+        .layer(from_fn(guard::harden))
+        .with_state(served)
+}
