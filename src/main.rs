@@ -351,7 +351,9 @@ fn run() -> i32 {
         }
         Some(Command::Loads { design, out, format }) => loads(&design, out.as_deref(), format) as i32,
         Some(Command::New(arguments)) => new(&arguments.given()) as i32,
-        Some(Command::Compare { designs, out, how }) => compare(&designs, &out, how.options(Format::Text, Audience::Person)) as i32,
+        Some(Command::Compare { designs, out, how }) => {
+            compare(&designs, &out, how.options(Format::Text, Audience::Person)) as i32
+        }
         Some(Command::Explain { id, all }) => explain(id.as_deref(), all) as i32,
         Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
         Some(Command::Resume { folder, threads, keep, watched }) => {
@@ -369,7 +371,9 @@ fn run() -> i32 {
             let design = design.unwrap_or_default();
             let options = how.options(format, watched.audience());
             if watched.watched && design == std::path::Path::new("-") {
-                terminal::warn("error: with --watched standard input is what stops the run: name the file of the design");
+                terminal::warn(
+                    "error: with --watched standard input is what stops the run: name the file of the design",
+                );
                 return 2;
             }
             match only_tell {

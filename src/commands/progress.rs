@@ -90,7 +90,10 @@ impl Progress {
             Audience::Person if std::io::stderr().is_terminal() => Shown::Bar(bar()),
             Audience::Person => Shown::Lines { last: now },
         };
-        Self { began: now, told: Mutex::new(Told { shown, shares: Vec::new(), frame_until: f64::NEG_INFINITY, peak: None }) }
+        Self {
+            began: now,
+            told: Mutex::new(Told { shown, shares: Vec::new(), frame_until: f64::NEG_INFINITY, peak: None }),
+        }
     }
 
     /// Of several simulations side by side the one that tells last is shown, and how far all have come.
@@ -111,7 +114,11 @@ impl Progress {
             Shown::Lines { last } if last.elapsed() >= BETWEEN_LINES => {
                 *last = Instant::now();
                 let left = left.map_or(String::new(), |left| format!(", about {} left", duration(left)));
-                terminal::warn(format_args!("{taken:.0} s: {}, about {:.0} % done{left}", words(report), 100.0 * share));
+                terminal::warn(format_args!(
+                    "{taken:.0} s: {}, about {:.0} % done{left}",
+                    words(report),
+                    100.0 * share
+                ));
             }
             Shown::Watched { last } if last.elapsed() >= BETWEEN_WATCHED => {
                 *last = Instant::now();
@@ -185,7 +192,8 @@ impl Picture {
 }
 
 fn words(report: &ProgressReport) -> String {
-    let which = if report.of > 1 { format!("simulation {} of {}, ", report.number + 1, report.of) } else { String::new() };
+    let which =
+        if report.of > 1 { format!("simulation {} of {}, ", report.number + 1, report.of) } else { String::new() };
     format!("{which}simulated {:.2} s, force {:.4} kN", report.time, report.force / 1e3)
 }
 

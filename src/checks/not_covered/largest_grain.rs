@@ -30,9 +30,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         // The law of contacts with a soft modulus hits more gently than stone does.
         None => larger_or_nan(hit(design, known.guideline.input.velocity), on_the_base),
     };
-    let more_than_given = given.map_or(String::new(), |given| {
-        format!(", more than loads.point_load of {:.1} kN", given / 1e3)
-    });
+    let more_than_given =
+        given.map_or(String::new(), |given| format!(", more than loads.point_load of {:.1} kN", given / 1e3));
     let then = struck(known, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {

@@ -30,6 +30,19 @@ impl Refused {
         Self::new(StatusCode::CONFLICT, why)
     }
 
+    pub fn is_conflict(&self) -> bool {
+        self.status == StatusCode::CONFLICT
+    }
+
+    /// For what was sent, not for what became of it.
+    pub fn is_bad_request(&self) -> bool {
+        self.status == StatusCode::BAD_REQUEST
+    }
+
+    pub fn why(&self) -> &str {
+        &self.why
+    }
+
     pub fn failed(error: impl std::fmt::Display) -> Self {
         Self::new(StatusCode::INTERNAL_SERVER_ERROR, error.to_string())
     }

@@ -80,9 +80,7 @@ impl Chosen {
     /// Where a design is, or is to be, by its path within the folder.
     fn place(&self, path: &str) -> Result<PathBuf, Refused> {
         let named = Path::new(path);
-        let plain = |part: Component| {
-            matches!(part, Component::Normal(name) if name.to_str().is_some_and(|name| !name.starts_with('.')))
-        };
+        let plain = |part: Component| matches!(part, Component::Normal(name) if name.to_str().is_some_and(|name| !name.starts_with('.')));
         let harmless = !path.contains(['\\', ':', '\0', '\n', '\r']) && path.len() <= 300;
         if path.is_empty() || !harmless || !named.components().all(plain) || !is_yaml(named) {
             return Err(Refused::bad(format!(
@@ -93,6 +91,9 @@ impl Chosen {
         let place = self.root.join(named);
         let folder = place.parent().unwrap_or(&self.root);
         let folder = folder.canonicalize().map_err(|_| Refused::missing("the folder of this design"))?;
+        if !folder.is_dir() {
+            return Err(Refused::missing("the folder of this design"));
+        }
         let leads_out = !folder.starts_with(&self.root)
             || fs::symlink_metadata(&place).is_ok_and(|found| found.is_symlink() || !found.is_file());
         if leads_out { Err(Refused::bad("this name leads out of the folder")) } else { Ok(place) }
@@ -138,7 +139,9 @@ impl Chosen {
             let named = place.parent().unwrap_or(&self.root).join(other);
             // As the program reads it when it runs the design: there, or in the folder `attached`.
             match named.canonicalize() {
-                Ok(real) if !real.starts_with(&self.root) => Err("it lies outside the folder that is served".to_string()),
+                Ok(real) if !real.starts_with(&self.root) => {
+                    Err("it lies outside the folder that is served".to_string())
+                }
                 _ => input::beside(&place, other),
             }
         };

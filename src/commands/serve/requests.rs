@@ -7,7 +7,7 @@ use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, Query, State};
 use axum::http::header::{CONTENT_SECURITY_POLICY, CONTENT_TYPE};
 use axum::response::{IntoResponse, Response};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use tokio::task::spawn_blocking;
 
@@ -78,9 +78,29 @@ pub struct ToWrite {
     before: Option<String>,
 }
 
-pub async fn write(State(served): Shared, body: Body<ToWrite>) -> Result<Json<Written>, Refused> {
+/// What became of a text that was to be written. What stands in the way is something to choose from, no error.
+#[derive(Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Wrote {
+    Written(Written),
+    Conflict(String),
+    /// What is wrong with the answers.
+    Wrong(String),
+}
+
+impl Wrote {
+    fn of(written: Result<Written, Refused>) -> Result<Json<Self>, Refused> {
+        match written {
+            Ok(written) => Ok(Json(Self::Written(written))),
+            Err(refused) if refused.is_conflict() => Ok(Json(Self::Conflict(refused.why().to_string()))),
+            Err(refused) => Err(refused),
+        }
+    }
+}
+
+pub async fn write(State(served): Shared, body: Body<ToWrite>) -> Result<Json<Wrote>, Refused> {
     let ToWrite { path, text, before } = sent(body)?;
-    apart(served, move |served| served.chosen.write(&path, &text, before.as_deref()).map(Json)).await
+    apart(served, move |served| Wrote::of(served.chosen.write(&path, &text, before.as_deref()))).await
 }
 
 #[derive(Deserialize)]
@@ -90,21 +110,26 @@ pub struct Answers {
 }
 
 /// Writes a new design from ten answers.
-pub async fn new(State(served): Shared, body: Body<Answers>) -> Result<Json<Written>, Refused> {
+pub async fn new(State(served): Shared, body: Body<Answers>) -> Result<Json<Wrote>, Refused> {
     let Answers { path, answers } = sent(body)?;
     let answers: [String; 10] = answers.try_into().map_err(|_| Refused::bad("ten answers are wanted"))?;
     for (question, answer) in QUESTIONS.iter().zip(&answers) {
         if let Some([found, allowed]) = question.wrong(answer) {
-            return Err(Refused::bad(format!("{}: found {found}, allowed is {allowed}", question.ask)));
+            return Ok(Json(Wrote::Wrong(format!("{}: found {found}, allowed is {allowed}", question.ask))));
         }
     }
     apart(served, move |served| {
         let beside = Beside { file: &path, density: "1800 kg/m3", factors: "en_1997", kit: None };
         let text = text_of(&answers, beside).map_err(Refused::failed)?;
-        if let Err(problems) = served.chosen.design(&path, &text)? {
-            return Err(Refused::bad(format!("these answers make no design: {}", problems.to_string().trim_end())));
+        match served.chosen.design(&path, &text) {
+            // The name of the file is an answer as well.
+            Err(refused) if refused.is_bad_request() => Ok(Json(Wrote::Wrong(refused.why().to_string()))),
+            Err(refused) => Err(refused),
+            Ok(Err(problems)) => {
+                Ok(Json(Wrote::Wrong(format!("these answers make no design: {}", problems.to_string().trim_end()))))
+            }
+            Ok(Ok(_)) => Wrote::of(served.chosen.write(&path, &text, None)),
         }
-        served.chosen.write(&path, &text, None).map(Json)
     })
     .await
 }

@@ -27,7 +27,7 @@ const MOST_AT_ONCE: usize = 2;
 const LONGEST_LINE: u64 = 1 << 20;
 /// Pictures kept of a run at the most; of more, every other one goes.
 const MOST_PICTURES: usize = 200;
-/// Points of the force so far at the most; of more, every other one goes.
+/// Points of the force so far at the most.
 const MOST_POINTS: usize = 2000;
 /// Bytes of a file of a report that is handed out at the most.
 const LONGEST_FILE: u64 = 64 << 20;
@@ -292,7 +292,10 @@ impl UnderWay {
                 self.pictures.clear();
             }
             self.force.push(peak);
-            thin(&mut self.force, MOST_POINTS);
+            if self.force.len() > MOST_POINTS {
+                // Of two the larger stays, so that no peak is lost.
+                self.force = self.force.chunks(2).filter_map(larger).collect();
+            }
         }
         if let Some(picture) = told.picture.take() {
             self.pictures.push((self.next_picture, picture));
@@ -301,6 +304,11 @@ impl UnderWay {
         }
         self.told = Some(told);
     }
+}
+
+/// The moment with the larger force.
+fn larger(moments: &[[f64; 2]]) -> Option<[f64; 2]> {
+    moments.iter().copied().max_by(|[_, a], [_, b]| a.total_cmp(b))
 }
 
 /// Leaves out every other one but the last of more than `most`.

@@ -65,7 +65,7 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
     const id = idOf(path);
     const last = path.at(-1);
     const label = typeof last === "number" ? nameOf(path.slice(-2)) : inWords(String(last));
-    const told = make("small", { id: `${id}-told` }, [node.description, allowed(node)].filter(Boolean).join(". "));
+    const told = make("small", { id: `${id}-told` }, [node.description, allowed(node)].filter(Boolean).join("; "));
     const some = words(node);
     let input: HTMLInputElement | HTMLSelectElement;
     const described = { id, "aria-describedby": `${id}-told ${id}-wrong` };

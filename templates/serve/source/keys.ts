@@ -44,7 +44,7 @@ export function nodeAt(schema: Schema, path: readonly (string | number)[]): Sche
 
 /** The units that a quantity may have. */
 export function units(node: Schema): string[] {
-  const found = /\*\(?((?:\([^()]*\)|[^()])*)\)? \*\$$/.exec(node.pattern ?? "");
+  const found = /\*\(((?:\([^()]*\)|[^()])*)\) \*\$$/.exec(node.pattern ?? "");
   if (!found) return [];
   const plain = (found[1] ?? "").replaceAll("(\\^?2|²)", "2").replaceAll("(\\^?3|³)", "3").replaceAll("(deg|°)", "deg");
   return plain.split("|").filter((unit) => /^[A-Za-z%‰][A-Za-z0-9/%]*$/.test(unit));
@@ -61,7 +61,7 @@ export function allowed(node: Schema): string {
   else if (node.type === "number") told.push("a number");
   else if (node.type === "boolean") told.push("true or false");
   if (node.minimum !== undefined && node.maximum !== undefined) told.push(`from ${node.minimum} to ${node.maximum}`);
-  if (node.default !== undefined && node.default !== "") told.push(`by default ${String(node.default)}`);
+  if (node.default !== undefined && node.default !== "" && node.default !== "-") told.push(`by default ${String(node.default)}`);
   return told.join("; ");
 }
 

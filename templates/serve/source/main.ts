@@ -115,12 +115,13 @@ async function begin() {
     if (!open) return false;
     if (!unsaved()) return true;
     try {
-      open = await server.write(open.path, editor.text(), open.digest);
+      const wrote = await server.write(open.path, editor.text(), open.digest);
+      conflict.hidden = wrote.conflict === undefined;
+      if (wrote.written) open = wrote.written;
       tellState();
-      return true;
+      return wrote.written !== undefined;
     } catch (error) {
-      if (error instanceof server.Refused && error.status === 409) conflict.hidden = false;
-      else tell(error);
+      tell(error);
       return false;
     }
   };
@@ -161,9 +162,9 @@ async function begin() {
     void server
       .read(open.path)
       .then((there) => server.write(there.path, text, there.digest))
-      .then((written) => {
-        open = written;
-        conflict.hidden = true;
+      .then((wrote) => {
+        if (wrote.written) open = wrote.written;
+        conflict.hidden = wrote.conflict === undefined;
         tellState();
       })
       .catch(tell);
@@ -218,13 +219,15 @@ function newDesign(start: server.Start, show: (written: server.Written) => void,
     const path = /\.ya?ml$/.test(file.value) ? file.value : `${file.value}.yaml`;
     server
       .makeNew(path, answers.map((answer) => answer.value))
-      .then((written) => {
+      .then((wrote) => {
+        wrong.textContent = wrote.wrong ?? (wrote.conflict ? `${wrote.conflict}: name another file` : "");
+        if (!wrote.written) return;
         dialog.close();
-        show(written);
+        show(wrote.written);
       })
       .catch((error: unknown) => {
-        if (error instanceof server.Refused) wrong.textContent = error.message;
-        else tell(error);
+        dialog.close();
+        tell(error);
       });
   });
 }

@@ -62,6 +62,13 @@ export interface Written {
   digest: string;
 }
 
+/** What became of a text that was to be written: one of these. */
+export interface Wrote {
+  written?: Written;
+  conflict?: string;
+  wrong?: string;
+}
+
 export interface Start {
   program: string;
   folder: string;
@@ -163,8 +170,8 @@ const named = (name: string) => encodeURIComponent(name);
 export const start = () => ask<Start>("GET", "/api/start");
 export const read = (path: string) => ask<Written>("GET", `/api/design?path=${named(path)}`);
 export const write = (path: string, text: string, before: string | null) =>
-  ask<Written>("PUT", "/api/design", { path, text, before });
-export const makeNew = (path: string, answers: string[]) => ask<Written>("POST", "/api/new", { path, answers });
+  ask<Wrote>("PUT", "/api/design", { path, text, before });
+export const makeNew = (path: string, answers: string[]) => ask<Wrote>("POST", "/api/new", { path, answers });
 export const look = (path: string, text: string, signal: AbortSignal) =>
   ask<Look>("POST", "/api/look", { path, text }, signal);
 export const runs = () => ask<{ runs: Listed[] }>("GET", "/api/runs");
