@@ -46,6 +46,8 @@
 //! | a set of factors that a code gives | [`design::factor_sets`] |
 //! | a kind of report | [`report::kind`] |
 //! | a question that a new design asks | a line in [`new_design::QUESTIONS`], its flag in `src/main.rs`, its place in `templates/new_design.yaml` |
+//! | something that the page of `serve` asks for | a function in `commands::serve::requests`, its address in `commands::serve::router`; the page itself in `templates/serve`, whose README says how its bundle is built |
+//! | a file beside the report for another program | a field of [`extras::Extras`], its flag in `src/main.rs`, a file in [`report`], its line in [`commands::output`] |
 //! | a command | a file in [`commands`], its arguments in `src/main.rs` |
 //! | a time series of the barrier | a channel in the file of its body in [`dem::recorders`] and a line in `CHANNELS` there |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
@@ -98,6 +100,7 @@ pub mod container;
 pub mod demand;
 pub mod design;
 pub mod explain;
+pub mod extras;
 pub mod fidelity;
 pub mod guideline;
 mod larger;

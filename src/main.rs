@@ -16,6 +16,7 @@ use barrier_check::commands::serve::{self, serve};
 use barrier_check::commands::study::study;
 use barrier_check::commands::told::Format;
 use barrier_check::commands::validate::{Selection, validate};
+use barrier_check::extras::Extras;
 use barrier_check::terminal;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -98,15 +99,51 @@ struct HowArguments {
     /// Also simulates the design with each of its main inputs changed alone, down and up
     #[arg(long)]
     vary: bool,
+    #[command(flatten)]
+    extras: ExtraArguments,
+}
+
+/// What is written beside the report.
+#[derive(Args)]
+struct ExtraArguments {
     /// Also writes the course of the event for ParaView, into the folder `vtk` of the report
     #[arg(long)]
     vtk: bool,
+    #[command(flatten)]
+    office: OfficeArguments,
+}
+
+/// What is written for the programs of an office.
+#[derive(Args)]
+struct OfficeArguments {
+    /// Also writes checks, load cases and time series for a spreadsheet program: tables.xlsx
+    #[arg(long)]
+    xlsx: bool,
+    /// Also draws the barrier in its section and along the channel for a drawing program: drawing.dxf
+    #[arg(long)]
+    dxf: bool,
+    /// Also prints the report with a browser of the Chromium family: report.pdf
+    #[arg(long)]
+    pdf: bool,
+}
+
+impl OfficeArguments {
+    fn extras(&self, vtk: bool) -> Extras {
+        Extras { vtk, xlsx: self.xlsx, dxf: self.dxf, pdf: self.pdf }
+    }
 }
 
 impl HowArguments {
     fn options(&self, format: Format, audience: Audience) -> Options {
         let threads = self.threads.map(usize::from);
-        Options { threads, starts: self.seeds, vary: self.vary, vtk: self.vtk, format, audience }
+        Options {
+            threads,
+            starts: self.seeds,
+            vary: self.vary,
+            extras: self.extras.office.extras(self.extras.vtk),
+            format,
+            audience,
+        }
     }
 }
 
@@ -119,6 +156,8 @@ enum Command {
         /// Folder for the report [default: out/<name of the design file>_loads]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        #[command(flatten)]
+        office: OfficeArguments,
         /// How problems of the design and the verdict are printed
         #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Format::Text)]
         format: Format,
@@ -149,9 +188,8 @@ enum Command {
     Report {
         /// Folder of the earlier run
         folder: PathBuf,
-        /// Also writes the course of the event for ParaView, into the folder `vtk` of the report
-        #[arg(long)]
-        vtk: bool,
+        #[command(flatten)]
+        extras: ExtraArguments,
     },
     /// Goes on with a run that was interrupted: the result is that of a run that was not
     Resume {
@@ -349,13 +387,15 @@ fn run() -> i32 {
             clap_complete::generate(shell, &mut Arguments::command(), "barrier-check", &mut script);
             print(String::from_utf8_lossy(&script).into_owned())
         }
-        Some(Command::Loads { design, out, format }) => loads(&design, out.as_deref(), format) as i32,
+        Some(Command::Loads { design, out, office, format }) => {
+            loads(&design, out.as_deref(), office.extras(false), format) as i32
+        }
         Some(Command::New(arguments)) => new(&arguments.given()) as i32,
         Some(Command::Compare { designs, out, how }) => {
             compare(&designs, &out, how.options(Format::Text, Audience::Person)) as i32
         }
         Some(Command::Explain { id, all }) => explain(id.as_deref(), all) as i32,
-        Some(Command::Report { folder, vtk }) => report(&folder, vtk) as i32,
+        Some(Command::Report { folder, extras }) => report(&folder, extras.office.extras(extras.vtk)) as i32,
         Some(Command::Resume { folder, threads, keep, watched }) => {
             resume(&folder, threads.map(usize::from), watched.audience(), keep.every()) as i32
         }

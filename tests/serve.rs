@@ -459,7 +459,11 @@ fn a_design_is_looked_at_run_and_its_report_handed_out() {
     let ended = server.run_until("tiny", |now| now["state"] == "ended");
     assert_eq!(ended["page"], "report.html", "{ended}");
     let page = server.get("/report/tiny/report.html");
-    assert!(page.status == 200 && page.head.contains("text/html") && page.body.contains("SHA-256 of the design file"), "{}", page.head);
+    assert!(
+        page.status == 200 && page.head.contains("text/html") && page.body.contains("SHA-256 of the design file"),
+        "{}",
+        page.head
+    );
     // The report may show itself, and fetch nothing.
     assert!(page.head.contains("script-src 'unsafe-inline'") && !page.head.contains("connect-src 'self'"));
     assert_eq!(

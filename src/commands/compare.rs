@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::commands::ExitCode;
 use crate::commands::Failure;
-use crate::commands::check::{Options, load, simulate};
+use crate::commands::check::{Options, can_print, load, simulate};
 use crate::commands::output::{exit_code, put, tell_of_replaced, write_report};
 use crate::commands::report::{kind_of, read_recording};
 use crate::pipeline::Run;
@@ -16,6 +16,9 @@ use crate::terminal;
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report below `out` as soon as it is
 /// there, so that one that is cut short keeps those before it, and the page that holds them side by side. Ends by the worst verdict.
 pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
+    if let Err(code) = can_print(options.extras) {
+        return code;
+    }
     let mut variants = Vec::new();
     // What may lie in the folder of a page is no name for that of a report.
     let mut folders = PAGE_FILES.iter().chain(&OWN_NAMES).map(ToString::to_string).collect();
@@ -60,7 +63,7 @@ pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
         let ran = source.run(options).and_then(|run| {
             // A page of before does not stand beside reports that are not its own.
             put(&mut page, &[])?;
-            write_report(&run, report, options.vtk)?;
+            write_report(&run, report, options.extras)?;
             Ok(run)
         });
         match ran {

@@ -9,6 +9,7 @@ pub(crate) mod kept;
 mod kept_simulations;
 pub mod new;
 pub(crate) mod output;
+mod printed;
 pub mod progress;
 mod reliability;
 pub mod report;

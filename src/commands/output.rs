@@ -5,7 +5,9 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::ATTACHED;
+use crate::commands::printed::{self, Browser};
 use crate::commands::told::Format;
+use crate::extras::Extras;
 use crate::pipeline::{Run, Verdict};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;
@@ -14,32 +16,33 @@ use crate::report::recording;
 use crate::report::render::render;
 use crate::report::series;
 use crate::report::view::View;
-use crate::report::vtk;
+use crate::report::{drawing, vtk, workbook};
 use crate::scene::ground::pieces;
 use crate::terminal;
 
 /// Time series of a simulation, in every report of one.
 const HISTORIES: &str = "histories.csv";
 
-/// Writes all files of the report into `folder`, with those for ParaView where asked for, and tells the verdict.
-pub fn hand_over(run: &Run, folder: &mut Folder, with_vtk: bool, format: Format) -> ExitCode {
-    match write_report(run, folder, with_vtk) {
+/// Writes all files of the report into `folder`, with those for other programs that are asked for, and tells the verdict.
+pub fn hand_over(run: &Run, folder: &mut Folder, extras: Extras, format: Format) -> ExitCode {
+    match write_report(run, folder, extras) {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
         Ok(view) => {
-            format.tell_verdict(run, &view, folder.path(), with_vtk);
+            format.tell_verdict(run, &view, folder.path(), extras);
             exit_code(run.verdict)
         }
     }
 }
 
 /// Writes all files of the report into `folder`; returns what they show.
-pub fn write_report(run: &Run, folder: &mut Folder, with_vtk: bool) -> Result<View, Failure> {
-    let view = View::of(run);
-    let files = files(run, &view, with_vtk);
-    files.and_then(|files| put(folder, &files)).map_err(|error| {
+pub fn write_report(run: &Run, folder: &mut Folder, extras: Extras) -> Result<View, Failure> {
+    let mut view = View::of(run);
+    let printed = extras.pdf.then(|| print(&mut view)).transpose()?;
+    let files = files(run, &view, extras);
+    files.and_then(|files| put(folder, &files.into_iter().chain(printed).collect::<Vec<_>>())).map_err(|error| {
         Failure::from(format!("the report could not be written to {}: {error}", folder.path().display()))
     })?;
     Ok(view)
@@ -76,16 +79,30 @@ pub fn exit_code(verdict: Verdict) -> ExitCode {
     }
 }
 
-fn files(run: &Run, view: &View, with_vtk: bool) -> Result<Vec<ReportFile>, Failure> {
+/// The report as it is printed: without its replay, which no paper shows.
+fn print(view: &mut View) -> Result<ReportFile, Failure> {
+    let replay = view.replay.take();
+    let rendered = render(view).map_err(|error| error.to_string())?;
+    view.replay = replay;
+    Ok(ReportFile::new(printed::FILE, Browser::find()?.print(&rendered.html)?))
+}
+
+fn files(run: &Run, view: &View, extras: Extras) -> Result<Vec<ReportFile>, Failure> {
     let rendered = render(view).map_err(|error| error.to_string())?;
     let mut files =
         vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
+    if extras.xlsx {
+        files.push(ReportFile::new(workbook::FILE, workbook::xlsx(run)?));
+    }
+    if extras.dxf {
+        files.push(ReportFile::new(drawing::FILE, drawing::dxf(run)?));
+    }
     files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile::new(name, text)));
     if let Some(simulated) = &run.simulated {
         files.push(ReportFile::new(HISTORIES, series::csv(&simulated.histories)));
         files.push(ReportFile::new("histories.parquet", series::parquet(&simulated.histories)?));
     }
-    if let Some(seen) = run.simulated.as_ref().filter(|_| with_vtk) {
+    if let Some(seen) = run.simulated.as_ref().filter(|_| extras.vtk) {
         let named = |file: ReportFile| ReportFile { name: format!("{}/{}", vtk::FOLDER, file.name), ..file };
         let film = &seen.histories.film;
         let ground = pieces(&run.file.design.channel, film.stretch());

@@ -7,14 +7,15 @@ use crate::commands::Failure;
 use crate::commands::input::{self, LONGEST_RECORDING};
 use crate::commands::output::hand_over;
 use crate::commands::told::Format;
+use crate::extras::Extras;
 use crate::pipeline::Run;
 use crate::report::folder::{Folder, Named};
 use crate::report::kind::Kind;
 use crate::report::recording::{self, decode};
 use crate::terminal;
 
-/// Makes the report in `folder` again from its recording, and the files for ParaView where asked for.
-pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
+/// Makes the report in `folder` again from its recording, with the files for other programs that are asked for.
+pub fn report(folder: &Path, extras: Extras) -> ExitCode {
     match read_recording(folder) {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
@@ -23,7 +24,7 @@ pub fn report(folder: &Path, with_vtk: bool) -> ExitCode {
         Ok(run) => {
             let claimed = Folder::claim(folder, None, Named::Explicitly);
             match claimed.and_then(|folder| folder.for_recorded(kind_of(&run))) {
-                Ok(mut folder) => hand_over(&run, &mut folder, with_vtk, Format::Text),
+                Ok(mut folder) => hand_over(&run, &mut folder, extras, Format::Text),
                 Err(refusal) => {
                     terminal::warn(format_args!("error: {refusal}"));
                     ExitCode::Undecided

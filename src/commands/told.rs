@@ -5,11 +5,13 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::commands::printed;
 use crate::design::read::stem;
+use crate::extras::Extras;
 use crate::pipeline::Run;
 use crate::problem::{Problem, Problems};
 use crate::report::view::View;
-use crate::report::vtk;
+use crate::report::{drawing, vtk, workbook};
 use crate::scene::estimate::Estimate;
 use crate::terminal;
 
@@ -117,9 +119,9 @@ impl Format {
     }
 
     /// How a run ended, whose report was written into `folder`.
-    pub fn tell_verdict(self, run: &Run, view: &View, folder: &Path, with_vtk: bool) {
+    pub fn tell_verdict(self, run: &Run, view: &View, folder: &Path, extras: Extras) {
         match self {
-            Self::Text => summarise(view, folder, with_vtk),
+            Self::Text => summarise(view, folder, extras),
             Self::Json => ToldFile {
                 verdict: Some(run.verdict.word().to_string()),
                 report: Some(folder.display().to_string()),
@@ -145,7 +147,7 @@ impl Format {
 }
 
 /// Verdict and checks for the terminal.
-fn summarise(view: &View, folder: &Path, with_vtk: bool) {
+fn summarise(view: &View, folder: &Path, extras: Extras) {
     let say = |line: String| {
         let _ = terminal::say(line);
     };
@@ -167,8 +169,15 @@ fn summarise(view: &View, folder: &Path, with_vtk: bool) {
     for reason in &view.open {
         say(format!("  open, because {}: {}", reason.why, reason.checks));
     }
-    if with_vtk {
-        say(format!("paraview: {}", folder.join(vtk::FOLDER).display()));
+    for (asked, name, file) in [
+        (extras.vtk, "paraview", vtk::FOLDER),
+        (extras.xlsx, "tables", workbook::FILE),
+        (extras.dxf, "drawing", drawing::FILE),
+        (extras.pdf, "pdf", printed::FILE),
+    ] {
+        if asked {
+            say(format!("{name}: {}", folder.join(file).display()));
+        }
     }
     say(format!("report: {}", folder.join("report.html").display()));
 }

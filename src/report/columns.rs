@@ -21,6 +21,11 @@ pub enum Column {
 }
 
 impl Column {
+    /// Its numbers; none of a column that has others.
+    pub fn numbers(&self) -> &[f64] {
+        if let Self::Numbers(values) = self { values } else { &[] }
+    }
+
     fn rows(&self) -> usize {
         match self {
             Self::Numbers(values) => values.len(),

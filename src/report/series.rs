@@ -9,7 +9,7 @@ use dem::recorders::channels::{Channel, Rows};
 use dem::recorders::histories::Histories;
 
 /// Columns by name, each with its values.
-fn numbers(histories: &Histories) -> Vec<(String, Column)> {
+pub fn numbers(histories: &Histories) -> Vec<(String, Column)> {
     let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
     let mut add = |name: String, values: Vec<f64>| columns.push((name, values));
     add("time_s".into(), histories.time.clone());

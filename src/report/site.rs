@@ -174,7 +174,8 @@ fn rings(drawing: &Drawing) -> Vec<Ring> {
     barrier.net_rings.iter().map(ring).collect()
 }
 
-fn across(run: &Run) -> Chart {
+/// The barrier in its section, as it is drawn.
+pub fn section_drawn(run: &Run) -> CrossSection {
     let (design, guideline) = (&run.file.design, &run.guideline);
     let plumb = libm::cos(design.channel.slope);
     let section = &guideline.section;
@@ -220,7 +221,7 @@ fn across(run: &Run) -> Chart {
         });
     }
     let low = heights.first().copied().unwrap_or(0.0);
-    let chart = CrossSection {
+    CrossSection {
         ground: drawing.ground(),
         members,
         posts: posts(&drawing, top),
@@ -228,7 +229,13 @@ fn across(run: &Run) -> Chart {
         rings: rings(&drawing),
         bed: drawing.ends(section.bed_ends()),
         surfaces: vec![(format!("flow, {:.2} m", guideline.input.depth / plumb), guideline.input.depth / plumb)],
-    };
+    }
+}
+
+fn across(run: &Run) -> Chart {
+    let (design, guideline) = (&run.file.design, &run.guideline);
+    let (plumb, top) = (libm::cos(design.channel.slope), guideline.input.barrier_height);
+    let section = &guideline.section;
     let is_net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let note = format!(
         "To scale, looking downstream; heights plumb over the lowest point of the bed. The barrier's top is {:.2} m high, plumb, and {:.2} m normal to the bed, which is the height that the load equations use.{}{}",
@@ -251,7 +258,7 @@ fn across(run: &Run) -> Chart {
             ""
         }
     );
-    Chart::of("Barrier in its section", cross_section(&chart), note)
+    Chart::of("Barrier in its section", cross_section(&section_drawn(run)), note)
 }
 
 /// How far behind the left and the right edge of the net a main rope is anchored (m).
@@ -312,28 +319,32 @@ fn outline(drawing: &Drawing, low: f64, top: f64) -> Vec<[f64; 2]> {
     line.into_iter().map(|[y, z]| [drawing.right(y), z / drawing.plumb]).collect()
 }
 
-/// Bed, barrier and the deposit that the filled barrier keeps; nothing where none ends on the bed.
-fn along(run: &Run) -> Option<Chart> {
+/// Bed, barrier and the deposit that the filled barrier keeps, as they are drawn; no deposit where none ends on the bed.
+pub fn profile_drawn(run: &Run) -> LongProfile {
     let (design, guideline) = (&run.file.design, &run.guideline);
-    let held = guideline.retention?;
-    let reservoir = reservoir(design);
-    let surface = |name: &str, slope: Slope| {
-        let stored = reservoir.stored(held.deposit.height, slope, 0.0)?;
-        let name = format!("{name}: {}, {} long", with_unit(stored.volume, "m³"), with_unit(stored.length, "m"));
-        Some(Surface { name, height: held.deposit.height, slope, length: stored.length })
-    };
-    let mut surfaces: Vec<Surface> =
-        surface("at the design slope", Slope::OfTheBed(design.loads.deposit_slope)).into_iter().collect();
-    if held.deposit.surface > 0.0 {
-        surfaces.extend(surface("level", Slope::Plane(0.0)));
-    }
+    let surfaces = guideline.retention.map_or_else(Vec::new, |held| {
+        let reservoir = reservoir(design);
+        let surface = |name: &str, slope: Slope| {
+            let stored = reservoir.stored(held.deposit.height, slope, 0.0)?;
+            let name = format!("{name}: {}, {} long", with_unit(stored.volume, "m³"), with_unit(stored.length, "m"));
+            Some(Surface { name, height: held.deposit.height, slope, length: stored.length })
+        };
+        let level = (held.deposit.surface > 0.0).then(|| surface("level", Slope::Plane(0.0))).flatten();
+        surface("at the design slope", Slope::OfTheBed(design.loads.deposit_slope)).into_iter().chain(level).collect()
+    });
     let top = guideline.input.barrier_height;
-    let drawn = LongProfile {
+    LongProfile {
         slope: design.channel.slope,
         profile: design.channel.profile.clone().unwrap_or_else(|| Profile::new(design.channel.slope, &[], &[], 0.0)),
         top: [-top * libm::tan(guideline.lean), top],
         surfaces,
-    };
+    }
+}
+
+/// The same as a picture; nothing where no deposit ends on the bed.
+fn along(run: &Run) -> Option<Chart> {
+    let (design, guideline) = (&run.file.design, &run.guideline);
+    let held = guideline.retention?;
     let note = format!(
         "To scale, plumb. What the filled barrier holds below a surface that starts {} above the bed (normal to it) at the barrier.{}",
         with_unit(held.deposit.height, "m"),
@@ -343,7 +354,7 @@ fn along(run: &Run) -> Option<Chart> {
             ""
         }
     );
-    Some(Chart::of("Bed, barrier and deposit along the channel", long_profile(&drawn), note))
+    Some(Chart::of("Bed, barrier and deposit along the channel", long_profile(&profile_drawn(run)), note))
 }
 
 /// Volume behind the barrier by the height of the deposit at it.

@@ -102,7 +102,10 @@ impl Runs {
         let folder = folder_name(&stem);
         let design = format!("./{design}");
         let seeds = how.seeds.to_string();
-        self.start(&folder, &[&design, "--out", &format!("{OUT}/{folder}"), "--seeds", &seeds, "--watched"])?;
+        self.start(
+            &folder,
+            &[&design, "--out", &format!("{OUT}/{folder}"), "--seeds", &seeds, "--xlsx", "--dxf", "--watched"],
+        )?;
         Ok(folder)
     }
 

@@ -41,13 +41,20 @@ pub struct LongProfile {
 
 impl LongProfile {
     /// Level and plumb, from what is along the bed and normal to it at the barrier.
-    fn turned(&self, [along, normal]: [f64; 2]) -> [f64; 2] {
+    pub fn turned(&self, [along, normal]: [f64; 2]) -> [f64; 2] {
         let (sine, cosine) = libm::sincos(self.slope);
         [along * cosine + normal * sine, normal * cosine - along * sine]
     }
 
+    /// From where to where along the channel it is drawn, level, from the barrier's foot (m).
+    pub fn stretch(&self) -> [f64; 2] {
+        let tall = self.turned(self.top)[1].abs().max(self.top[1]);
+        let longest = self.surfaces.iter().map(|surface| surface.length).fold(UPSTREAM * tall, f64::max);
+        [-1.05 * longest, DOWNSTREAM * tall]
+    }
+
     /// Places of the bed between two others, its corners included.
-    fn bed(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
+    pub fn bed(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
         let corners = self.profile.corners().iter().map(|corner| corner[0]).filter(|x| *x > from && *x < to);
         let mut places: Vec<f64> = corners.collect();
         places.insert(0, from);
@@ -56,7 +63,7 @@ impl LongProfile {
     }
 
     /// The surface from the barrier to where it meets the bed.
-    fn surface(&self, surface: &Surface) -> Vec<[f64; 2]> {
+    pub fn surface(&self, surface: &Surface) -> Vec<[f64; 2]> {
         let lean = self.top[0] / self.top[1];
         let [x, z] = self.turned([lean * surface.height, surface.height]);
         let bed = self.bed(-surface.length, x.min(0.0));
@@ -73,9 +80,7 @@ impl LongProfile {
 
 pub fn long_profile(drawn: &LongProfile) -> String {
     let [top_x, top_z] = drawn.turned(drawn.top);
-    let tall = top_z.abs().max(drawn.top[1]);
-    let longest = drawn.surfaces.iter().map(|surface| surface.length).fold(UPSTREAM * tall, f64::max);
-    let (left, right) = (-1.05 * longest, DOWNSTREAM * tall);
+    let [left, right] = drawn.stretch();
     let bed = drawn.bed(left, right);
     let highest = bed.iter().map(|point| point[1]).fold(top_z, f64::max);
     let lowest = bed.iter().map(|point| point[1]).fold(0.0, f64::min);

@@ -1,0 +1,141 @@
+//! `--pdf`: the report as a browser of the Chromium family prints it. A library that sets pages would be several times as large as the program, and
+//! a second form of every page to keep.
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use std::{fs, io, thread};
+
+/// Name of the file.
+pub const FILE: &str = "report.pdf";
+
+/// What such browsers are called, and where they are when they are not on the path.
+const NAMES: [&str; 8] = [
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+    "msedge",
+    "microsoft-edge",
+    "microsoft-edge-stable",
+];
+const PLACES: [&str; 6] = [
+    r"C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe",
+    r"C:\Program Files\Microsoft\Edge\Application\msedge.exe",
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    "/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
+];
+/// Names the browser, before all of these.
+const VARIABLE: &str = "CHROMIUM";
+
+/// Longest that a browser may take.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Why there is no PDF.
+#[derive(Debug, thiserror::Error)]
+pub enum PrintError {
+    #[error(
+        "--pdf needs a browser of the Chromium family (Chromium, Chrome or Edge), and none was found: install one, name its program in the environment variable {VARIABLE}, or leave out --pdf and print report.html from any browser"
+    )]
+    NoBrowser,
+    #[error("the browser {0} did not print the report: {1}")]
+    Browser(String, String),
+    #[error("the report could not be handed to the browser: {0}")]
+    File(#[from] io::Error),
+}
+
+/// A browser that prints.
+pub struct Browser(PathBuf);
+
+impl Browser {
+    /// The one of this machine.
+    pub fn find() -> Result<Self, PrintError> {
+        if let Some(named) = std::env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
+            return Ok(Self(PathBuf::from(named)));
+        }
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let on_the_path = std::env::split_paths(&path)
+            .flat_map(|folder| NAMES.map(|name| folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX))));
+        let found = on_the_path.chain(PLACES.map(PathBuf::from)).find(|place| place.is_file());
+        found.map(Self).ok_or(PrintError::NoBrowser)
+    }
+
+    /// A page as PDF.
+    pub fn print(&self, html: &str) -> Result<Vec<u8>, PrintError> {
+        let folder = Scratch::new()?;
+        let [page, printed] = ["report.html", FILE].map(|name| folder.0.join(name));
+        fs::write(&page, html)?;
+        // Without its sandbox only where it would not start with it, as in a container: the page is the program's own, and asks for nothing.
+        let mut told = self.run(&folder.0, &page, &printed, &[])?;
+        if !printed.is_file() {
+            told = self.run(&folder.0, &page, &printed, &["--no-sandbox"])?;
+        }
+        fs::read(&printed).map_err(|_| PrintError::Browser(self.0.display().to_string(), told))
+    }
+
+    /// Runs the browser to its end; what it told.
+    fn run(&self, folder: &Path, page: &Path, printed: &Path, more: &[&str]) -> Result<String, PrintError> {
+        let failed = |error: String| PrintError::Browser(self.0.display().to_string(), error);
+        let log = folder.join("told.txt");
+        let mut child = Command::new(&self.0)
+            .args([
+                "--headless",
+                "--disable-gpu",
+                "--no-first-run",
+                "--disable-extensions",
+                "--disable-background-networking",
+            ])
+            .args(["--disable-sync", "--disable-component-update", "--no-pdf-header-footer"])
+            .args(more)
+            .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+            .arg(format!("--print-to-pdf={}", printed.display()))
+            .arg(format!("file://{}", page.display()))
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(fs::File::create(&log)?)
+            .spawn()
+            .map_err(|error| failed(error.to_string()))?;
+        if !ends(&mut child)? {
+            return Err(failed(format!("it had not ended after {} s", PATIENCE.as_secs())));
+        }
+        let told = fs::read_to_string(&log).unwrap_or_default();
+        Ok(told.lines().last().unwrap_or("it told nothing").to_string())
+    }
+}
+
+/// Waits for the end; whether it came.
+fn ends(child: &mut Child) -> io::Result<bool> {
+    let began = Instant::now();
+    while child.try_wait()?.is_none() {
+        if began.elapsed() > PATIENCE {
+            child.kill()?;
+            child.wait()?;
+            return Ok(false);
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    Ok(true)
+}
+
+/// A folder for the browser, which goes when it is no longer needed.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new() -> io::Result<Self> {
+        let mut name = [0; 8];
+        getrandom::fill(&mut name).map_err(|error| io::Error::other(error.to_string()))?;
+        let folder = std::env::temp_dir().join(format!("barrier-check-{:016x}", u64::from_le_bytes(name)));
+        fs::create_dir(&folder)?;
+        Ok(Self(folder))
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // A browser may still be at it; what it leaves is in the folder for what is temporary.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
