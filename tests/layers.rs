@@ -174,6 +174,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "new_design",
             "pipeline",
             "problem",
+            "program",
             "report",
             "scene",
             "container",

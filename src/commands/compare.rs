@@ -59,7 +59,7 @@ pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
     };
     tell_of_replaced(&page, Kind::Comparison);
     for (((path, source), folder), report) in paths.iter().zip(sources).zip(names).zip(&mut reports) {
-        terminal::warn(format_args!("{}", path.display()));
+        terminal::warn(format_args!("{} of {}: {}", variants.len() + 1, paths.len(), path.display()));
         let ran = source.run(options).and_then(|run| {
             // A page of before does not stand beside reports that are not its own.
             put(&mut page, &[])?;

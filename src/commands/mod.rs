@@ -17,6 +17,7 @@ pub mod schema;
 pub mod serve;
 pub(crate) mod signals;
 mod size;
+mod steps;
 pub mod study;
 mod sweep;
 pub mod told;

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
 
+use crate::report::glimpse::Picture;
 use crate::scene::event::ProgressReport;
 use crate::terminal;
 
@@ -17,9 +18,6 @@ const BETWEEN_WATCHED: Duration = Duration::from_millis(200);
 
 /// Parts of the bar.
 const PARTS: f64 = 1000.0;
-
-/// Grains of a picture that another program is told at the most.
-const MOST_GRAINS: usize = 1500;
 
 /// Whom progress is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,19 +65,6 @@ pub struct Line {
     pub left: Option<f64>,
     /// What the first simulation looks like, where that has changed.
     pub picture: Option<Picture>,
-}
-
-/// The flow and the barrier from the side and from upstream, in cm.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Picture {
-    /// s
-    pub time: f64,
-    /// Along the channel, across it and normal to the bed, and the radius, of each grain that is shown.
-    pub grains: Vec<[i32; 4]>,
-    /// The same of the ends of each rope of the barrier.
-    pub ropes: Vec<[i32; 6]>,
-    /// One grain of so many is shown.
-    pub one_of: usize,
 }
 
 impl Progress {
@@ -135,7 +120,7 @@ impl Progress {
                     peak: peak.take(),
                     taken,
                     left,
-                    picture: new.map(|frame| Picture::of(report, frame)),
+                    picture: new.map(|frame| Picture::of(report.film, frame)),
                 };
                 if let Ok(line) = serde_json::to_string(&line) {
                     terminal::warn(line);
@@ -168,29 +153,6 @@ impl Told {
     }
 }
 
-impl Picture {
-    fn of(report: &ProgressReport, frame: &dem::recorders::film::Frame) -> Self {
-        let cm = |place: [f32; 3]| place.map(|value| (100.0 * value).round() as i32);
-        let one_of = frame.grains.len().div_ceil(MOST_GRAINS).max(1);
-        let looks = frame.grains.iter().zip(&report.film.looks).step_by(one_of);
-        let grains = looks.filter_map(|(pose, [radius, _])| {
-            let [x, y, z] = cm(pose.as_ref()?.place);
-            Some([x, y, z, ((100.0 * radius).round() as i32).max(1)])
-        });
-        let rope = |ends: [u32; 2]| {
-            let [a, b] = ends.map(|end| frame.nodes.get(end as usize).copied().map(cm));
-            let ([a, b, c], [d, e, f]) = (a?, b?);
-            Some([a, b, c, d, e, f])
-        };
-        Self {
-            time: frame.time,
-            grains: grains.collect(),
-            ropes: report.film.ropes.iter().filter_map(|(ends, _)| rope(*ends)).collect(),
-            one_of,
-        }
-    }
-}
-
 fn words(report: &ProgressReport) -> String {
     let which =
         if report.of > 1 { format!("simulation {} of {}, ", report.number + 1, report.of) } else { String::new() };
@@ -198,7 +160,7 @@ fn words(report: &ProgressReport) -> String {
 }
 
 /// Time that a run of which a share is done may still take (s); nothing while too little of it is done.
-fn left(taken: f64, share: f64) -> Option<f64> {
+pub fn left(taken: f64, share: f64) -> Option<f64> {
     (share >= 0.02).then(|| taken * (1.0 - share) / share)
 }
 

@@ -10,6 +10,7 @@ use crate::commands::kept::KeptResults;
 use crate::commands::kept_simulations::simulated;
 use crate::commands::output::put;
 use crate::commands::signals::listen;
+use crate::commands::steps::Steps;
 use crate::commands::{ExitCode, Failure};
 use crate::design::Design;
 use crate::design::changes::Changes;
@@ -142,7 +143,7 @@ fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> 
     };
     let asked = states.asked(&DesignFile { design, ..file }, Some(&first));
     judged(states, &asked)?;
-    let (checks, done) = (&asked.checks, Mutex::new(0));
+    let (checks, done, steps) = (&asked.checks, Mutex::new(0), Steps::begin(wanted.runs));
     let runs = |batch: &[(Vec<f64>, u32)]| {
         let ran = side_by_side(wanted.workers, batch.len(), |number| {
             let (u, packing) = &batch[number];
@@ -150,7 +151,7 @@ fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> 
             Ok(found.and_then(|(design, simulated)| states.by_simulation(&design, &simulated, checks)))
         });
         let ran = ran.into_iter().collect::<Result<Vec<_>, String>>()?;
-        tell(&done, batch.len(), wanted.runs, &ran, checks);
+        tell(&done, batch.len(), &steps, &ran, checks);
         Ok(ran)
     };
     let assessed = by_simulations(states.inputs.len(), &runs, &asked.checks, &states.tally, wanted)?;
@@ -158,7 +159,7 @@ fn of_simulations(states: &LimitStates, wanted: &Wanted, kept: &KeptResults) -> 
 }
 
 /// How far the simulations have come.
-fn tell(done: &Mutex<usize>, more: usize, of: usize, ran: &[Option<Vec<f64>>], checks: &[Judged]) {
+fn tell(done: &Mutex<usize>, more: usize, steps: &Steps, ran: &[Option<Vec<f64>>], checks: &[Judged]) {
     let Ok(mut done) = done.lock() else { return };
     *done += more;
     let largest = |used: &Vec<f64>| {
@@ -167,5 +168,5 @@ fn tell(done: &Mutex<usize>, more: usize, of: usize, ran: &[Option<Vec<f64>>], c
     };
     let last: Vec<String> =
         ran.iter().map(|used| used.as_ref().map_or("not judged".into(), largest)).rev().take(2).rev().collect();
-    let _ = terminal::say(format_args!("{done} of at most {of} simulations; the last: {}", last.join(", ")));
+    let _ = terminal::say(format_args!("{}, at the most; the last: {}", steps.line(*done), last.join(", ")));
 }

@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::check::load;
@@ -15,6 +13,7 @@ use crate::commands::output::{put, tell_of_replaced};
 use crate::commands::reliability::reliability;
 use crate::commands::signals::{listen, stop};
 use crate::commands::size::size;
+use crate::commands::steps::Steps;
 use crate::commands::sweep::sweep;
 use crate::design::read::DesignFile;
 use crate::report::folder::{Folder, Named, Refusal, folder_name};
@@ -127,9 +126,7 @@ fn all_points(
     kept: &KeptResults,
 ) -> Result<Vec<(Task, Option<Point>)>, Failure> {
     listen();
-    let bar = ProgressBar::new(tasks.len() as u64);
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len}  {msg}  {eta} left");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let steps = Steps::begin(tasks.len());
     let found = AtomicUsize::new(0);
     let threads = rayon::current_num_threads();
     let results = side_by_side(threads, tasks.len(), |index| -> Result<Option<Point>, String> {
@@ -140,10 +137,11 @@ fn all_points(
         let of: Vec<&[u8]> = [&scene.text[..], turned.as_bytes()].into_iter().chain(attached).collect();
         if let Some(point) = kept.get(&of) {
             found.fetch_add(1, Ordering::Relaxed);
-            bar.inc(1);
+            steps.done("kept from before");
             return Ok(Some(point));
         }
-        bar.set_message(format!("{}, {}", scene.name, task.setting.word()));
+        let what = format!("{}, {}", scene.name, task.setting.word());
+        steps.next(&what);
         let watch = Watch { progress: &|_| (), stop: stop(), store: None };
         let point = match make(task, &scene.design, &watch) {
             Ok(point) => point,
@@ -151,10 +149,10 @@ fn all_points(
             Err(error) => return Err(error.to_string()),
         };
         kept.put(&of, &point).map_err(|error| error.to_string())?;
-        bar.inc(1);
+        steps.done(&what);
         Ok(Some(point))
     });
-    bar.finish_and_clear();
+    steps.end();
     terminal::warn(format_args!("{} runs, {} of them kept from before", tasks.len(), found.load(Ordering::Relaxed)));
     let points = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(tasks.iter().cloned().zip(points).collect())

@@ -10,6 +10,7 @@ use crate::commands::input::{self, LONGEST_TEXT};
 use crate::commands::kept::KeptResults;
 use crate::commands::output::put;
 use crate::commands::signals::{listen, stop};
+use crate::commands::steps::Steps;
 use crate::commands::{ExitCode, Failure};
 use crate::design::changes::Changes;
 use crate::design::read::{Source, sha256};
@@ -181,7 +182,13 @@ pub fn sweep(
     terminal::warn(format_args!("{} runs, {} of them kept from before", sweep.count(), sweep.count() - missing.len()));
     match mode {
         Mode::On(Engine::Local) => {
-            let made = side_by_side(rayon::current_num_threads(), missing.len(), |number| sweep.make(missing[number]));
+            let steps = Steps::begin(missing.len());
+            let made = side_by_side(rayon::current_num_threads(), missing.len(), |number| {
+                let made = sweep.make(missing[number]);
+                steps.done(&sweep.id(missing[number]));
+                made
+            });
+            steps.end();
             made.into_iter().collect::<Result<(), String>>()?;
         }
         Mode::On(engine) => {

@@ -9,6 +9,7 @@ pub(crate) mod dissipators;
 pub(crate) mod drawing;
 pub(crate) mod findings;
 pub(crate) mod folder;
+pub mod glimpse;
 pub(crate) mod holding;
 pub mod json;
 pub(crate) mod kind;

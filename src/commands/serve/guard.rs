@@ -15,7 +15,6 @@ use axum::http::{HeaderMap, HeaderValue, Method, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-use super::Served;
 use super::answer::Refused;
 use crate::commands::Failure;
 
@@ -68,8 +67,7 @@ fn one<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Option<&'a str> {
 }
 
 /// Lets a request through if it comes from a page of this server; the first comes with the token, and is given a cookie for those after it.
-pub async fn admit(State(served): State<Arc<Served>>, request: Request, next: Next) -> Response {
-    let guard = &served.guard;
+pub async fn admit(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
     let headers = request.headers();
     let forbidden = |why: &str| Refused::new(StatusCode::FORBIDDEN, why).into_response();
     if !one(headers, &HOST).is_some_and(|host| guard.is_known(host)) {

@@ -8,6 +8,7 @@ mod look;
 mod page;
 mod requests;
 mod runs;
+mod served;
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
@@ -28,6 +29,7 @@ use crate::terminal;
 use self::chosen::Chosen;
 use self::guard::Guard;
 use self::runs::Runs;
+use self::served::Served;
 
 /// How the page is served.
 #[derive(Clone, Debug)]
@@ -38,13 +40,6 @@ pub struct Options {
     pub port: u16,
     /// Whether to open the page in the browser of the system.
     pub open: bool,
-}
-
-/// What every request may use.
-struct Served {
-    chosen: Chosen,
-    runs: Runs,
-    guard: Guard,
 }
 
 /// How long runs have to be kept when the program is asked to end.
@@ -83,14 +78,14 @@ fn run(options: &Options) -> Result<(), Failure> {
             terminal::warn("note: no browser could be opened: open the address above");
         }
         let runs = Runs::new(chosen.root());
-        let served = Arc::new(Served { chosen, runs, guard });
+        let served = Arc::new(Served { chosen, runs });
         let asked_to_end = async {
             while !stop().load(Ordering::Relaxed) {
                 tokio::time::sleep(LOOK_EVERY).await;
             }
         };
         tokio::select! {
-            served = serve_router(listener, router(Arc::clone(&served))).into_future() => served?,
+            served = serve_router(listener, router(Arc::clone(&served), guard)).into_future() => served?,
             () = asked_to_end => {}
         }
         served.runs.stop_all(LAST_WAIT);
@@ -98,7 +93,7 @@ fn run(options: &Options) -> Result<(), Failure> {
     })
 }
 
-fn router(served: Arc<Served>) -> Router {
+fn router(served: Arc<Served>, guard: Guard) -> Router {
     let router = Router::new()
         .route("/", get(page::index))
         .route("/page/{name}", get(page::asset))
@@ -115,7 +110,7 @@ fn router(served: Arc<Served>) -> Router {
         .fallback(answer::nothing_there);
     router
         .layer(DefaultBodyLimit::max(2 * LONGEST_TEXT as usize))
-        .layer(from_fn_with_state(Arc::clone(&served), guard::admit))
+        .layer(from_fn_with_state(Arc::new(guard), guard::admit))
         .layer(from_fn(guard::harden))
         .with_state(served)
 }

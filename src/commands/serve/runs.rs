@@ -15,8 +15,9 @@ use serde_json::Value;
 use super::answer::Refused;
 use crate::checkpoint;
 use crate::commands::input;
-use crate::commands::progress::{Line, Picture};
+use crate::commands::progress::Line;
 use crate::report::folder::{folder_name, inner};
+use crate::report::glimpse::Picture;
 use crate::report::manifest::{self, Manifest};
 
 /// Where reports go, below the folder that is served.
