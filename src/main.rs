@@ -215,9 +215,9 @@ enum Command {
         /// Folder of the designs; reports go to its folder out
         #[arg(default_value = ".")]
         folder: PathBuf,
-        /// Port on the loopback address [default: one that is free]
-        #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
-        port: u16,
+        /// Port on the loopback address [default: 8732, or one that is free]
+        #[arg(long, value_name = "N")]
+        port: Option<u16>,
         /// Opens no browser
         #[arg(long)]
         no_open: bool,

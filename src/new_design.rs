@@ -125,7 +125,7 @@ struct Filled<'a> {
     wall: bool,
     rings: bool,
     vertical: bool,
-    banks: &'a str,
+    banks: String,
     bank_height: String,
     width: &'a str,
     slope: &'a str,
@@ -185,7 +185,12 @@ pub fn text(answers: &[String; 10], beside: Beside) -> Result<String, tera::Erro
         wall: what == What::Wall,
         rings: what == What::Rings,
         vertical: answer("banks") == "vertical",
-        banks: answer("banks"),
+        // A colon with a space behind it would be a key of YAML.
+        banks: answer("banks").split_whitespace().collect::<Vec<_>>().join(if ratio(answer("banks")).is_some() {
+            ""
+        } else {
+            " "
+        }),
         // So that the banks reach over what runs up at the barrier.
         bank_height: length(height + 2.0),
         width: answer("width"),

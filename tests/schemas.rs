@@ -69,6 +69,25 @@ fn what_the_program_refuses_is_not() {
 
 /// Results with and without simulation, and one whose numbers are not all finite.
 #[test]
+fn a_study_that_the_program_takes_is_valid_and_one_with_a_wrong_key_is_not() {
+    let validator = validator("study");
+    let mut seen = 0;
+    for entry in std::fs::read_dir("designs/studies").expect("the folder").flatten() {
+        if entry.path().extension().is_none_or(|ending| ending != "yaml") {
+            continue;
+        }
+        let study = design(&std::fs::read_to_string(entry.path()).expect("a study"));
+        let wrong: Vec<String> = validator.iter_errors(&study).map(|error| error.to_string()).collect();
+        assert!(wrong.is_empty(), "{}: {wrong:#?}", entry.path().display());
+        let mut spoilt = study;
+        spoilt["nam"] = "x".into();
+        assert!(!validator.is_valid(&spoilt), "{}", entry.path().display());
+        seen += 1;
+    }
+    assert!(seen >= 8);
+}
+
+#[test]
 fn what_the_program_gives_is_valid() {
     let validator = validator("result");
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("schemas");

@@ -425,7 +425,7 @@ fn nothing_that_somebody_else_has_written_is_overwritten() {
     // The other tab still has what was there before.
     let second = put("tiny.yaml", &format!("{text}# two\n"), read["digest"].clone());
     let conflict = |answer: Answer| answer.json()["conflict"].as_str().map(str::to_string);
-    assert!(conflict(second).is_some_and(|why| why.contains("changed by somebody else")));
+    assert!(conflict(second).is_some_and(|why| why.contains("changed elsewhere")));
     assert!(std::fs::read_to_string(&place).expect("it").ends_with("# one\n"));
     // A new one in the place of one that is there, and one whose file has gone.
     assert!(conflict(put("tiny.yaml", "mine", Value::Null)).is_some());

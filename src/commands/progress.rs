@@ -35,6 +35,8 @@ struct Told {
     shown: Shown,
     /// Share of each simulation that is done.
     shares: Vec<f64>,
+    /// Share of all that was done at the first word of this run, which may go on with an earlier one, and when that was.
+    first: Option<(f64, Instant)>,
     /// Frames of the first simulation that have been told.
     frame_until: f64,
     /// Time (s) and largest force (N) of the first simulation since a program was told.
@@ -77,7 +79,13 @@ impl Progress {
         };
         Self {
             began: now,
-            told: Mutex::new(Told { shown, shares: Vec::new(), frame_until: f64::NEG_INFINITY, peak: None }),
+            told: Mutex::new(Told {
+                shown,
+                shares: Vec::new(),
+                first: None,
+                frame_until: f64::NEG_INFINITY,
+                peak: None,
+            }),
         }
     }
 
@@ -86,7 +94,9 @@ impl Progress {
         let Ok(mut told) = self.told.lock() else { return };
         let share = told.share(report);
         let taken = self.began.elapsed().as_secs_f64();
-        let left = left(taken, share);
+        let (first, since) = *told.first.get_or_insert((share, Instant::now()));
+        let left = left(since.elapsed().as_secs_f64(), share - first)
+            .map(|whole| whole * (1.0 - share) / (1.0 - (share - first)));
         if report.number == 0 && told.peak.is_none_or(|[_, force]| report.force > force) {
             told.peak = Some([report.time, report.force]);
         }
@@ -145,6 +155,7 @@ impl Told {
         if self.shares.len() != report.of {
             // The next step of a ladder, or another study: what was before is over.
             self.shares = vec![0.0; report.of];
+            self.first = None;
         }
         if let Some(share) = self.shares.get_mut(report.number) {
             *share = report.share;

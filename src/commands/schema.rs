@@ -21,6 +21,8 @@ const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
 pub enum SchemaOf {
     /// A design file
     Design,
+    /// A study file
+    Study,
     /// result.json of a run
     Result,
     /// size.json of a study
@@ -37,6 +39,7 @@ impl SchemaOf {
     pub fn schema(self) -> Value {
         match self {
             Self::Design => design_schema(),
+            Self::Study => study_schema(),
             Self::Result => of_a_file::<ResultFile>(),
             Self::Size => of_a_file::<SizeFile>(),
             Self::Reliability => of_a_file::<ReliabilityFile>(),
@@ -52,6 +55,27 @@ fn of_a_file<T: JsonSchema>() -> Value {
     let mut schema = generator.into_root_schema_for::<T>().to_value();
     plain(&mut schema);
     schema
+}
+
+/// Schema of the file of a study, from the types that it is read into.
+fn study_schema() -> Value {
+    let mut schema = crate::studies::plan::schema();
+    without_formats(&mut schema);
+    schema
+}
+
+/// Leaves out formats that only some validators know.
+fn without_formats(schema: &mut Value) {
+    match schema {
+        Value::Object(map) => {
+            if map.get("format").is_some_and(Value::is_string) {
+                map.remove("format");
+            }
+            map.values_mut().for_each(without_formats);
+        }
+        Value::Array(items) => items.iter_mut().for_each(without_formats),
+        _ => {}
+    }
 }
 
 /// Leaves out formats that only some validators know, and lets every number be null: JSON has no infinity and no NaN.

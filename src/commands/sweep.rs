@@ -249,6 +249,13 @@ fn gather(sweep: &Sweep, folder: &mut Folder) -> Result<(Option<PathBuf>, ExitCo
             sweep.count()
         ));
     }
-    let code = if missing == 0 { ExitCode::Pass } else { ExitCode::Undecided };
+    let not_made = runs.iter().flatten().filter(|run| run.is_not_made()).count();
+    if not_made > 0 {
+        terminal::warn(format_args!(
+            "{not_made} of {} runs could not be made, because their values make no design or it could not be simulated; the page says why",
+            sweep.count()
+        ));
+    }
+    let code = if missing + not_made == 0 { ExitCode::Pass } else { ExitCode::Undecided };
     Ok((Some(folder.path().join("sweep.html")), code))
 }

@@ -1,5 +1,6 @@
 //! What a barrier is made of, and what that costs.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::{BarrierDesign, BarrierModel, Design, DissipatorDesign, FlexibleNet};
@@ -10,7 +11,7 @@ use crate::scene::net::build::{ROPE_DENSITY, build};
 const FILLED: f64 = 0.663;
 
 /// A quantity that a price may stand on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// Of ropes, net and posts.
@@ -133,7 +134,7 @@ fn energy(design: &DissipatorDesign) -> f64 {
 }
 
 /// The price of a unit of a quantity.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Price {
     pub of: Measure,
@@ -144,7 +145,7 @@ pub struct Price {
 }
 
 /// Prices, and the money they are in.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Prices {
     #[serde(default)]

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::Value;
 
@@ -10,15 +11,17 @@ use crate::design::document::Node;
 use crate::studies::amount::{Amount, node, shown};
 
 /// One choice as a study file has it: a key with its values or with a range of them, or options that set several keys at once.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChoiceText {
     key: Option<String>,
+    #[schemars(with = "Option<Vec<serde_json::Value>>")]
     values: Option<Vec<Value>>,
     from: Option<String>,
     to: Option<String>,
     step: Option<String>,
     name: Option<String>,
+    #[schemars(with = "Option<Vec<BTreeMap<String, serde_json::Value>>>")]
     options: Option<Vec<BTreeMap<String, Value>>>,
 }
 

@@ -1,12 +1,13 @@
 //! The choices of the model that a study turns, each alone.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::design::{BarrierDesign, BarrierModel, Design};
 use crate::fidelity::{Fidelity, choose, step_share};
 
 /// A knob of the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Knob {
     /// Share of the critical time step.

@@ -6,6 +6,7 @@ pub(crate) mod choices;
 pub(crate) mod knobs;
 pub(crate) mod limit_states;
 pub(crate) mod plan;
+pub(crate) mod plan_schema;
 pub(crate) mod reliability;
 pub(crate) mod reliability_plan;
 pub(crate) mod size_plan;

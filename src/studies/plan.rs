@@ -3,11 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::design::document::{Document, Node};
 use crate::problem::{Problem, nearest};
 use crate::studies::knobs::Knob;
+use crate::studies::plan_schema::{misfits, of_kind, one_of};
 use crate::studies::reliability_plan::ReliabilityPlan;
 use crate::studies::size_plan::SizePlan;
 use crate::studies::sweep_plan::SweepPlan;
@@ -39,6 +42,26 @@ struct Head {
     kind: Kind,
 }
 
+impl Kind {
+    const ALL: [Self; 5] = [Self::SpeedAccuracy, Self::Stability, Self::Size, Self::Reliability, Self::Sweep];
+
+    /// Schema of the file of such a study.
+    fn schema(self) -> Value {
+        match self {
+            Self::SpeedAccuracy => of_kind::<Plan>("speed_accuracy"),
+            Self::Stability => of_kind::<StabilityPlan>("stability"),
+            Self::Size => of_kind::<SizePlan>("size"),
+            Self::Reliability => of_kind::<ReliabilityPlan>("reliability"),
+            Self::Sweep => of_kind::<SweepPlan>("sweep"),
+        }
+    }
+}
+
+/// Schema of the file of a study of any kind.
+pub fn schema() -> Value {
+    one_of(Kind::ALL.map(Kind::schema))
+}
+
 /// What the file of a study has to be, as an error tells it.
 const KEYS: &str = "a study with the keys kind, name and those of its kind, as in designs/studies";
 
@@ -61,6 +84,11 @@ impl Study {
         let misread = |error: serde_yaml::Error| vec![plainly(&error.to_string())];
         // The kind first: the place of a fault is lost where serde has to look ahead for it.
         let head: Head = serde_yaml::from_str(text).map_err(misread)?;
+        // All at once, and before it is read, which ends at the first.
+        let misfits = misfits(&head.kind.schema(), &document.root);
+        if !misfits.is_empty() {
+            return Err(misfits.into_iter().map(|[path, wrong]| format!("{}{path}: {wrong}", at(&path))).collect());
+        }
         let study = match head.kind {
             Kind::SpeedAccuracy => serde_yaml::from_str(text).map(Self::SpeedAccuracy),
             Kind::Stability => serde_yaml::from_str(text).map(Self::Stability),
@@ -138,10 +166,11 @@ fn doubled(path: &str, node: &Node) -> Vec<String> {
 }
 
 /// The map of where steps break.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StabilityPlan {
     #[serde(rename = "kind")]
+    #[schemars(skip)]
     _kind: Kind,
     /// What the study is called.
     pub name: String,
@@ -172,10 +201,11 @@ impl StabilityPlan {
     }
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     #[serde(rename = "kind")]
+    #[schemars(skip)]
     _kind: Kind,
     /// What the study is called.
     pub name: String,

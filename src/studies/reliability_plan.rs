@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::Value;
 
@@ -12,10 +13,11 @@ use crate::reliability::inputs::{Correlation, Inputs};
 use crate::studies::amount::{Amount, node, shown};
 use crate::studies::size_plan::{By, share};
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReliabilityPlan {
     #[serde(rename = "kind")]
+    #[schemars(skip)]
     _kind: serde::de::IgnoredAny,
     /// What the study is called.
     pub name: String,
@@ -25,6 +27,7 @@ pub struct ReliabilityPlan {
     pub by: By,
     /// Values of the design that are others here.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     set: BTreeMap<String, Value>,
     #[serde(default)]
     pub factors: FactorsWish,
@@ -67,7 +70,7 @@ fn seed() -> u64 {
 }
 
 /// What becomes of the partial factors of the design.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FactorsWish {
     /// All are 1, and every resistance may be used up: what they allow for is in the distributions.
@@ -78,7 +81,7 @@ pub enum FactorsWish {
 }
 
 /// An input with its distribution, as the file has it.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InputText {
     pub key: String,
@@ -88,54 +91,66 @@ pub struct InputText {
     uniform: Option<EndsText>,
     triangular: Option<TriangleText>,
     table: Option<TableText>,
+    #[schemars(with = "Option<serde_json::Value>")]
     least: Option<Value>,
+    #[schemars(with = "Option<serde_json::Value>")]
     most: Option<Value>,
     #[serde(default)]
     pub origin: String,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MomentsText {
+    #[schemars(with = "serde_json::Value")]
     mean: Value,
+    #[schemars(with = "Option<serde_json::Value>")]
     deviation: Option<Value>,
     /// Standard deviation over mean.
+    #[schemars(with = "Option<serde_json::Value>")]
     variation: Option<Value>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct EndsText {
+    #[schemars(with = "serde_json::Value")]
     from: Value,
+    #[schemars(with = "serde_json::Value")]
     to: Value,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TriangleText {
+    #[schemars(with = "serde_json::Value")]
     from: Value,
+    #[schemars(with = "serde_json::Value")]
     mode: Value,
+    #[schemars(with = "serde_json::Value")]
     to: Value,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TableText {
+    #[schemars(with = "Vec<serde_json::Value>")]
     values: Vec<Value>,
     cumulative: Vec<f64>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CorrelationText {
     between: [String; 2],
     rank: f64,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FragilityText {
     key: String,
+    #[schemars(with = "Vec<serde_json::Value>")]
     values: Vec<Value>,
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::design::entries::Purpose;
@@ -10,7 +11,7 @@ use crate::studies::choices::{ChoiceText, Choices, MOST_COMBINATIONS};
 use crate::studies::sizing::Wanted;
 
 /// What decides whether a barrier passes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
     /// The equations first, then simulations as coarse as decide it.
@@ -30,10 +31,11 @@ impl By {
     }
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SizePlan {
     #[serde(rename = "kind")]
+    #[schemars(skip)]
     _kind: serde::de::IgnoredAny,
     /// What the study is called.
     pub name: String,

@@ -39,6 +39,11 @@ pub struct CheckRan {
 }
 
 impl Ran {
+    /// Whether there is nothing but why there is nothing.
+    pub fn is_not_made(&self) -> bool {
+        ["invalid", "not simulated"].contains(&self.verdict.as_str())
+    }
+
     /// One that came to nothing.
     pub fn nothing(verdict: &str, why: String) -> Self {
         Self { verdict: verdict.into(), why, ..Self::default() }

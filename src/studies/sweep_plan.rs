@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::Value;
 
@@ -12,10 +13,11 @@ use crate::studies::amount::node;
 use crate::studies::choices::{ChoiceText, Choices, ChosenOption};
 use crate::studies::size_plan::By;
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepPlan {
     #[serde(rename = "kind")]
+    #[schemars(skip)]
     _kind: serde::de::IgnoredAny,
     /// What the study is called.
     pub name: String,
@@ -28,6 +30,7 @@ pub struct SweepPlan {
     pub packings: u32,
     /// Values of the designs that are others here.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     set: BTreeMap<String, Value>,
     vary: Vec<ChoiceText>,
     #[serde(default)]
@@ -39,7 +42,7 @@ fn one() -> u32 {
 }
 
 /// How the values of several keys go together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Combine {
     /// Each with each.

@@ -60,7 +60,8 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
                 .leave_open(Opening::Contradicted(format!("{full}, and scaled up to that it would fail ({instead})")));
         } else if !within(may_be) {
             outcome.leave_open(Opening::TooClose(format!(
-                "{full}: scaled up it would pass, but by less than the error of the simulation (run with --seeds 5 or simulation.fidelity: auto)"
+                "{full}: scaled up it would pass, but by less than the error of the simulation ({})",
+                seen.known_better()
             )));
         } else if !known_by_equations(outcome) {
             outcome.scale_up(more, used);

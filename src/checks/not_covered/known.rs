@@ -35,6 +35,17 @@ pub struct FirstSurge {
     pub share_band: f64,
 }
 
+impl FirstSurge {
+    /// How its scatter is known better, as a hint says it.
+    pub fn known_better(&self) -> &'static str {
+        if self.one_run > 0.0 {
+            "run with --seeds 5 or simulation.fidelity: auto"
+        } else {
+            "run with more packings, --seeds, or a finer simulation.fidelity"
+        }
+    }
+}
+
 /// What a rule goes by.
 #[derive(Clone, Copy)]
 pub struct Known<'a> {

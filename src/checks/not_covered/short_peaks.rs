@@ -16,8 +16,9 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         let within = |value: f64| value <= capacity;
         if within(at_most) && !within(at_most * (1.0 + seen.force_band)) {
             outcome.leave_open(Opening::TooClose(format!(
-                "the largest single sample is {:.0} % of what the wall holds, and other runs may show larger ones (run with --seeds 5 or simulation.fidelity: auto)",
-                100.0 * at_most / capacity
+                "the largest single sample is {:.0} % of what the wall holds, and other runs may show larger ones ({})",
+                100.0 * at_most / capacity,
+                seen.known_better()
             )));
         } else if !within(at_most) {
             outcome.leave_open(Opening::NotGiven(format!(

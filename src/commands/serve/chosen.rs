@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::{fs, io};
 
 use axum::http::StatusCode;
@@ -23,14 +24,6 @@ pub struct Chosen {
     root: PathBuf,
 }
 
-/// A file in YAML.
-#[derive(Debug, Serialize)]
-pub struct Listed {
-    path: String,
-    /// Whether it looks like a design; else it is a study or a kit.
-    design: bool,
-}
-
 /// A design as it stands on the disk.
 #[derive(Debug, Serialize)]
 pub struct Written {
@@ -50,15 +43,15 @@ impl Chosen {
         &self.root
     }
 
-    /// All files in YAML, by their path.
-    pub fn designs(&self) -> Vec<Listed> {
+    /// All designs, by their path; studies and kits are none.
+    pub fn designs(&self) -> Vec<String> {
         let mut found = Vec::new();
         self.seek(Path::new(""), 0, &mut found);
-        found.sort_by(|a, b| a.path.cmp(&b.path));
+        found.sort();
         found
     }
 
-    fn seek(&self, below: &Path, depth: usize, found: &mut Vec<Listed>) {
+    fn seek(&self, below: &Path, depth: usize, found: &mut Vec<String>) {
         let Ok(entries) = fs::read_dir(self.root.join(below)) else { return };
         for entry in entries.flatten() {
             let Ok(name) = entry.file_name().into_string() else { continue };
@@ -72,7 +65,9 @@ impl Chosen {
                 self.seek(&path, depth + 1, found);
             } else if kind.is_file() && is_yaml(&path) {
                 let text = input::read(&self.root.join(&path), input::LONGEST_TEXT, b"").unwrap_or_default();
-                found.push(Listed { path: with_slashes(&path), design: looks_like_a_design(&text) });
+                if looks_like_a_design(&text) {
+                    found.push(with_slashes(&path));
+                }
             }
         }
     }
@@ -124,8 +119,10 @@ impl Chosen {
         if there.as_deref() != before {
             return Err(Refused::conflict(match (there, before) {
                 (Some(_), None) => format!("{path} is there already"),
-                (Some(_), Some(_)) => format!("{path} was changed by somebody else since it was read here"),
-                (None, _) => format!("{path} is no longer there"),
+                (Some(_), Some(_)) => format!(
+                    "{path} was changed elsewhere, in another tab or by another program, since it was read here"
+                ),
+                (None, _) => format!("{path} is no longer on the disk"),
             }));
         }
         replace(&place, text.as_bytes()).map_err(|error| Refused::failed(format_args!("{path}: {error}")))?;
@@ -157,16 +154,19 @@ fn with_slashes(path: &Path) -> String {
     path.components().map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
 }
 
-/// By the keys that every design has and nothing else.
+/// By the keys that designs have and nothing else; what is empty may become one.
 fn looks_like_a_design(text: &[u8]) -> bool {
     let begins = |key: &[u8]| text.split(|byte| *byte == b'\n').any(|line| line.starts_with(key));
-    begins(b"project:") && (begins(b"channel:") || begins(b"flow:") || begins(b"barrier:"))
+    begins(b"project:") || begins(b"channel:") || begins(b"flow:") || text.trim_ascii().is_empty()
 }
 
 /// Puts a file in the place of another at once.
 fn replace(place: &Path, bytes: &[u8]) -> io::Result<()> {
     let name = place.file_name().unwrap_or_default().to_string_lossy();
-    let beside = place.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+    // Two at once are in each other's way nowhere.
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let beside = place.with_file_name(format!(".{name}.{}.{number}.tmp", std::process::id()));
     let written = fs::File::create_new(&beside).and_then(|mut file| {
         file.write_all(bytes)?;
         file.sync_all()

@@ -1,5 +1,7 @@
 //! What is told of a design while it is typed: all that is wrong with it, or what the equations say of it and what it looks like.
 
+use std::sync::LazyLock;
+
 use serde::Serialize;
 
 use super::answer::Refused;
@@ -39,6 +41,9 @@ pub struct Seen {
     too_much: String,
 }
 
+/// How slow this machine is, measured once, so that the estimate does not follow whatever else it does.
+static SLOWNESS: LazyLock<f64> = LazyLock::new(slowness);
+
 /// Looks at a text as the design with a path.
 pub fn look(chosen: &Chosen, path: &str, text: &str) -> Result<Look, Refused> {
     let file = match chosen.design(path, text)? {
@@ -60,7 +65,7 @@ pub fn look(chosen: &Chosen, path: &str, text: &str) -> Result<Look, Refused> {
         utilisation: view.utilisation,
         drawings: view.site,
         grains: estimate.grains,
-        seconds: estimate.seconds * slowness(),
+        seconds: estimate.seconds * *SLOWNESS,
         too_much: estimate.too_much().unwrap_or_default(),
     };
     Ok(Look { problems: Vec::new(), seen: Some(seen) })

@@ -36,11 +36,14 @@ use self::served::Served;
 pub struct Options {
     /// Where the designs are, and the reports go; nothing outside it is read or written.
     pub folder: PathBuf,
-    /// One that is free unless given.
-    pub port: u16,
+    /// The usual one, or one that is free, unless given.
+    pub port: Option<u16>,
     /// Whether to open the page in the browser of the system.
     pub open: bool,
 }
+
+/// Where the page is, unless that port is taken or another is named.
+const USUAL_PORT: u16 = 8732;
 
 /// How long runs have to be kept when the program is asked to end.
 const LAST_WAIT: Duration = Duration::from_secs(60);
@@ -65,9 +68,17 @@ fn run(options: &Options) -> Result<(), Failure> {
     let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build()?;
     runtime.block_on(async {
         // No other address is ever listened on.
-        let listener = tokio::net::TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, options.port)))
-            .await
-            .map_err(|error| format!("port {} cannot be used ({error}): name another with --port", options.port))?;
+        let at = |port: u16| tokio::net::TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+        let listener = match options.port {
+            // The same port each time keeps what a browser holds for the page; where it is taken, any other will do.
+            None => match at(USUAL_PORT).await {
+                Ok(listener) => listener,
+                Err(_) => at(0).await?,
+            },
+            Some(port) => at(port)
+                .await
+                .map_err(|error| format!("port {port} cannot be used ({error}): name another with --port"))?,
+        };
         let guard = Guard::new(listener.local_addr()?.port())?;
         let address = guard.address();
         terminal::say(format_args!(

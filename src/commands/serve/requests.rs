@@ -113,10 +113,16 @@ pub struct Answers {
 pub async fn new(State(served): Shared, body: Body<Answers>) -> Result<Json<Wrote>, Refused> {
     let Answers { path, answers } = sent(body)?;
     let answers: [String; 10] = answers.try_into().map_err(|_| Refused::bad("ten answers are wanted"))?;
-    for (question, answer) in QUESTIONS.iter().zip(&answers) {
-        if let Some([found, allowed]) = question.wrong(answer) {
-            return Ok(Json(Wrote::Wrong(format!("{}: found {found}, allowed is {allowed}", question.ask))));
-        }
+    let wrong: Vec<String> = QUESTIONS
+        .iter()
+        .zip(&answers)
+        .filter_map(|(question, answer)| {
+            let [found, allowed] = question.wrong(answer)?;
+            Some(format!("{}: found {found}, allowed is {allowed}", question.ask))
+        })
+        .collect();
+    if !wrong.is_empty() {
+        return Ok(Json(Wrote::Wrong(wrong.join("\n"))));
     }
     apart(served, move |served| {
         let beside = Beside { file: &path, density: "1800 kg/m3", factors: "en_1997", kit: None };
@@ -172,7 +178,7 @@ pub async fn begin(State(served): Shared, body: Body<ToRun>) -> Result<Json<Valu
         if let Err(problems) = served.chosen.design(&path, &written.text)? {
             return Err(Refused::bad(problems.to_string().trim_end()));
         }
-        Ok(Json(json!({ "folder": served.runs.begin(&path, How { seeds })? })))
+        Ok(Json(json!({ "folder": served.runs.begin(&path, &written.digest, How { seeds })? })))
     })
     .await
 }

@@ -59,8 +59,10 @@ struct UnderWay {
 #[derive(Debug, Serialize)]
 pub struct Listed {
     folder: String,
-    /// Name of the project and the barrier, where a report says it.
+    /// Name of the design, where a report says it.
     title: String,
+    /// Files of the report that other programs open.
+    files: Vec<&'static str>,
     /// running, kept (interrupted, can be resumed) or done
     state: &'static str,
     verdict: String,
@@ -82,6 +84,8 @@ pub struct Progress {
     pictures: Vec<(usize, Picture)>,
     messages: Vec<String>,
     stopped: bool,
+    /// Whether there is something to go on with.
+    kept: bool,
     exit_code: Option<i32>,
     page: Option<String>,
 }
@@ -97,10 +101,13 @@ impl Runs {
         Self { root: root.to_path_buf(), under_way: Mutex::default() }
     }
 
-    /// Begins to run a design; the folder of its report.
-    pub fn begin(&self, design: &str, how: How) -> Result<String, Refused> {
+    /// Begins to run a design; the folder of its report. The report of another text of it is not replaced.
+    pub fn begin(&self, design: &str, digest: &str, how: How) -> Result<String, Refused> {
         let stem = Path::new(design).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let folder = folder_name(&stem);
+        let name = folder_name(&stem);
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let mut folders = std::iter::once(name.clone()).chain(numbered);
+        let folder = folders.find(|folder| self.takes(folder, digest)).unwrap_or(name);
         let design = format!("./{design}");
         let seeds = how.seeds.to_string();
         self.start(
@@ -108,6 +115,16 @@ impl Runs {
             &[&design, "--out", &format!("{OUT}/{folder}"), "--seeds", &seeds, "--xlsx", "--dxf", "--watched"],
         )?;
         Ok(folder)
+    }
+
+    /// Whether a run of a text may go into a folder: into one that has no report, or one of the same text.
+    fn takes(&self, folder: &str, digest: &str) -> bool {
+        let place = self.root.join(OUT).join(folder);
+        let kept = place.join(checkpoint::FOLDER).join(checkpoint::REQUEST).is_file();
+        match of_the_result(&place) {
+            Some(result) => result.digest == digest && !kept,
+            None => !kept && page_of(&place).is_none(),
+        }
     }
 
     /// Goes on with a run that was interrupted.
@@ -214,8 +231,9 @@ impl Runs {
             // Nothing of this program's.
             _ => return None,
         };
-        let [title, verdict] = of_the_result(&folder).unwrap_or_default();
-        Some(Listed { folder: name.to_string(), title, state, verdict, page: page.map(String::from), written })
+        let Of { title, verdict, .. } = of_the_result(&folder).unwrap_or_default();
+        let files = FOR_OTHERS.into_iter().filter(|file| folder.join(file).is_file()).collect();
+        Some(Listed { folder: name.to_string(), title, files, state, verdict, page: page.map(String::from), written })
     }
 
     /// How far a run of this server has come; `after` is the number of the last picture that the page has.
@@ -232,25 +250,35 @@ impl Runs {
             pictures: run.pictures.iter().filter(|(number, _)| *number > after).cloned().collect(),
             messages: run.messages.clone(),
             stopped: run.stopped,
+            kept: place.join(checkpoint::FOLDER).join(checkpoint::REQUEST).is_file(),
             exit_code: run.ended,
             page: page.map(String::from),
         })
     }
 
-    /// A file of a report: one that the program has written there.
+    /// A file of a report, or of one of those that a comparison holds: one that the program has written there.
     pub fn file(&self, folder: &str, name: &str) -> Result<Vec<u8>, Refused> {
         let place = self.folder(folder)?;
-        let missing = || Refused::missing("this file of the report");
-        let manifest = input::read(&place.join(manifest::FILE), LONGEST_FILE, b"").map_err(|_| missing())?;
-        let manifest = Manifest::read(&manifest).ok_or_else(missing)?;
-        if !manifest.names().any(|known| known == name) {
-            return Err(missing());
-        }
-        let file = place.join(name);
-        // A link that somebody has put in the place of a file or of a folder of the report leads elsewhere.
-        let real = file.canonicalize().ok().filter(|real| real.starts_with(&place)).ok_or_else(missing)?;
-        input::read(&real, LONGEST_FILE, b"").map_err(|_| missing())
+        file_in(&place, name).or_else(|missing| {
+            let (below, name) = name.split_once('/').ok_or(missing)?;
+            let place = inner(&place, below).map_err(|_| Refused::missing("this file of the report"))?;
+            file_in(&place, name)
+        })
     }
+}
+
+/// A file that the program has written into a folder.
+fn file_in(place: &Path, name: &str) -> Result<Vec<u8>, Refused> {
+    let missing = || Refused::missing("this file of the report");
+    let manifest = input::read(&place.join(manifest::FILE), LONGEST_FILE, b"").map_err(|_| missing())?;
+    let manifest = Manifest::read(&manifest).ok_or_else(missing)?;
+    if !manifest.names().any(|known| known == name) {
+        return Err(missing());
+    }
+    let file = place.join(name);
+    // A link that somebody has put in the place of a file or of a folder of the report leads elsewhere.
+    let real = file.canonicalize().ok().filter(|real| real.starts_with(place)).ok_or_else(missing)?;
+    input::read(&real, LONGEST_FILE, b"").map_err(|_| missing())
 }
 
 /// What a folder of `out` shows first, where it shows anything.
@@ -260,12 +288,25 @@ fn page_of(folder: &Path) -> Option<&'static str> {
         .find(|page| folder.join(page).is_file())
 }
 
-/// The title and the verdict of a report.
-fn of_the_result(folder: &Path) -> Option<[String; 2]> {
+/// What the page offers beside a report.
+const FOR_OTHERS: [&str; 6] =
+    ["tables.xlsx", "drawing.dxf", "report.pdf", "histories.csv", "result.json", "design.yaml"];
+
+/// What a report is of.
+#[derive(Default)]
+struct Of {
+    title: String,
+    /// SHA-256 of the design.
+    digest: String,
+    verdict: String,
+}
+
+fn of_the_result(folder: &Path) -> Option<Of> {
     let bytes = input::read(&folder.join("result.json"), LONGEST_FILE, b"").ok()?;
     let result: Value = serde_json::from_slice(&bytes).ok()?;
     let text = |value: &Value| value.as_str().unwrap_or_default().to_string();
-    Some([text(&result["name"]), text(&result["verdict"])])
+    let design = &result["design"];
+    Some(Of { title: text(&design["name"]), digest: text(&design["sha256"]), verdict: text(&result["verdict"]) })
 }
 
 impl UnderWay {

@@ -1,6 +1,7 @@
 // The design as text: completion, hover and underlined problems.
 
 import { type Completion, type CompletionContext, type CompletionResult, autocompletion } from "@codemirror/autocomplete";
+import { redo, undo } from "@codemirror/commands";
 import { yaml } from "@codemirror/lang-yaml";
 import { HighlightStyle, syntaxHighlighting } from "@codemirror/language";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
@@ -20,6 +21,8 @@ export interface Editor {
   open(text: string): void;
   /** Changes the text, so that it can be undone. */
   change(text: string): void;
+  undo(): void;
+  redo(): void;
   underline(problems: Problem[]): void;
   goTo(line: number, column: number): void;
 }
@@ -118,6 +121,8 @@ export function makeEditor(parent: HTMLElement, schema: Schema, changed: () => v
         annotations: Transaction.userEvent.of("input.form"),
       });
     },
+    undo: () => void undo(view),
+    redo: () => void redo(view),
     underline: (problems) => {
       const document = view.state.doc;
       const diagnostics = problems.map((problem): Diagnostic => {

@@ -11,18 +11,38 @@ type Path = (string | number)[];
 
 export interface Form {
   /** Shows a text; what is being typed into stays as it is. */
-  show(text: string): void;
+  show(text: string, anyway?: boolean): void;
   /** Tells what is wrong beside the fields. */
   mark(problems: Problem[]): void;
+}
+
+/** The parts of a text that begin with a key at its left edge, each with what stands below it. */
+function parts(text: string): [string, string][] {
+  return text.split(/^(?=[A-Za-z_][\w-]*\s*:)/m).map((part) => [/^[A-Za-z_][\w-]*/.exec(part)?.[0] ?? "", part]);
+}
+
+/** A text that was written anew, with those parts as they were before in which nothing has changed: writing anew moves comments. */
+function grafted(before: string, after: string): string {
+  const old = new Map(parts(before));
+  const same = (a: string, b: string) => JSON.stringify(parseDocument(a).toJS()) === JSON.stringify(parseDocument(b).toJS());
+  const text = parts(after).map(([key, part]) => {
+    const was = old.get(key);
+    return was !== undefined && same(was, part) ? was : part;
+  });
+  // Only if it is the same design all the same.
+  const joined = text.join("");
+  return same(joined, after) ? joined : after;
 }
 
 const idOf = (path: Path) => `field-${path.join("-")}`;
 const nameOf = (path: Path) => path.map((step) => (typeof step === "number" ? `[${step + 1}]` : step)).join(".").replaceAll(".[", "[");
 const inWords = (key: string) => key.replaceAll("_", " ");
 
-export function makeForm(parent: HTMLElement, schema: Schema, current: () => string, change: (text: string) => void): Form {
+export function makeForm(parent: HTMLElement, schema: Schema, current: () => string, change: (text: string) => void, history: { undo: () => void; redo: () => void }): Form {
   let marked: Problem[] = [];
-  let unfolded = new Set<string>(["project", "channel", "flow", "barrier"]);
+  const wrong = make("p", { class: "wrong", role: "alert" });
+  const bar = make("div", { class: "actions" }, button("Undo", history.undo), button("Redo", history.redo));
+  const unfolded = new Set<string>(["project", "channel", "flow", "barrier"]);
 
   /** Changes one value of the text: only its own letters where it is there already. */
   const set = (path: Path, value: unknown) => {
@@ -33,38 +53,56 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
       const written = stringify(value, { lineWidth: 0 }).trimEnd();
       const glue = text[there.range[0] - 1] === ":" ? " " : "";
       change(text.slice(0, there.range[0]) + glue + written + text.slice(there.range[1]));
-    } else {
-      document.setIn(path, value);
-      change(document.toString({ lineWidth: 0, flowCollectionPadding: true }));
+      return;
     }
+    const told = rewrite((document) => document.setIn(path, document.createNode(value, { aliasDuplicateObjects: false })));
+    unfolded.add(nameOf(path));
     draw();
+    if (told) return;
+    const field = window.document.getElementById(idOf(path)) ?? parent.querySelector(`[data-name="${CSS.escape(nameOf(path))}"] input, [data-name="${CSS.escape(nameOf(path))}"] select, [data-name="${CSS.escape(nameOf(path))}"] summary`);
+    if (field instanceof HTMLElement) field.focus();
   };
   const remove = (path: Path) => {
-    const document = parseDocument(current());
-    document.deleteIn(path);
-    change(document.toString({ lineWidth: 0 }));
+    rewrite((document) => document.deleteIn(path));
     draw();
+    window.document.getElementById(`${idOf(path.slice(0, -1))}-add`)?.focus();
   };
+  /** Changes the structure of the text; what stands in the way, if anything does. */
+  const rewrite = (act: (document: Document) => void): string => {
+    const document = parseDocument(current());
+    try {
+      act(document);
+      change(grafted(current(), document.toString({ lineWidth: 0 })));
+      wrong.textContent = "";
+    } catch {
+      wrong.textContent = "This cannot be changed in the form, because the text repeats a part by an alias (`*name`): change it in the tab Text.";
+    }
+    return wrong.textContent;
+  };
+
+  const valueAt = (path: Path): unknown =>
+    path.reduce<unknown>((at, step) => (typeof at === "object" && at !== null ? (at as Record<string | number, unknown>)[step] : undefined), parseDocument(current()).toJS());
 
   /** What stands in a place before anything is given there. */
   const empty = (node: Schema): unknown => {
     const some = words(node);
-    if (some.length > 0) return some[0];
+    if (some.length > 0) return some.includes(String(node.default)) ? node.default : some[0];
     if (isSection(node)) return Object.fromEntries((node.required ?? []).map((key) => [key, empty(properties(node)[key] ?? {})]));
-    if (isList(node)) return [emptyItem(node)];
+    if (isList(node)) return Array.isArray(node.items) ? node.items.map(empty) : [emptyItem(node)];
     if (node.default !== undefined) return node.default;
     if (node.type === "boolean") return false;
     if (node.type === "integer" || node.type === "number") return node.minimum ?? 0;
     const unit = units(node)[0];
     return unit ? `0 ${unit}` : "?";
   };
-  const emptyItem = (node: Schema): unknown =>
-    Array.isArray(node.items) ? node.items.map(empty) : empty(node.items ?? {});
+  const emptyItem = (node: Schema): unknown => empty(Array.isArray(node.items) ? {} : (node.items ?? {}));
+  const copy = (value: unknown): unknown => JSON.parse(JSON.stringify(value));
 
   const field = (path: Path, node: Schema, value: unknown, required: boolean): HTMLElement => {
     const id = idOf(path);
     const last = path.at(-1);
-    const label = typeof last === "number" ? nameOf(path.slice(-2)) : inWords(String(last));
+    const unit = units(node).slice(0, 3).join(", ");
+    const label = typeof last === "number" ? `${last + 1}${unit ? ` (${unit})` : ""}` : inWords(String(last));
     const told = make("small", { id: `${id}-told` }, [node.description, allowed(node)].filter(Boolean).join("; "));
     const some = words(node);
     let input: HTMLInputElement | HTMLSelectElement;
@@ -86,7 +124,7 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
     });
     const row = make("div", { class: "field" }, make("label", { for: id }, label), input, told, make("p", { class: "wrong", id: `${id}-wrong` }));
     if (!required) row.append(button("×", () => remove(path), { class: "remove", title: `Remove ${nameOf(path)}`, "aria-label": `Remove ${nameOf(path)}` }));
-    row.dataset["path"] = nameOf(path);
+    row.dataset["path"] = path.join(".");
     return row;
   };
 
@@ -102,8 +140,13 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
       holder.append(row);
     });
     if (!Array.isArray(node.items)) {
-      const add = () => set(path, [...items, items.length > 0 ? items[items.length - 1] : emptyItem(node)]);
-      holder.append(button(`Add to ${inWords(String(path.at(-1)))}`, add));
+      const add = () => {
+        // What was typed since the form was drawn is in the text alone.
+        const now = valueAt(path);
+        const those: unknown[] = Array.isArray(now) ? now : [];
+        set(path, [...those, those.length > 0 ? copy(those[those.length - 1]) : emptyItem(node)]);
+      };
+      holder.append(button(`Add to ${inWords(nameOf(path.slice(-2)))}`, add));
     }
     return holder;
   };
@@ -127,8 +170,9 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
     const summary = make("summary", {}, make("span", {}, inWords(key)), make("small", {}, node.description ?? ""));
     const details = make("details", { open: unfolded.has(name) || path.length > 2 }, summary);
     details.addEventListener("toggle", () => (details.open ? unfolded.add(name) : unfolded.delete(name)));
-    if (!required) details.append(button(`Remove ${inWords(key)}`, () => remove(path), { class: "remove-section" }));
+    details.dataset["name"] = name;
     details.append(body);
+    if (!required) details.append(make("div", { class: "actions" }, button(`Remove ${inWords(key)}`, () => remove(path))));
     return details;
   };
 
@@ -150,7 +194,20 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
       const select = make("select", { id });
       if (!only) select.append(make("option", { value: "" }, "choose"));
       for (const key of Object.keys(known)) select.append(make("option", { value: key, selected: key === only }, inWords(key)));
-      select.addEventListener("change", () => select.value && set(path, { [select.value]: empty(known[select.value] ?? {}) }));
+      select.addEventListener("change", () => {
+        const chosen = select.value;
+        if (!chosen) return;
+        const before = only ? valueAt([...path, only]) : undefined;
+        const has = typeof before === "object" && before !== null && Object.keys(before).length > 0;
+        if (has && !window.confirm(`What is given under ${inWords(only ?? "")} is taken out of the text, but for keys that ${inWords(chosen)} has as well. It can be undone.`)) {
+          select.value = only ?? "";
+          return;
+        }
+        const fresh = empty(known[chosen] ?? {});
+        const keys = properties(known[chosen] ?? {});
+        const kept = has && !Array.isArray(before) ? Object.entries(before).filter(([key]) => key in keys) : [];
+        set(path, { [chosen]: typeof fresh === "object" && !Array.isArray(fresh) ? { ...fresh, ...(copy(Object.fromEntries(kept)) as object) } : fresh });
+      });
       holder.prepend(make("div", { class: "field" }, make("label", { for: id }, `which ${inWords(String(path.at(-1) ?? "design"))}`), select));
     } else if (missing.length > 0) {
       const id = `${idOf(path)}-add`;
@@ -160,7 +217,7 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
         const of = known[select.value];
         if (of) set([...path, select.value], empty(of));
       });
-      holder.append(make("div", { class: "add" }, make("label", { for: id }, path.length === 0 ? "add" : `add to ${inWords(String(path.at(-1)))}`), select));
+      holder.append(make("div", { class: "add" }, make("label", { for: id }, path.length === 0 ? "add" : `add to ${inWords(nameOf(path.slice(-2)))}`), select));
     }
     return holder;
   };
@@ -178,21 +235,22 @@ export function makeForm(parent: HTMLElement, schema: Schema, current: () => str
     const document: Document = parseDocument(current());
     const focused = window.document.activeElement?.id;
     const scroll = parent.scrollTop;
-    const value: unknown = document.errors.length > 0 ? null : document.toJS();
+    const empty = current().trim() === "";
+    const value: unknown = document.errors.length > 0 ? null : empty ? {} : document.toJS();
     if (value === null || typeof value !== "object" || Array.isArray(value)) {
       parent.replaceChildren(make("p", { class: "soft" }, "The text is no YAML that a form could show: mend it in the tab Text first."));
       return;
     }
-    parent.replaceChildren(section([], nodeAt(schema, []) ?? {}, value as Record<string, unknown>));
+    parent.replaceChildren(bar, wrong, section([], nodeAt(schema, []) ?? {}, value as Record<string, unknown>));
     parent.scrollTop = scroll;
     markAll();
     if (focused?.startsWith("field-")) window.document.getElementById(focused)?.focus();
   };
 
   return {
-    show: () => {
+    show: (_, anyway) => {
       // Whoever is typing into a field goes on.
-      if (parent.contains(window.document.activeElement) && window.document.activeElement instanceof HTMLInputElement) return;
+      if (!anyway && parent.contains(window.document.activeElement) && window.document.activeElement instanceof HTMLInputElement) return;
       draw();
     },
     mark: (problems) => {

@@ -14,10 +14,10 @@ async function begin() {
   const message = byId("message", HTMLElement);
   const tell = (error: unknown) => {
     if (error instanceof DOMException && error.name === "AbortError") return;
-    message.textContent = error instanceof Error ? error.message : String(error);
+    byId("message-text", HTMLElement).textContent = error instanceof Error ? error.message : String(error);
     message.hidden = false;
   };
-  byId("message", HTMLElement).addEventListener("click", () => (message.hidden = true));
+  byId("message-close", HTMLButtonElement).addEventListener("click", () => (message.hidden = true));
   const start = await server.start();
   byId("folder", HTMLElement).textContent = start.folder;
   byId("program", HTMLElement).textContent = start.program;
@@ -33,7 +33,10 @@ async function begin() {
   const conflict = byId("conflict", HTMLElement);
 
   const editor = makeEditor(byId("text", HTMLElement), start.schema, () => changed(), () => void keep());
-  const form = makeForm(byId("form", HTMLElement), start.schema, editor.text, editor.change);
+  const form = makeForm(byId("form", HTMLElement), start.schema, editor.text, editor.change, {
+    undo: () => (editor.undo(), form.show(editor.text(), true)),
+    redo: () => (editor.redo(), form.show(editor.text(), true)),
+  });
   const preview = makePreview(
     {
       problems: byId("problems", HTMLElement),
@@ -50,10 +53,10 @@ async function begin() {
   const reports = makeReports(byId("reports", HTMLElement), (folder) => follow(folder), tell);
   const simulation = makeSimulation(
     byId("simulation", HTMLElement),
-    () => reports.refresh(),
+    () => void reports.refresh(),
     (folder, page) => {
       chooseRight("reports");
-      reports.open(folder, page);
+      void reports.refresh().then(() => reports.open(folder, page));
     },
     tell,
   );
@@ -65,7 +68,7 @@ async function begin() {
   const chooseRight = tabs(byId("right-tabs", HTMLElement), (name) => {
     // What the equations say is not what a run says.
     byId("verdict", HTMLElement).hidden = name === "simulation" || name === "reports";
-    if (name === "reports") reports.refresh();
+    if (name === "reports") void reports.refresh();
   });
 
   const unsaved = () => open !== null && editor.text() !== open.text;
@@ -106,8 +109,7 @@ async function begin() {
     editor.open(written.text);
     window.history.replaceState(null, "", `#${encodeURIComponent(written.path)}`);
     document.title = `${written.path} · barrier-check`;
-    if (![...which.options].some((option) => option.value === written.path)) which.append(make("option", { value: written.path }, written.path));
-    which.value = written.path;
+    choose(written.path);
     tellState();
     void look();
   };
@@ -116,6 +118,7 @@ async function begin() {
     if (!unsaved()) return true;
     try {
       const wrote = await server.write(open.path, editor.text(), open.digest);
+      byId("conflict-text", HTMLElement).textContent = `${wrote.conflict ?? ""}.`;
       conflict.hidden = wrote.conflict === undefined;
       if (wrote.written) open = wrote.written;
       tellState();
@@ -126,18 +129,18 @@ async function begin() {
     }
   };
 
-  const group = (label: string, list: { path: string }[]) =>
-    list.length > 0 ? make("optgroup", { label }, ...list.map(({ path }) => make("option", { value: path }, path))) : null;
-  which.append(
-    ...[
-      make("option", { value: "" }, "choose a design"),
-      group("designs", start.designs.filter((each) => each.design)),
-      group("other files in YAML", start.designs.filter((each) => !each.design)),
-    ].filter((each) => each !== null),
-  );
+  const list = (designs: string[]) => {
+    which.replaceChildren(make("option", { value: "" }, "choose a design"), ...designs.map((path) => make("option", { value: path }, path)));
+    if (open) choose(open.path);
+  };
+  const choose = (path: string) => {
+    if (![...which.options].some((option) => option.value === path)) which.append(make("option", { value: path }, path));
+    which.value = path;
+  };
+  list(start.designs);
   which.addEventListener("change", () => {
     if (which.value === "") return;
-    if (unsaved() && !window.confirm(`${open?.path} is not saved. Leave it as it is on the disk?`)) {
+    if (unsaved() && !window.confirm(`What is changed in ${open?.path} is not saved. Lose it and open the other?`)) {
       which.value = open?.path ?? "";
       return;
     }
@@ -145,23 +148,43 @@ async function begin() {
   });
   save.addEventListener("click", () => void keep());
   run.addEventListener("click", () => {
-    const seeds = Number(byId("seeds", HTMLInputElement).value);
-    void keep().then(async (kept) => {
-      if (!kept || !open) return;
-      try {
-        follow((await server.begin(open.path, seeds)).folder);
-      } catch (error) {
-        tell(error);
-      }
-    });
+    const seeds = byId("seeds", HTMLInputElement);
+    if (!seeds.reportValidity()) return;
+    // Not twice by a double click.
+    run.disabled = true;
+    void keep()
+      .then(async (kept) => {
+        if (kept && open) follow((await server.begin(open.path, Number(seeds.value))).folder);
+      })
+      .catch(tell)
+      .finally(tellState);
+  });
+  byId("save-as", HTMLButtonElement).addEventListener("click", () => {
+    const name = window.prompt("Name of the copy, a file in this folder", open?.path.replace(/(\.ya?ml)?$/, "_2.yaml"));
+    if (!name) return;
+    const path = /\.ya?ml$/.test(name) ? name : `${name}.yaml`;
+    void server
+      .write(path, editor.text(), null)
+      .then((wrote) => (wrote.written ? show(wrote.written) : tell(`${wrote.conflict ?? wrote.wrong}: name another file`)))
+      .catch(tell);
+  });
+  // In the text and in the form, where the field that is being typed into counts as well.
+  window.addEventListener("keydown", (event) => {
+    if (event.key.toLowerCase() !== "s" || !(event.ctrlKey || event.metaKey) || event.defaultPrevented) return;
+    event.preventDefault();
+    const focused = document.activeElement;
+    if (focused instanceof HTMLInputElement) focused.dispatchEvent(new Event("change"));
+    void keep();
   });
   byId("theirs", HTMLButtonElement).addEventListener("click", () => open && void server.read(open.path).then(show).catch(tell));
   byId("mine", HTMLButtonElement).addEventListener("click", () => {
     if (!open) return;
-    const text = editor.text();
+    const [path, text] = [open.path, editor.text()];
     void server
-      .read(open.path)
-      .then((there) => server.write(there.path, text, there.digest))
+      .read(path)
+      // It may be gone.
+      .then((there) => there.digest, () => null)
+      .then((digest) => server.write(path, text, digest))
       .then((wrote) => {
         if (wrote.written) open = wrote.written;
         conflict.hidden = wrote.conflict === undefined;
@@ -171,15 +194,26 @@ async function begin() {
   });
   // Another tab, or another program, may have changed the file.
   window.addEventListener("focus", () => {
+    void server
+      .start()
+      .then((now) => list(now.designs))
+      .catch(() => undefined);
     if (!open) return;
     void server
       .read(open.path)
       .then((there) => {
         if (!open || there.path !== open.path || there.digest === open.digest) return;
-        if (unsaved()) conflict.hidden = false;
-        else show(there);
+        if (unsaved()) {
+          byId("conflict-text", HTMLElement).textContent = `${there.path} was changed elsewhere, in another tab or by another program, since it was read here.`;
+          conflict.hidden = false;
+        } else show(there);
       })
-      .catch(() => undefined);
+      .catch((error: unknown) => {
+        if (!open || !(error instanceof server.Refused) || error.status !== 404) return;
+        // Gone from the disk: nothing of it is saved any more.
+        open = { ...open, text: "" };
+        tellState();
+      });
   });
   window.addEventListener("beforeunload", (event) => {
     if (unsaved()) event.preventDefault();
@@ -188,7 +222,7 @@ async function begin() {
   newDesign(start, show, tell);
   const asks = decodeURIComponent(window.location.hash.slice(1));
   if (asks) void server.read(asks).then(show).catch(tell);
-  reports.refresh();
+  void reports.refresh();
   const underWay = (await server.runs()).runs.find((each) => each.state === "running");
   if (underWay) follow(underWay.folder);
 }
@@ -234,8 +268,9 @@ function newDesign(start: server.Start, show: (written: server.Written) => void,
 
 begin().catch((error: unknown) => {
   const message = document.getElementById("message");
-  if (message) {
-    message.textContent = error instanceof Error ? error.message : String(error);
+  const text = document.getElementById("message-text");
+  if (message && text) {
+    text.textContent = error instanceof Error ? error.message : String(error);
     message.hidden = false;
   }
 });

@@ -15,7 +15,8 @@ export function makeReplay(): Replay {
   const canvas = make("canvas", { width: 960, height: 420, role: "img", "aria-label": "The flow and the barrier from the side" });
   const slider = make("input", { type: "range", min: 0, max: 0, value: 0, "aria-label": "Moment of the replay" });
   const time = make("output", {}, "");
-  const element = make("div", { class: "replay" }, canvas, make("div", { class: "replay-controls" }, slider, time));
+  const caption = make("p", { class: "soft" }, "The first simulation from the side. The bed at the barrier is drawn level; gravity pulls along it.");
+  const element = make("div", { class: "replay" }, canvas, make("div", { class: "replay-controls" }, slider, time), caption);
   let pictures: [number, Picture][] = [];
   let last = 0;
   let bounds = [Infinity, Infinity, -Infinity, -Infinity] as [number, number, number, number];
@@ -33,11 +34,14 @@ export function makeReplay(): Replay {
     const at = (x: number, z: number): [number, number] => [margin + (x - left) * scale, canvas.height - margin - (z - low) * scale];
     pen.fillStyle = "#ffffff";
     pen.fillRect(0, 0, canvas.width, canvas.height);
-    pen.strokeStyle = "#5b6670";
-    pen.beginPath();
-    pen.moveTo(...at(left, 0));
-    pen.lineTo(...at(right, 0));
-    pen.stroke();
+    // Where the bed has another slope upstream, its grains lie below or above that at the barrier.
+    if (low > -20) {
+      pen.strokeStyle = "#5b6670";
+      pen.beginPath();
+      pen.moveTo(...at(left, 0));
+      pen.lineTo(...at(right, 0));
+      pen.stroke();
+    }
     pen.fillStyle = "#a58a64";
     for (const [x, , z, radius] of shown.grains) {
       pen.beginPath();

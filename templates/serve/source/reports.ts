@@ -4,7 +4,7 @@ import { button, make } from "./elements";
 import * as server from "./server";
 
 export interface Reports {
-  refresh(): void;
+  refresh(): Promise<void>;
   open(folder: string, page: string): void;
 }
 
@@ -17,12 +17,14 @@ export function makeReports(panel: HTMLElement, follow: (folder: string) => void
   const ticked = () => [...holder.querySelectorAll<HTMLInputElement>("input:checked")].map((box) => box.value);
   const able = () => (compare.disabled = ticked().length !== 2);
 
+  let known: server.Listed[] = [];
   const open = (folder: string, page: string) => {
     const address = server.addressOf(folder, page);
     frame.src = address;
     frame.hidden = false;
-    const files = folder ? make("span", { class: "soft" }, ` Its files are in out/${folder}.`) : null;
-    apart.replaceChildren(make("a", { href: address, target: "_blank", rel: "noopener" }, "Open this report in a tab of its own"), files ?? "");
+    const files = known.find((run) => run.folder === folder)?.files ?? [];
+    const links = files.flatMap((file) => [", ", make("a", { href: server.addressOf(folder, file), download: file }, file)]);
+    apart.replaceChildren(make("a", { href: address, target: "_blank", rel: "noopener" }, "Open this report in a tab of its own"), ...links, ` (in out/${folder})`);
     apart.hidden = false;
     frame.scrollIntoView({ block: "nearest" });
   };
@@ -32,13 +34,14 @@ export function makeReports(panel: HTMLElement, follow: (folder: string) => void
     try {
       const { page } = await server.compare([a, b]);
       const [folder, file] = page.split("/");
-      refresh();
+      await refresh();
       if (folder && file) open(folder, file);
     } catch (error) {
       tell(error);
     }
   };
   const draw = (runs: server.Listed[]) => {
+    known = runs;
     if (runs.length === 0) {
       holder.replaceChildren(make("p", { class: "soft" }, "No report yet: run a design."));
       able();
@@ -50,7 +53,7 @@ export function makeReports(panel: HTMLElement, follow: (folder: string) => void
       const page = run.page;
       const actions = [
         page && run.state !== "running" ? button("Open", () => open(run.folder, page), { "aria-label": `Open the report ${run.folder}` }) : null,
-        run.state === "kept" ? button("Go on with it", () => void server.resume(run.folder).then(() => follow(run.folder)).catch(tell), { "aria-label": `Go on with the run ${run.folder}` }) : null,
+        run.state === "kept" ? button("Go on with it", () => void server.resume(run.folder).then(() => follow(run.folder)).catch(tell), { "aria-label": `Go on with it: ${run.folder}` }) : null,
         run.state === "running" ? button("Watch", () => follow(run.folder), { "aria-label": `Watch the run ${run.folder}` }) : null,
       ];
       const state = run.state === "kept" ? "interrupted, kept" : run.state;
@@ -63,6 +66,6 @@ export function makeReports(panel: HTMLElement, follow: (folder: string) => void
     holder.replaceChildren(make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...runs.map(row))));
     able();
   };
-  const refresh = () => void server.runs().then(({ runs }) => draw(runs)).catch(tell);
+  const refresh = () => server.runs().then(({ runs }) => draw(runs)).catch(tell);
   return { refresh, open };
 }

@@ -72,7 +72,7 @@ export interface Wrote {
 export interface Start {
   program: string;
   folder: string;
-  designs: { path: string; design: boolean }[];
+  designs: string[];
   questions: { name: string; ask: string; usual: string }[];
   schema: Schema;
 }
@@ -99,6 +99,7 @@ export interface Listed {
   title: string;
   state: "running" | "kept" | "done";
   verdict: string;
+  files: string[];
   page: string | null;
   written: number;
 }
@@ -129,6 +130,7 @@ export interface Progress {
   pictures: [number, Picture][];
   messages: string[];
   stopped: boolean;
+  kept: boolean;
   exit_code: number | null;
   page: string | null;
 }

@@ -27,7 +27,12 @@ export function makeSimulation(panel: HTMLElement, ended: () => void, open: (fol
       .catch(tell);
   });
   const show = make("div", { class: "actions" }, stop, resume);
-  panel.replaceChildren(words, bar, show, force, replay.element, messages);
+  const several = make(
+    "p",
+    { class: "soft", hidden: true },
+    "Every packing is simulated with the flow as it is and, where a partial factor stands on the loads, with the factored flow; the force and the picture are of the first simulation.",
+  );
+  panel.replaceChildren(words, bar, several, show, force, replay.element, messages);
   [bar, stop, resume, replay.element, messages].forEach((part) => (part.hidden = true));
 
   const look = async () => {
@@ -56,15 +61,17 @@ export function makeSimulation(panel: HTMLElement, ended: () => void, open: (fol
     stop.hidden = !running;
     stop.disabled = now.stopped;
     bar.hidden = !running;
-    resume.hidden = running || !now.stopped || now.page !== null;
+    resume.hidden = running || !now.kept;
     if (running) {
-      words.textContent = now.stopped ? "Stopping: the run is kept at its next stop …" : progressInWords(now);
+      words.textContent = `out/${folder}: ${now.stopped ? "stopping; the run is kept at its next stop …" : progressInWords(now)}`;
+      several.hidden = (now.told?.simulations ?? 1) < 2;
       if (now.told) bar.value = now.told.share;
       else bar.removeAttribute("value");
       timer = window.setTimeout(() => void look(), EVERY);
       return;
     }
-    words.textContent = endInWords(now);
+    several.hidden = true;
+    words.textContent = `out/${folder}: ${endInWords(now)}`;
     ended();
     if (now.page) open(folder, now.page);
   };
@@ -94,7 +101,8 @@ function endInWords(now: server.Progress): string {
   if (now.exit_code === 0) return `The run is over after ${inTime(now.taken)}: PASS.`;
   if (now.page && now.exit_code === 1) return `The run is over after ${inTime(now.taken)}: FAIL.`;
   if (now.page) return `The run is over after ${inTime(now.taken)}: UNDECIDED.`;
-  if (now.stopped) return "The run was stopped. What it has come to is kept.";
+  if (now.stopped && now.kept) return "The run was stopped. What it has come to is kept, and it goes on from where it was kept last.";
+  if (now.stopped) return "The run was stopped before there was anything to keep.";
   return "The run ended without a report; see below what it told.";
 }
 
@@ -109,13 +117,14 @@ export function inTime(seconds: number): string {
 }
 
 function kilonewton(force: number): string {
-  return `${(force / 1000).toPrecision(3)} kN`;
+  const value = Math.abs(force / 1000);
+  return `${value < 0.005 ? "0" : value < 10 ? value.toFixed(2) : value < 100 ? value.toFixed(1) : value.toFixed(0)} kN`;
 }
 
 /** Force over time, as far as it is known. */
 function chart(points: [number, number][]): Node {
   if (points.length < 2) return document.createTextNode("");
-  const [width, height, margin] = [640, 160, 44];
+  const [width, height, margin] = [640, 160, 64];
   const last = points.at(-1)?.[0] ?? 1;
   const highest = Math.max(...points.map(([, force]) => force), 1e-9);
   const at = ([time, force]: [number, number]) =>

@@ -1,6 +1,6 @@
 // From an empty page to a report, as somebody would who designs a barrier.
 
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import type { Page } from "@playwright/test";
@@ -88,14 +88,35 @@ test("a form writes into the text and leaves its comments", async ({ page, serve
   await slope.fill("28 deg");
   await slope.press("Tab");
   await expect(page.locator("#problems")).toBeHidden();
-  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByRole("button", { name: "Save", exact: true }).click();
   await expect(page.locator("#state")).toHaveText("saved");
   const saved = readFileSync(join(server.folder, "small_net.yaml"), "utf8");
   expect(saved).toMatch(/slope: 28 deg +# against the horizontal/);
   expect(saved).toMatch(/grain_aspect: 1.4 /);
   expect(saved).toMatch(/checker: N. N./);
-  // It can be undone in the text.
-  await page.getByRole("tab", { name: "Text" }).click();
+  // It can be undone, and lists of pairs and of groups grow without one being a copy by name of the other.
+  await page.getByRole("button", { name: "Undo" }).click();
+  await expect(slope).toHaveValue("95 deg");
+  await page.getByRole("button", { name: "Redo" }).click();
+  await page.locator("#field-channel-add").selectOption("profile");
+  await page.locator("#field-channel-profile-add").selectOption("upstream");
+  await page.locator("#field-channel-profile-upstream-0-0").fill("25 m");
+  await page.locator("#field-channel-profile-upstream-0-0").press("Tab");
+  await page.locator("#field-channel-profile-upstream-0-1").fill("14 deg");
+  await page.locator("#field-channel-profile-upstream-0-1").press("Tab");
+  await page.getByRole("button", { name: "Add to profile.upstream" }).click();
+  await page.locator("#field-channel-profile-upstream-1-0").fill("60 m");
+  await page.locator("#field-channel-profile-upstream-1-0").press("Tab");
+  await page.keyboard.press("Control+S");
+  await expect(page.locator("#state")).toHaveText("saved");
+  const profiled = readFileSync(join(server.folder, "small_net.yaml"), "utf8");
+  expect(profiled).toMatch(/upstream: \[ \[ 25 m, 14 deg \], \[ 60 m, 14 deg \] \]/);
+  // What was not changed stands as it stood.
+  expect(profiled).toContain("grain_friction: 40 deg             # grain on grain");
+  expect(profiled).not.toContain("&a");
+  await expect(page.locator("#problems")).toBeHidden();
+  await page.getByRole("button", { name: "Remove channel.profile.upstream[1]" }).last().click();
+  await expect(page.locator("#field-channel-profile-upstream-1-0")).toHaveCount(0);
 });
 
 test("keys are completed and told of", async ({ page, server }) => {
@@ -148,6 +169,26 @@ test("all is reached by keyboard alone", async ({ page, server }) => {
   await expect(editor(page)).not.toBeFocused();
 });
 
+test("what is gone from the disk is written again, and a copy gets a name of its own", async ({ page, server, told }) => {
+  await page.goto(server.address);
+  await page.getByRole("combobox", { name: "Design" }).selectOption("small_net.yaml");
+  await expect(page.locator("#state")).toHaveText("saved");
+  page.once("dialog", (dialog) => void dialog.accept("copy"));
+  await page.getByRole("button", { name: "Save as" }).click();
+  await expect(page.getByRole("combobox", { name: "Design" })).toHaveValue("copy.yaml");
+  rmSync(join(server.folder, "copy.yaml"));
+  await page.evaluate(() => window.dispatchEvent(new Event("focus")));
+  await expect(page.locator("#state")).toHaveText("not saved");
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await expect(page.locator("#conflict")).toContainText("no longer on the disk");
+  await page.getByRole("button", { name: "Keep mine" }).click();
+  await expect(page.locator("#state")).toHaveText("saved");
+  expect(readFileSync(join(server.folder, "copy.yaml"), "utf8")).toContain("flexible_net");
+  // The browser tells of the file that was not there, twice asked for; of nothing else.
+  expect(told.every((line) => line.includes("404") && line.includes("copy.yaml"))).toBe(true);
+  told.length = 0;
+});
+
 test("two tabs do not overwrite each other", async ({ page, server, context }) => {
   await page.goto(server.address);
   await page.getByLabel("Design", { exact: true }).selectOption("small_net.yaml");
@@ -183,7 +224,7 @@ test("a run is stopped, gone on with after the server was killed, and compared",
   await server.start();
   await page.goto(server.address);
   await page.getByRole("tab", { name: "Reports" }).click();
-  await page.getByRole("button", { name: "Go on with the run small_net" }).click();
+  await page.getByRole("button", { name: "Go on with it: small_net" }).click();
   await expect(page.frameLocator("iframe.report").getByRole("heading", { name: "Checks", exact: true })).toBeVisible({ timeout: 90_000 });
   const text = readFileSync(join(server.folder, "small_net.yaml"), "utf8");
   writeFileSync(join(server.folder, "steeper.yaml"), text.replace("slope: 25 deg", "slope: 26 deg"));
