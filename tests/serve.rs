@@ -70,7 +70,7 @@ impl Server {
             }
         };
         std::thread::spawn(move || lines.for_each(drop));
-        let (port, token) = address.split_once("/?token=").expect("a token");
+        let (port, token) = address.split_once("/#token=").expect("a token");
         Self { child, port: port.parse().expect("a port"), token: token.to_string(), folder: folder.to_path_buf() }
     }
 
@@ -99,8 +99,8 @@ impl Server {
         format!("Host: 127.0.0.1:{}", self.port)
     }
 
-    fn cookie(&self) -> String {
-        format!("Cookie: barrier_check_{}={}", self.port, self.token)
+    fn key(&self) -> String {
+        format!("X-Barrier-Check-Token: {}", self.token)
     }
 
     fn origin(&self) -> String {
@@ -108,11 +108,16 @@ impl Server {
     }
 
     fn get(&self, path: &str) -> Answer {
-        self.with(&format!("GET {path}"), &[self.host(), self.cookie()], "")
+        self.with(&format!("GET {path}"), &[self.host(), self.key()], "")
+    }
+
+    /// A file of a report.
+    fn report(&self, path: &str) -> Answer {
+        self.with(&format!("GET /report/{}/{path}", self.token), &[self.host()], "")
     }
 
     fn send(&self, method: &str, path: &str, body: &Value) -> Answer {
-        let headers = [self.host(), self.cookie(), self.origin(), "Content-Type: application/json".into()];
+        let headers = [self.host(), self.key(), self.origin(), "Content-Type: application/json".into()];
         self.with(&format!("{method} {path}"), &headers, &body.to_string())
     }
 
@@ -134,31 +139,35 @@ impl Server {
 fn only_the_page_that_was_given_the_token_is_answered() {
     let folder = fresh_folder("guard");
     let server = Server::of(&folder);
-    let (host, cookie, origin) = (server.host(), server.cookie(), server.origin());
+    let (host, key, origin) = (server.host(), server.key(), server.origin());
     let get = |path: &str, headers: &[&str]| {
         let headers: Vec<String> = headers.iter().map(|header| header.to_string()).collect();
         server.with(&format!("GET {path}"), &headers, "")
     };
-    // The token is taken once, for a cookie that no other site sends and no script reads.
-    let first = get(&format!("/?token={}", server.token), &[&host]);
-    assert_eq!(first.status, 303);
-    assert!(
-        first.head.contains("httponly; samesite=strict") && first.head.contains("location: /\r\n"),
-        "{}",
-        first.head
-    );
-    // Without the token, or with another one.
-    let wrong = format!("/?token={}0", &server.token[1..]);
-    let part = format!("/?token={}", &server.token[..32]);
-    for path in
-        ["/", "/page/bundle.js", "/page/page.css", "/api/start", "/api/runs", "/?token=", &wrong, &part, "/nowhere"]
-    {
+    // The page holds nothing that is secret, and gives none: no cookie, which would go to every port of the address.
+    for path in ["/", "/page/bundle.js", "/page/page.css", "/?token=x"] {
         let answer = get(path, &[&host]);
-        assert_eq!((answer.status, answer.why().contains("token")), (403, true), "{path}");
+        assert!(
+            answer.status == 200 && !answer.head.contains("cookie") && !answer.body.contains(&server.token),
+            "{path}"
+        );
     }
-    let of_another_port = cookie.replace(&format!("_{}", server.port), "_1");
-    assert_eq!(get("/api/start", &[&host, &of_another_port]).status, 403);
-    assert_eq!(get("/api/start", &[&host, &cookie]).status, 200);
+    // Without the token, with another one, a part of it, or two.
+    let keys = [
+        String::new(),
+        format!("X-Barrier-Check-Token: {}0", &server.token[1..]),
+        format!("X-Barrier-Check-Token: {}", &server.token[..32]),
+        format!("Cookie: barrier_check_{}={}", server.port, server.token),
+    ];
+    for wrong in &keys {
+        for path in ["/api/start", "/api/runs", "/nowhere", "/report/x/report.html", "/report/x/y/report.html"] {
+            let headers: Vec<&str> = [host.as_str(), wrong].into_iter().filter(|header| !header.is_empty()).collect();
+            let answer = get(path, &headers);
+            assert_eq!((answer.status, answer.why().contains("token")), (403, true), "{path}");
+        }
+    }
+    assert_eq!(get("/api/start", &[&host, &key, &keys[1]]).status, 403);
+    assert_eq!(get("/api/start", &[&host, &key]).status, 200);
     // A name that an attacker's server makes point here, none, or two.
     let elsewhere = format!("Host: evil.example:{}", server.port);
     let numbered = format!("Host: 127.0.0.1.evil.example:{}", server.port);
@@ -169,10 +178,10 @@ fn only_the_page_that_was_given_the_token_is_answered() {
         vec!["Host: 127.0.0.1:1"],
         vec![&host, &elsewhere],
     ] {
-        let headers: Vec<&str> = headers.into_iter().chain([cookie.as_str()]).collect();
+        let headers: Vec<&str> = headers.into_iter().chain([key.as_str()]).collect();
         assert_ne!(get("/api/start", &headers).status, 200, "{headers:?}");
     }
-    assert_ne!(get("/api/start", &[&cookie]).status, 200);
+    assert_ne!(get("/api/start", &[&key]).status, 200);
     // Another page in the same browser.
     for foreign in [
         "Origin: http://evil.example",
@@ -181,13 +190,13 @@ fn only_the_page_that_was_given_the_token_is_answered() {
         "Sec-Fetch-Site: cross-site",
         "Sec-Fetch-Site: same-site",
     ] {
-        assert_eq!(get("/api/start", &[&host, &cookie, foreign]).status, 403, "{foreign}");
+        assert_eq!(get("/api/start", &[&host, &key, foreign]).status, 403, "{foreign}");
     }
     let change = |headers: &[&str]| {
         let headers: Vec<String> = headers
             .iter()
             .copied()
-            .chain([host.as_str(), &cookie, "Content-Type: application/json"])
+            .chain([host.as_str(), &key, "Content-Type: application/json"])
             .map(String::from)
             .collect();
         let body = json!({ "path": "new.yaml", "text": "x", "before": null }).to_string();
@@ -200,7 +209,7 @@ fn only_the_page_that_was_given_the_token_is_answered() {
     // What a form of another page could send is not taken for JSON.
     let form = server.with(
         "POST /api/look",
-        &[host.clone(), cookie.clone(), origin.clone(), "Content-Type: text/plain".into()],
+        &[host.clone(), key.clone(), origin.clone(), "Content-Type: text/plain".into()],
         "{}",
     );
     assert_eq!(form.status, 415);
@@ -315,20 +324,39 @@ fn nothing_outside_the_folder_is_read_or_written() {
             "{problems}"
         );
     }
+    // Links where the program reads beside a design, and where reports go.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::symlink;
+        symlink(&folder, site.join("attached")).expect("a link");
+        let text = tiny.replace("barrier:\n  flexible_net:", "barrier:\n  kit: gone/secret.yaml\n  flexible_net:");
+        let problems = server.send("POST", "/api/look", &json!({ "path": "tiny.yaml", "text": text })).json();
+        assert!(!problems["problems"].to_string().contains("words"), "{problems}");
+        std::fs::create_dir(folder.join("elsewhere")).expect("a folder");
+        symlink(folder.join("elsewhere"), site.join("out")).expect("a link");
+        let run = || server.send("POST", "/api/runs", &json!({ "path": "tiny.yaml" })).status;
+        assert_eq!(run(), 400);
+        std::fs::remove_file(site.join("out")).expect("the link");
+        std::fs::create_dir(site.join("out")).expect("a folder");
+        symlink(folder.join("elsewhere"), site.join("out/tiny")).expect("a link");
+        assert_eq!(run(), 400);
+        assert_eq!(server.send("POST", "/api/runs/tiny%2f/resume", &json!({})).status, 400);
+        assert_eq!(std::fs::read_dir(folder.join("elsewhere")).expect("a folder").count(), 0);
+    }
     // Reports: what the program has written into the folders of `out`, nothing else.
     std::fs::create_dir_all(site.join("out/mine")).expect("a folder");
     std::fs::write(site.join("out/mine/report.html"), "words").expect("a file");
     for path in [
-        "/report/mine/report.html",
-        "/report/../tiny.yaml",
-        "/report/%2e%2e/tiny.yaml",
-        "/report/mine/%2e%2e%2f%2e%2e%2ftiny.yaml",
-        "/report/mine/..%2f..%2ftiny.yaml",
-        "/report/.%2f/x",
-        "/report/%2fetc/passwd",
+        "/report/TOKEN/mine/report.html",
+        "/report/TOKEN/../tiny.yaml",
+        "/report/TOKEN/%2e%2e/tiny.yaml",
+        "/report/TOKEN/mine/%2e%2e%2f%2e%2e%2ftiny.yaml",
+        "/report/TOKEN/mine/..%2f..%2ftiny.yaml",
+        "/report/TOKEN/.%2f/x",
+        "/report/TOKEN/%2fetc/passwd",
         "/page/..%2f..%2fCargo.toml",
     ] {
-        let answer = server.get(path);
+        let answer = server.get(&path.replace("TOKEN", &server.token));
         assert!((400..500).contains(&answer.status) && !answer.body.contains("words"), "{path}: {}", answer.status);
     }
     for (path, body) in [
@@ -347,7 +375,7 @@ fn what_is_too_much_or_no_request_is_refused_and_stops_nobody() {
     let folder = fresh_folder("size");
     let server = Server::of(&folder);
     let sent = |body: &str| {
-        let headers = [server.host(), server.cookie(), server.origin(), "Content-Type: application/json".into()];
+        let headers = [server.host(), server.key(), server.origin(), "Content-Type: application/json".into()];
         server.with("POST /api/look", &headers, body).status
     };
     // Slow ones that never end hold up nobody.
@@ -432,6 +460,24 @@ fn nothing_that_somebody_else_has_written_is_overwritten() {
     std::fs::remove_file(&place).expect("it");
     assert!(conflict(put("tiny.yaml", "mine", first.json()["written"]["digest"].clone())).is_some());
     assert!(!place.exists());
+    // Of two at once one is told, and what was protected stays so.
+    std::fs::write(&place, text).expect("a file");
+    let digest = server.get("/api/design?path=tiny.yaml").json()["digest"].clone();
+    let answers: Vec<Answer> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..8)
+            .map(|number| {
+                let (put, digest) = (&put, digest.clone());
+                scope.spawn(move || put("tiny.yaml", &format!("{text}# {number}\n"), digest))
+            })
+            .collect();
+        threads.into_iter().map(|thread| thread.join().expect("an answer")).collect()
+    });
+    assert_eq!(answers.iter().filter(|answer| answer.json()["written"].is_object()).count(), 1);
+    let digest = server.get("/api/design?path=tiny.yaml").json()["digest"].clone();
+    let mut protected = std::fs::metadata(&place).expect("it").permissions();
+    protected.set_readonly(true);
+    std::fs::set_permissions(&place, protected).expect("it");
+    assert_eq!(put("tiny.yaml", "mine", digest).status, 500);
     let left: Vec<_> = std::fs::read_dir(folder.join("site"))
         .expect("a folder")
         .flatten()
@@ -458,26 +504,26 @@ fn a_design_is_looked_at_run_and_its_report_handed_out() {
     assert_eq!((begun.status, &begun.json()["folder"]), (200, &json!("tiny")));
     let ended = server.run_until("tiny", |now| now["state"] == "ended");
     assert_eq!(ended["page"], "report.html", "{ended}");
-    let page = server.get("/report/tiny/report.html");
+    let page = server.report("tiny/report.html");
     assert!(
         page.status == 200 && page.head.contains("text/html") && page.body.contains("SHA-256 of the design file"),
         "{}",
         page.head
     );
     // The report may show itself, and fetch nothing.
-    assert!(page.head.contains("script-src 'unsafe-inline'") && !page.head.contains("connect-src 'self'"));
+    assert!(page.head.contains("script-src 'sha256-") && !page.head.contains("connect-src 'self'"));
     assert_eq!(
-        server.get("/report/tiny/result.json").json()["verdict"],
+        server.report("tiny/result.json").json()["verdict"],
         server.get("/api/runs").json()["runs"][0]["verdict"]
     );
     std::fs::write(folder.join("site/out/tiny/mine.txt"), "words").expect("a file");
-    assert_eq!(server.get("/report/tiny/mine.txt").status, 404);
+    assert_eq!(server.report("tiny/mine.txt").status, 404);
     #[cfg(unix)]
     {
         let swapped = folder.join("site/out/tiny/report.md");
         std::fs::remove_file(&swapped).expect("it");
         std::os::unix::fs::symlink(folder.join("secret.yaml"), &swapped).expect("a link");
-        assert_eq!(server.get("/report/tiny/report.md").status, 404);
+        assert_eq!(server.report("tiny/report.md").status, 404);
     }
     std::fs::remove_dir_all(folder).expect("the folder");
 }
@@ -516,7 +562,7 @@ fn a_run_that_is_stopped_or_whose_server_is_killed_goes_on_where_it_was() {
         assert!(began.elapsed() < Duration::from_secs(60), "{ended}");
         std::thread::sleep(Duration::from_millis(200));
     }
-    let result = again.get("/report/small_net/result.json").json();
+    let result = again.report("small_net/result.json").json();
     let alone = folder.join("alone");
     let ran = Command::new(PROGRAM)
         .arg(folder.join("site/small_net.yaml"))

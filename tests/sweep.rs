@@ -103,7 +103,7 @@ fn lists_go_together_and_values_that_make_no_design_are_told() {
     let here = folder("list");
     let plan = PLAN.replace("values: [1, 1.5]", "values: [1, 1.5, 99]") + "combine: list\n";
     std::fs::write(here.join("plan.yaml"), &plan).expect("a plan");
-    assert_eq!(barrier_check(&here, &["study", "plan.yaml", "--out", "found"]).status.code(), Some(0));
+    assert_eq!(barrier_check(&here, &["study", "plan.yaml", "--out", "found"]).status.code(), Some(2));
     let found = json(&read(&here, "found/sweep.json"));
     let runs = found["runs"].as_array().expect("runs");
     assert_eq!(runs.len(), 6);

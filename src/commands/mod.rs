@@ -14,6 +14,7 @@ pub mod progress;
 mod reliability;
 pub mod report;
 pub mod schema;
+mod scratch;
 pub mod serve;
 pub(crate) mod signals;
 mod size;

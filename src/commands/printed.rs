@@ -6,6 +6,8 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use std::{fs, io, thread};
 
+use crate::commands::scratch::Scratch;
+
 /// Name of the file.
 pub const FILE: &str = "report.pdf";
 
@@ -66,12 +68,12 @@ impl Browser {
     /// A page as PDF.
     pub fn print(&self, html: &str) -> Result<Vec<u8>, PrintError> {
         let folder = Scratch::new()?;
-        let [page, printed] = ["report.html", FILE].map(|name| folder.0.join(name));
+        let [page, printed] = ["report.html", FILE].map(|name| folder.path().join(name));
         fs::write(&page, html)?;
         // Without its sandbox only where it would not start with it, as in a container: the page is the program's own, and asks for nothing.
-        let mut told = self.run(&folder.0, &page, &printed, &[])?;
+        let mut told = self.run(&folder.path(), &page, &printed, &[])?;
         if !printed.is_file() {
-            told = self.run(&folder.0, &page, &printed, &["--no-sandbox"])?;
+            told = self.run(&folder.path(), &page, &printed, &["--no-sandbox"])?;
         }
         fs::read(&printed).map_err(|_| PrintError::Browser(self.0.display().to_string(), told))
     }
@@ -118,24 +120,4 @@ fn ends(child: &mut Child) -> io::Result<bool> {
         thread::sleep(Duration::from_millis(10));
     }
     Ok(true)
-}
-
-/// A folder for the browser, which goes when it is no longer needed.
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new() -> io::Result<Self> {
-        let mut name = [0; 8];
-        getrandom::fill(&mut name).map_err(|error| io::Error::other(error.to_string()))?;
-        let folder = std::env::temp_dir().join(format!("barrier-check-{:016x}", u64::from_le_bytes(name)));
-        fs::create_dir(&folder)?;
-        Ok(Self(folder))
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        // A browser may still be at it; what it leaves is in the folder for what is temporary.
-        let _ = fs::remove_dir_all(&self.0);
-    }
 }

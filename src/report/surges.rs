@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::checks::outcome::Kind;
 use crate::pipeline::Run;
 use crate::report::chart::Chart;
 use crate::report::numbers::{figures, with_scatter, with_unit};
@@ -105,8 +106,44 @@ fn says(run: &Run, stages: &[Stage]) -> String {
     let missing = run.file.design.flow.surges() - stages.len();
     let missing = if missing > 0 { format!(" {missing} of the surges were not simulated.") } else { String::new() };
     format!(
-        "The barrier is not emptied between the surges; dissipators keep their strokes, and ropes what they have drawn out. Surge {hardest} pushes hardest, and every check takes the worst moment of all surges. The simulation shows {} to {} times the guideline's force.{missing}",
+        "The barrier is not emptied between the surges; dissipators keep their strokes, and ropes what they have drawn out. Surge {hardest} pushes hardest, and every check takes the worst moment of all surges. The simulation shows {} to {} times the guideline's force.{missing} {}",
         figures(least),
-        figures(most)
+        figures(most),
+        before_the_next(run, stages)
     )
+}
+
+/// Before which surge the barrier would have to be cleared, or its dissipators replaced.
+fn before_the_next(run: &Run, stages: &[Stage]) -> String {
+    let strokes = run.outcomes.iter().filter(|outcome| outcome.kind == Kind::Stroke);
+    let permitted = strokes.filter_map(|outcome| outcome.capacity).reduce(f64::min);
+    // Asked as "within", so that what is not a number is not.
+    let is_within = |stage: &Stage| permitted.is_none_or(|most| stage.stroke.is_none_or(|[all, _]| all.mean <= most));
+    let worn = stages.iter().position(|stage| !is_within(stage));
+    let top = run.guideline.input.barrier_height;
+    let is_below = |stage: &Stage| stage.level.mean <= top;
+    let over = stages.iter().position(|stage| !is_below(stage));
+    let mut said = Vec::new();
+    if let Some(number) = worn {
+        said.push(format!(
+            "With surge {} a dissipator uses more of its stroke than is permitted: it would have to be replaced before the next.",
+            number + 1
+        ));
+    }
+    match over {
+        Some(0) => said.push("The first surge already rises above the barrier's top as built.".to_string()),
+        Some(number) => said.push(format!(
+            "Surge {} is the first to rise above the barrier's top as built: the barrier would have to be cleared before it.",
+            number + 1
+        )),
+        None => {}
+    }
+    if said.is_empty() {
+        said.push(
+            "None of them uses up the permitted stroke of a dissipator or rises above the barrier's top as built."
+                .to_string(),
+        );
+    }
+    said.push("This is by the means of the runs; the checks decide.".to_string());
+    said.join(" ")
 }

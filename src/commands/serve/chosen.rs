@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::{fs, io};
 
 use axum::http::StatusCode;
@@ -22,6 +23,8 @@ const PASSED_BY: [&str; 3] = ["out", "target", "node_modules"];
 
 pub struct Chosen {
     root: PathBuf,
+    /// Held by whoever writes, from the look at what is there to the end.
+    writes: Mutex<()>,
 }
 
 /// A design as it stands on the disk.
@@ -36,7 +39,11 @@ pub struct Written {
 impl Chosen {
     pub fn open(folder: &Path) -> io::Result<Self> {
         let root = folder.canonicalize()?;
-        if root.is_dir() { Ok(Self { root }) } else { Err(io::Error::other("it is not a folder")) }
+        if root.is_dir() {
+            Ok(Self { root, writes: Mutex::new(()) })
+        } else {
+            Err(io::Error::other("it is not a folder"))
+        }
     }
 
     pub fn root(&self) -> &Path {
@@ -76,7 +83,9 @@ impl Chosen {
     fn place(&self, path: &str) -> Result<PathBuf, Refused> {
         let named = Path::new(path);
         let plain = |part: Component| matches!(part, Component::Normal(name) if name.to_str().is_some_and(|name| !name.starts_with('.')));
-        let harmless = !path.contains(['\\', ':', '\0', '\n', '\r']) && path.len() <= 300;
+        let harmless = !path.contains(['\\', ':', '\0', '\n', '\r'])
+            && !path.ends_with(['/', '.'])
+            && path.split('/').all(|part| part.len() <= 200);
         if path.is_empty() || !harmless || !named.components().all(plain) || !is_yaml(named) {
             return Err(Refused::bad(format!(
                 "`{}` is no name for a design: a file in this folder or one below it, with the ending .yaml",
@@ -112,6 +121,7 @@ impl Chosen {
         if text.len() as u64 > input::LONGEST_TEXT {
             return Err(Refused::new(StatusCode::PAYLOAD_TOO_LARGE, "the text is too long for a design"));
         }
+        let _alone = self.writes.lock().unwrap_or_else(PoisonError::into_inner);
         let there = match place.exists() {
             true => Some(self.read(path)?.digest),
             false => None,
@@ -133,14 +143,14 @@ impl Chosen {
     pub fn design(&self, path: &str, text: &str) -> Result<Result<DesignFile, Problems>, Refused> {
         let place = self.place(path)?;
         let open = |other: &str| {
-            let named = place.parent().unwrap_or(&self.root).join(other);
-            // As the program reads it when it runs the design: there, or in the folder `attached`.
-            match named.canonicalize() {
-                Ok(real) if !real.starts_with(&self.root) => {
-                    Err("it lies outside the folder that is served".to_string())
-                }
-                _ => input::beside(&place, other),
+            let folder = place.parent().unwrap_or(&self.root);
+            // Where the program reads it when it runs the design: there, or in the folder `attached`.
+            let kept = Path::new(other).file_name().map(|name| folder.join(input::ATTACHED).join(name));
+            let leads_out = |place: PathBuf| place.canonicalize().is_ok_and(|real| !real.starts_with(&self.root));
+            if leads_out(folder.join(other)) || kept.is_some_and(leads_out) {
+                return Err("it lies outside the folder that is served".to_string());
             }
+            input::beside(&place, other)
         };
         Ok(read_design_for(Purpose::Simulation, path, text.as_bytes(), &open))
     }
@@ -167,7 +177,15 @@ fn replace(place: &Path, bytes: &[u8]) -> io::Result<()> {
     static NUMBER: AtomicU64 = AtomicU64::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let beside = place.with_file_name(format!(".{name}.{}.{number}.tmp", std::process::id()));
+    let before = fs::metadata(place).ok().map(|found| found.permissions());
+    if before.as_ref().is_some_and(fs::Permissions::readonly) {
+        return Err(io::Error::other("it is protected against being written"));
+    }
     let written = fs::File::create_new(&beside).and_then(|mut file| {
+        // Readable by those who could read it before.
+        if let Some(before) = before {
+            file.set_permissions(before)?;
+        }
         file.write_all(bytes)?;
         file.sync_all()
     });

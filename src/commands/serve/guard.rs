@@ -1,22 +1,26 @@
 //! Who may ask: pages of this server in the browser that was given its address, nobody else.
 //!
-//! Another program on the machine lacks the token; another page in the same browser has a different origin, and the browser sends neither the
-//! cookie nor the origin wanted here with its requests; a name that an attacker's server makes point to the loopback address is no host that is
-//! known here.
+//! Another program on the machine, and another page in the same browser, lack the token: it comes to the page behind the `#` of its address, which no
+//! browser sends, and stays in what the browser keeps for this host and port alone; cookies would go to every port of the address. A name that an
+//! attacker's server makes point to the loopback address is no host that is known here.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use axum::extract::{Request, State};
 use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, COOKIE, HOST, HeaderName, LOCATION, ORIGIN, REFERRER_POLICY, SET_COOKIE,
-    X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, HOST, HeaderName, ORIGIN, REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
+    X_FRAME_OPTIONS,
 };
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use sha2::Digest;
 
 use super::answer::Refused;
 use crate::commands::Failure;
+use crate::report::pictures::REPLAY_SCRIPT;
 
 /// The secret of this server, and the names that it goes by.
 pub struct Guard {
@@ -34,12 +38,7 @@ impl Guard {
 
     /// What is opened in a browser.
     pub fn address(&self) -> String {
-        format!("http://127.0.0.1:{}/?token={}", self.port, self.token)
-    }
-
-    /// Cookies are shared by all ports of an address.
-    fn cookie(&self) -> String {
-        format!("barrier_check_{}", self.port)
+        format!("http://127.0.0.1:{}/#token={}", self.port, self.token)
     }
 
     fn is_known(&self, host: &str) -> bool {
@@ -52,13 +51,21 @@ impl Guard {
         found.len() == self.token.len() && differing == 0
     }
 
-    fn has_the_cookie(&self, headers: &HeaderMap) -> bool {
-        let name = self.cookie();
-        let cookies = headers.get_all(COOKIE).iter().filter_map(|value| value.to_str().ok());
-        let mut pairs = cookies.flat_map(|cookies| cookies.split(';')).filter_map(|pair| pair.trim().split_once('='));
-        pairs.any(|(key, value)| key == name && self.is_the_token(value))
+    /// Whether a request brings the token: one of the page in a header, one for a report, which a link leads to, in its address. The page itself holds
+    /// nothing that is secret.
+    fn admits(&self, headers: &HeaderMap, path: &str) -> bool {
+        if path == "/" || path.starts_with("/page/") {
+            return true;
+        }
+        match path.strip_prefix("/report/") {
+            Some(rest) => self.is_the_token(rest.split('/').next().unwrap_or_default()),
+            None => one(headers, &TOKEN).is_some_and(|found| self.is_the_token(found)),
+        }
     }
 }
+
+/// The header in which the page brings the token.
+const TOKEN: HeaderName = HeaderName::from_static("x-barrier-check-token");
 
 /// The one value of a header, as text.
 fn one<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Option<&'a str> {
@@ -66,7 +73,7 @@ fn one<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Option<&'a str> {
     values.next().filter(|_| values.next().is_none())?.to_str().ok()
 }
 
-/// Lets a request through if it comes from a page of this server; the first comes with the token, and is given a cookie for those after it.
+/// Lets a request through if it comes from a page of this server that was given the token.
 pub async fn admit(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
     let headers = request.headers();
     let forbidden = |why: &str| Refused::new(StatusCode::FORBIDDEN, why).into_response();
@@ -84,13 +91,7 @@ pub async fn admit(State(guard): State<Arc<Guard>>, request: Request, next: Next
     if !reads && origin.is_none() {
         return forbidden("what changes something must come from the page of this server");
     }
-    let token = request.uri().query().unwrap_or_default().split('&').find_map(|pair| pair.strip_prefix("token="));
-    if reads && request.uri().path() == "/" && token.is_some_and(|token| guard.is_the_token(token)) {
-        // The token does not stay in the address, where it could be seen over a shoulder.
-        let cookie = format!("{}={}; HttpOnly; SameSite=Strict; Path=/", guard.cookie(), guard.token);
-        return (StatusCode::SEE_OTHER, [(LOCATION, "/".to_string()), (SET_COOKIE, cookie)]).into_response();
-    }
-    if !guard.has_the_cookie(headers) {
+    if !guard.admits(headers, request.uri().path()) {
         return forbidden("open the address that barrier-check printed when it was started, with its token");
     }
     next.run(request).await
@@ -98,8 +99,15 @@ pub async fn admit(State(guard): State<Arc<Guard>>, request: Request, next: Next
 
 /// What a page of this server may do: nothing from elsewhere, in no frame of another page, kept nowhere.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; font-src 'self'; connect-src 'self'; frame-src 'self'; frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
-/// What a report may do, whose program and looks stand in it: nothing but show itself.
-pub const REPORT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'self'; base-uri 'none'; form-action 'none'";
+/// What a report may do, whose looks stand in it: show itself. Of programs it may run the replay alone, known by its digest, so that a report which
+/// somebody has forged runs none.
+pub static REPORT_POLICY: LazyLock<HeaderValue> = LazyLock::new(|| {
+    let digest = STANDARD.encode(sha2::Sha256::digest(REPLAY_SCRIPT.as_bytes()));
+    let policy = format!(
+        "default-src 'none'; script-src 'sha256-{digest}'; style-src 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'self'; base-uri 'none'; form-action 'none'"
+    );
+    HeaderValue::try_from(policy).unwrap_or(HeaderValue::from_static("default-src 'none'"))
+});
 
 /// Adds to every answer what keeps the browser from doing more with it than is meant.
 pub async fn harden(request: Request, next: Next) -> Response {

@@ -11,7 +11,7 @@ mod runs;
 mod served;
 
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -22,6 +22,7 @@ use axum::routing::{get, post};
 use axum::{Router, serve as serve_router};
 
 use crate::commands::input::LONGEST_TEXT;
+use crate::commands::scratch::Scratch;
 use crate::commands::signals::{listen, stop};
 use crate::commands::{ExitCode, Failure};
 use crate::terminal;
@@ -85,7 +86,9 @@ fn run(options: &Options) -> Result<(), Failure> {
             "barrier-check serves {} at\n  {address}\nto this machine and whoever has that address alone. Ctrl-C ends it; runs that go on are kept, to be resumed.",
             chosen.root().display()
         ));
-        if options.open && open::that_detached(&address).is_err() {
+        // By a file that its owner alone can read: what a program is started with, everybody on the machine can.
+        let leads_there = if options.open { Scratch::new().ok() } else { None };
+        if options.open && !leads_there.as_ref().is_some_and(|folder| opened(folder.path(), &address)) {
             terminal::warn("note: no browser could be opened: open the address above");
         }
         let runs = Runs::new(chosen.root());
@@ -104,11 +107,19 @@ fn run(options: &Options) -> Result<(), Failure> {
     })
 }
 
+/// Opens an address in the browser of the system; whether that could be asked for.
+fn opened(folder: &Path, address: &str) -> bool {
+    let page = folder.join("barrier-check.html");
+    let leads =
+        format!("<!doctype html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url={address}\">");
+    std::fs::write(&page, leads).is_ok() && open::that_detached(&page).is_ok()
+}
+
 fn router(served: Arc<Served>, guard: Guard) -> Router {
     let router = Router::new()
         .route("/", get(page::index))
         .route("/page/{name}", get(page::asset))
-        .route("/report/{folder}/{*file}", get(requests::report_file))
+        .route("/report/{token}/{folder}/{*file}", get(requests::report_file))
         .route("/api/start", get(requests::start))
         .route("/api/design", get(requests::read).put(requests::write))
         .route("/api/new", post(requests::new))

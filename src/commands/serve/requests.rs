@@ -5,6 +5,7 @@ use std::sync::Arc;
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, Query, State};
+use axum::http::HeaderValue;
 use axum::http::header::{CONTENT_SECURITY_POLICY, CONTENT_TYPE};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
@@ -218,11 +219,13 @@ pub async fn compare(State(served): Shared, body: Body<ToCompare>) -> Result<Jso
 /// A file of a report.
 pub async fn report_file(
     State(served): Shared,
-    Path((folder, file)): Path<(String, String)>,
+    // The token is looked at by the guard.
+    Path((_, folder, file)): Path<(String, String, String)>,
 ) -> Result<Response, Refused> {
     let kind = kind_of(&file);
     let bytes = apart(served, move |served| served.runs.file(&folder, &file)).await?;
-    Ok(([(CONTENT_TYPE, kind), (CONTENT_SECURITY_POLICY, REPORT_POLICY)], bytes).into_response())
+    Ok(([(CONTENT_TYPE, HeaderValue::from_static(kind)), (CONTENT_SECURITY_POLICY, REPORT_POLICY.clone())], bytes)
+        .into_response())
 }
 
 /// What the browser takes a file for; it shows no other as a page.

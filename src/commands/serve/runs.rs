@@ -9,8 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-use serde::Serialize;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
 
 use super::answer::Refused;
 use crate::checkpoint;
@@ -30,6 +29,8 @@ const LONGEST_LINE: u64 = 1 << 20;
 const MOST_PICTURES: usize = 200;
 /// Points of the force so far at the most.
 const MOST_POINTS: usize = 2000;
+/// Bytes of a result.json at the most.
+const LONGEST_RESULT: u64 = 8 << 20;
 /// Bytes of a file of a report that is handed out at the most.
 const LONGEST_FILE: u64 = 64 << 20;
 
@@ -108,6 +109,7 @@ impl Runs {
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let mut folders = std::iter::once(name.clone()).chain(numbered);
         let folder = folders.find(|folder| self.takes(folder, digest)).unwrap_or(name);
+        self.place(&folder)?;
         let design = format!("./{design}");
         let seeds = how.seeds.to_string();
         self.start(
@@ -183,12 +185,14 @@ impl Runs {
         self.folder(a)?;
         self.folder(b)?;
         let name = folder_name(&format!("compare {a} and {b}"));
+        self.place(&name)?;
         let [one, other, out] = [a, b, &name].map(|folder| format!("{OUT}/{folder}"));
         let arguments = ["compare", &one, &other, "--out", &out];
         let output = self.command(&arguments).and_then(|mut command| command.stdin(Stdio::null()).output());
         let output = output.map_err(Refused::failed)?;
         let page = format!("{name}/compare.html");
-        match self.root.join(OUT).join(&page).is_file() {
+        // It tells a line of each design on standard output; an error has none there.
+        match !output.stdout.is_empty() && self.root.join(OUT).join(&page).is_file() {
             true => Ok(page),
             false => Err(Refused::bad(String::from_utf8_lossy(&output.stderr).trim().to_string())),
         }
@@ -200,14 +204,31 @@ impl Runs {
 
     /// A folder of `out` that is there.
     fn folder(&self, name: &str) -> Result<PathBuf, Refused> {
-        let one = Path::new(name).components().count() == 1;
-        let place = inner(&self.root.join(OUT), name).ok().filter(|place| one && place.is_dir());
-        place.ok_or_else(|| Refused::missing("this report"))
+        let place = self.place(name)?;
+        if place.is_dir() { Ok(place) } else { Err(Refused::missing("this report")) }
+    }
+
+    /// Where a folder of `out` is, or is to be: nowhere else, whatever links there are.
+    fn place(&self, name: &str) -> Result<PathBuf, Refused> {
+        let out = self.root.join(OUT);
+        let place = out.join(name);
+        let is_a_link = |place: &Path| fs::symlink_metadata(place).is_ok_and(|found| found.is_symlink());
+        // A name with a stroke at its end would be followed through a link.
+        let plain = folder_name(name) == name && !name.contains(['/', '\\']);
+        if !plain || is_a_link(&out) || is_a_link(&place) {
+            return Err(Refused::bad(format!(
+                "{OUT}/{} is no folder for a report: a link, or no plain name",
+                crate::problem::harmless(name)
+            )));
+        }
+        Ok(place)
     }
 
     /// All reports and interrupted runs, the newest first.
     pub fn list(&self) -> Vec<Listed> {
-        let entries = fs::read_dir(self.root.join(OUT)).into_iter().flatten().flatten();
+        let out = self.root.join(OUT);
+        let is_a_link = fs::symlink_metadata(&out).is_ok_and(|found| found.is_symlink());
+        let entries = fs::read_dir(out).ok().filter(|_| !is_a_link).into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
         let mut listed: Vec<Listed> = names.filter_map(|name| self.listed(&name)).collect();
         listed.sort_by(|a, b| b.written.cmp(&a.written).then_with(|| a.folder.cmp(&b.folder)));
@@ -302,11 +323,20 @@ struct Of {
 }
 
 fn of_the_result(folder: &Path) -> Option<Of> {
-    let bytes = input::read(&folder.join("result.json"), LONGEST_FILE, b"").ok()?;
-    let result: Value = serde_json::from_slice(&bytes).ok()?;
-    let text = |value: &Value| value.as_str().unwrap_or_default().to_string();
-    let design = &result["design"];
-    Some(Of { title: text(&design["name"]), digest: text(&design["sha256"]), verdict: text(&result["verdict"]) })
+    /// What of it is looked at; the rest is not kept.
+    #[derive(Deserialize)]
+    struct Told {
+        design: Design,
+        verdict: String,
+    }
+    #[derive(Deserialize)]
+    struct Design {
+        name: String,
+        sha256: String,
+    }
+    let bytes = input::read(&folder.join("result.json"), LONGEST_RESULT, b"").ok()?;
+    let Told { design, verdict } = serde_json::from_slice(&bytes).ok()?;
+    Some(Of { title: design.name, digest: design.sha256, verdict })
 }
 
 impl UnderWay {

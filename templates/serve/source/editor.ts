@@ -108,9 +108,12 @@ export function makeEditor(parent: HTMLElement, schema: Schema, changed: () => v
   const view = new EditorView({ parent, state: EditorState.create({ doc: "", extensions }) });
   return {
     view,
-    text: () => view.state.doc.toString(),
-    open: (text) => view.setState(EditorState.create({ doc: text, extensions })),
-    change: (text) => {
+    text: () => view.state.sliceDoc(),
+    // With the ends of lines that it has.
+    open: (text) => view.setState(EditorState.create({ doc: text, extensions: [extensions, EditorState.lineSeparator.of(text.includes("\r\n") ? "\r\n" : "\n")] })),
+    change: (written) => {
+      // Places count the end of a line as one letter.
+      const text = written.replaceAll("\r\n", "\n");
       const before = view.state.doc.toString();
       let from = 0;
       while (from < before.length && from < text.length && before[from] === text[from]) from += 1;

@@ -120,7 +120,7 @@ async function begin() {
       const wrote = await server.write(open.path, editor.text(), open.digest);
       byId("conflict-text", HTMLElement).textContent = `${wrote.conflict ?? ""}.`;
       conflict.hidden = wrote.conflict === undefined;
-      if (wrote.written) open = wrote.written;
+      if (wrote.written && open?.path === wrote.written.path) open = wrote.written;
       tellState();
       return wrote.written !== undefined;
     } catch (error) {
@@ -186,7 +186,7 @@ async function begin() {
       .then((there) => there.digest, () => null)
       .then((digest) => server.write(path, text, digest))
       .then((wrote) => {
-        if (wrote.written) open = wrote.written;
+        if (wrote.written && open?.path === wrote.written.path) open = wrote.written;
         conflict.hidden = wrote.conflict === undefined;
         tellState();
       })
@@ -219,7 +219,8 @@ async function begin() {
     if (unsaved()) event.preventDefault();
   });
 
-  newDesign(start, show, tell);
+  const mayLeave = () => !unsaved() || window.confirm(`What is changed in ${open?.path} is not saved. Lose it and open the other?`);
+  newDesign(start, show, tell, mayLeave);
   const asks = decodeURIComponent(window.location.hash.slice(1));
   if (asks) void server.read(asks).then(show).catch(tell);
   void reports.refresh();
@@ -228,7 +229,7 @@ async function begin() {
 }
 
 /** Ten questions, whose answers make a design that runs. */
-function newDesign(start: server.Start, show: (written: server.Written) => void, tell: (error: unknown) => void) {
+function newDesign(start: server.Start, show: (written: server.Written) => void, tell: (error: unknown) => void, mayLeave: () => boolean) {
   const dialog = byId("new-dialog", HTMLDialogElement);
   const fields = byId("new-fields", HTMLElement);
   const wrong = byId("new-wrong", HTMLElement);
@@ -244,6 +245,7 @@ function newDesign(start: server.Start, show: (written: server.Written) => void,
     return field;
   });
   byId("new", HTMLButtonElement).addEventListener("click", () => {
+    if (!mayLeave()) return;
     wrong.textContent = "";
     dialog.showModal();
   });

@@ -135,6 +135,16 @@ export interface Progress {
   page: string | null;
 }
 
+/** The secret of this server: behind the # of the address that it printed, and from then on in what the browser keeps for this host and port. */
+const KEPT = "barrier-check-token";
+const brought = /^#token=([0-9a-f]+)$/.exec(window.location.hash)?.[1];
+if (brought) {
+  window.localStorage.setItem(KEPT, brought);
+  // It does not stay in the address, where it could be seen over a shoulder.
+  window.history.replaceState(null, "", "/");
+}
+const token = brought ?? window.localStorage.getItem(KEPT) ?? "";
+
 /** What the server said in the place of an answer. */
 export class Refused extends Error {
   constructor(
@@ -146,10 +156,11 @@ export class Refused extends Error {
 }
 
 async function ask<T>(method: string, address: string, body?: unknown, signal?: AbortSignal): Promise<T> {
-  const request: RequestInit = { method };
+  const headers: Record<string, string> = { "X-Barrier-Check-Token": token };
+  const request: RequestInit = { method, headers };
   if (signal) request.signal = signal;
   if (body !== undefined) {
-    request.headers = { "Content-Type": "application/json" };
+    headers["Content-Type"] = "application/json";
     request.body = JSON.stringify(body);
   }
   let answer: Response;
@@ -183,4 +194,4 @@ export const progress = (folder: string, after: number) =>
 export const stop = (folder: string) => ask<object>("POST", `/api/runs/${named(folder)}/stop`);
 export const resume = (folder: string) => ask<object>("POST", `/api/runs/${named(folder)}/resume`);
 export const compare = (folders: [string, string]) => ask<{ page: string }>("POST", "/api/compare", { folders });
-export const addressOf = (folder: string, file: string) => `/report/${named(folder)}/${named(file)}`;
+export const addressOf = (folder: string, file: string) => `/report/${token}/${named(folder)}/${named(file)}`;
