@@ -71,9 +71,9 @@ impl Browser {
         let [page, printed] = ["report.html", FILE].map(|name| folder.path().join(name));
         fs::write(&page, html)?;
         // Without its sandbox only where it would not start with it, as in a container: the page is the program's own, and asks for nothing.
-        let mut told = self.run(&folder.path(), &page, &printed, &[])?;
+        let mut told = self.run(folder.path(), &page, &printed, &[])?;
         if !printed.is_file() {
-            told = self.run(&folder.path(), &page, &printed, &["--no-sandbox"])?;
+            told = self.run(folder.path(), &page, &printed, &["--no-sandbox"])?;
         }
         fs::read(&printed).map_err(|_| PrintError::Browser(self.0.display().to_string(), told))
     }
