@@ -78,19 +78,21 @@ fn without_formats(schema: &mut Value) {
     }
 }
 
-/// Leaves out formats that only some validators know, and lets every number be null: JSON has no infinity and no NaN.
+/// The same, and lets every number be null: JSON has no infinity and no NaN.
 fn plain(schema: &mut Value) {
+    without_formats(schema);
+    let_numbers_be_null(schema);
+}
+
+fn let_numbers_be_null(schema: &mut Value) {
     match schema {
         Value::Object(map) => {
-            if map.get("format").is_some_and(Value::is_string) {
-                map.remove("format");
-            }
             if map.get("type").is_some_and(|kind| kind == "number") {
                 map.insert("type".into(), json!(["number", "null"]));
             }
-            map.values_mut().for_each(plain);
+            map.values_mut().for_each(let_numbers_be_null);
         }
-        Value::Array(items) => items.iter_mut().for_each(plain),
+        Value::Array(items) => items.iter_mut().for_each(let_numbers_be_null),
         _ => {}
     }
 }
