@@ -8,6 +8,7 @@ pub(crate) mod input;
 pub(crate) mod kept;
 mod kept_simulations;
 pub mod new;
+mod one_page;
 pub(crate) mod output;
 mod printed;
 pub mod progress;

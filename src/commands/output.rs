@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::ATTACHED;
-use crate::commands::printed::{self, Browser};
+use crate::commands::printed::{self, Browser, Printing};
 use crate::commands::told::Format;
 use crate::extras::Extras;
 use crate::pipeline::{Run, Verdict};
@@ -39,9 +39,14 @@ pub fn hand_over(run: &Run, folder: &mut Folder, extras: Extras, format: Format)
 
 /// Writes all files of the report into `folder`; returns what they show.
 pub fn write_report(run: &Run, folder: &mut Folder, extras: Extras) -> Result<View, Failure> {
+    // The browser takes its time to start, and to print: meanwhile the report is made.
+    let printing = extras.pdf.then(|| Browser::find()?.start()).transpose()?;
     let mut view = View::of(run);
-    let printed = extras.pdf.then(|| print(&mut view)).transpose()?;
+    if let Some(printing) = &printing {
+        printing.print(for_paper(&mut view)?);
+    }
     let files = files(run, &view, extras);
+    let printed = printing.map(Printing::take).transpose()?.map(|pdf| ReportFile::new(printed::FILE, pdf));
     files.and_then(|files| put(folder, &files.into_iter().chain(printed).collect::<Vec<_>>())).map_err(|error| {
         Failure::from(format!("the report could not be written to {}: {error}", folder.path().display()))
     })?;
@@ -80,11 +85,11 @@ pub fn exit_code(verdict: Verdict) -> ExitCode {
 }
 
 /// The report as it is printed: without its replay, which no paper shows.
-fn print(view: &mut View) -> Result<ReportFile, Failure> {
+fn for_paper(view: &mut View) -> Result<String, Failure> {
     let replay = view.replay.take();
-    let rendered = render(view).map_err(|error| error.to_string())?;
+    let rendered = render(view).map_err(|error| error.to_string());
     view.replay = replay;
-    Ok(ReportFile::new(printed::FILE, Browser::find()?.print(&rendered.html)?))
+    Ok(rendered?.html)
 }
 
 fn files(run: &Run, view: &View, extras: Extras) -> Result<Vec<ReportFile>, Failure> {

@@ -3,9 +3,12 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use std::{fs, io, thread};
 
+use crate::commands::one_page::{Address, OnePage};
 use crate::commands::scratch::Scratch;
 
 /// Name of the file.
@@ -65,21 +68,34 @@ impl Browser {
         found.map(Self).ok_or(PrintError::NoBrowser)
     }
 
-    /// A page as PDF.
-    pub fn print(&self, html: &str) -> Result<Vec<u8>, PrintError> {
+    /// Starts it, so that it is there when the page is: that takes as long as to make the report.
+    pub fn start(self) -> Result<Printing, PrintError> {
         let folder = Scratch::new()?;
-        let [page, printed] = ["report.html", FILE].map(|name| folder.path().join(name));
-        fs::write(&page, html)?;
+        let server = OnePage::listen()?;
+        let address = server.address.clone();
+        let (hand, handed) = mpsc::channel();
+        let printed = thread::spawn(move || {
+            let served = thread::spawn(move || server.serve(&handed));
+            let printed = self.run_to_the_end(&folder, &address);
+            address.done();
+            served.join().map_err(|_| io::Error::other("the page could not be served"))?;
+            printed
+        });
+        Ok(Printing { hand, printed })
+    }
+
+    fn run_to_the_end(&self, folder: &Scratch, address: &Address) -> Result<Vec<u8>, PrintError> {
+        let printed = folder.path().join(FILE);
         // Without its sandbox only where it would not start with it, as in a container: the page is the program's own, and asks for nothing.
-        let mut told = self.run(folder.path(), &page, &printed, &[])?;
+        let mut told = self.run(folder.path(), address, &printed, &[])?;
         if !printed.is_file() {
-            told = self.run(folder.path(), &page, &printed, &["--no-sandbox"])?;
+            told = self.run(folder.path(), address, &printed, &["--no-sandbox"])?;
         }
         fs::read(&printed).map_err(|_| PrintError::Browser(self.0.display().to_string(), told))
     }
 
     /// Runs the browser to its end; what it told.
-    fn run(&self, folder: &Path, page: &Path, printed: &Path, more: &[&str]) -> Result<String, PrintError> {
+    fn run(&self, folder: &Path, address: &Address, printed: &Path, more: &[&str]) -> Result<String, PrintError> {
         let failed = |error: String| PrintError::Browser(self.0.display().to_string(), error);
         let log = folder.join("told.txt");
         let mut child = Command::new(&self.0)
@@ -90,11 +106,11 @@ impl Browser {
                 "--disable-extensions",
                 "--disable-background-networking",
             ])
-            .args(["--disable-sync", "--disable-component-update", "--no-pdf-header-footer"])
+            .args(["--disable-sync", "--disable-component-update", "--no-pdf-header-footer", "--no-proxy-server"])
             .args(more)
             .arg(format!("--user-data-dir={}", folder.join("profile").display()))
             .arg(format!("--print-to-pdf={}", printed.display()))
-            .arg(format!("file://{}", page.display()))
+            .arg(address.url())
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(fs::File::create(&log)?)
@@ -105,6 +121,26 @@ impl Browser {
         }
         let told = fs::read_to_string(&log).unwrap_or_default();
         Ok(told.lines().last().unwrap_or("it told nothing").to_string())
+    }
+}
+
+/// A browser that has been started, and waits for the page that it is to print.
+pub struct Printing {
+    hand: mpsc::Sender<String>,
+    printed: JoinHandle<Result<Vec<u8>, PrintError>>,
+}
+
+impl Printing {
+    /// Hands it the page.
+    pub fn print(&self, html: String) {
+        // Where it has ended already, `take` tells why.
+        let _ = self.hand.send(html);
+    }
+
+    /// The page as PDF, once it is there.
+    pub fn take(self) -> Result<Vec<u8>, PrintError> {
+        drop(self.hand);
+        self.printed.join().map_err(|_| io::Error::other("the browser could not be watched"))?
     }
 }
 

@@ -4,6 +4,8 @@ export default defineConfig({
   testDir: "tests",
   timeout: 120_000,
   workers: 1,
+  // A browser on a machine that does other work too: one that holds only the second time is told as flaky.
+  retries: 1,
   reporter: "list",
   outputDir: process.env["SCREENSHOTS"] ?? "../../target/serve-tests",
   use: {

@@ -1,7 +1,8 @@
 //! A stone of the flow hits one metre of a wall, not all of it: where the design names no boulder, the hit of the largest stone must be held
 //! there as a named one would have to be: by the strength of the metre that is hit, under the hit by the law of contacts or the reduced hit of a
 //! boulder, whichever is harder; and by the base of a wall that stands by its weight, under the latter. Where joints of the wall are not
-//! described, by a block of one metre. A point load that the design gives stands for the stone if it is no smaller than that reduced hit.
+//! described, by a block of one metre. A point load that the design gives stands for the stone if it is no smaller than that reduced hit; where
+//! the grains are not given, nobody can say whether it is.
 
 use super::known::Known;
 use crate::checks::check_all;
@@ -21,8 +22,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     }
     let on_the_base = hit_of_the_largest(design);
     let given = design.loads.point_load.map(|(force, _)| force);
-    // A load that is given says enough about grains that are not.
-    if given.is_some_and(|given| on_the_base.is_nan() || on_the_base <= given) {
+    if given.is_some_and(|given| on_the_base <= given) {
         return;
     }
     let strength = match given {
@@ -36,7 +36,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
             outcome.leave_open(Opening::NotGiven(match strength.is_nan() {
-                true => unknown("break the metre of the wall that it hits"),
+                true => unknown("break the metre of the wall that it hits", given),
                 false => format!(
                     "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN{more_than_given}, and that metre would not hold it ({}, or more resistance)",
                     strength / 1e3,
@@ -53,7 +53,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_the_base(outcome) && outcome.holds()) {
         let holds = then.iter().any(|then| then.id == outcome.id && !outcome.would_fail(then));
         if on_the_base.is_nan() {
-            outcome.leave_open(Opening::NotGiven(unknown("move the block of the wall that it hits")));
+            outcome.leave_open(Opening::NotGiven(unknown("move the block of the wall that it hits", given)));
         } else if !holds {
             outcome.leave_open(Opening::NotGiven(format!(
                 "the largest stone of the flow may hit the wall with {:.0} kN{more_than_given}, and {} would not hold it ({}, and barrier.rigid_wall.stability.block_length)",
@@ -65,10 +65,15 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     }
 }
 
-fn unknown(may: &str) -> String {
-    format!(
-        "the grains of the flow are not given, and the largest one may {may} (give flow.grain_sizes, solid_density and contact_modulus, or loads.point_load)"
-    )
+fn unknown(may: &str, given: Option<f64>) -> String {
+    let what = match given {
+        Some(force) => format!(
+            "so nobody can say whether the largest one hits harder than loads.point_load of {:.1} kN and may {may} (give flow.grain_sizes and solid_density)",
+            force / 1e3
+        ),
+        None => format!("and the largest one may {may} (give flow.grain_sizes, solid_density and contact_modulus)"),
+    };
+    format!("the grains of the flow are not given, {what}")
 }
 
 fn is_of_the_base(outcome: &Outcome) -> bool {
@@ -164,11 +169,14 @@ mod tests {
         };
         assert_eq!([0.02, 1.6].map(on_its_base), [CheckVerdict::Pass, CheckVerdict::Open]);
         assert_eq!(on_its_base(f64::NAN), CheckVerdict::Open);
-        // Nothing is known of grains that are not given.
-        let unknown = |design: &mut Design| {
-            strength(design, 100.0);
-            design.flow.sizes = crate::design::sizes::SizeCurve::Unknown;
+        // Nothing is known of grains that are not given, whatever load stands for them.
+        let unknown = |force: Option<f64>| {
+            verdict(&|design| {
+                strength(design, 100.0);
+                design.flow.sizes = crate::design::sizes::SizeCurve::Unknown;
+                design.loads.point_load = force.map(|force| (force, 1.0));
+            })
         };
-        assert_eq!(verdict(&unknown), CheckVerdict::Open);
+        assert_eq!([None, Some(1.0), Some(1e5)].map(unknown), [CheckVerdict::Open; 3]);
     }
 }

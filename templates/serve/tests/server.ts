@@ -55,7 +55,8 @@ export const test = base.extend<Fixtures>({
     rmSync(folder, { recursive: true, force: true });
   },
   told: [
-    async ({ page }, use) => {
+    // The server is named so that it ends after this: a page that looks for one that is gone says so on its console, rightly.
+    async ({ page, server: _ }, use) => {
       const told: string[] = [];
       page.on("console", (message) => told.push(`${message.type()}: ${message.text()} ${message.location().url}`));
       page.on("pageerror", (error) => told.push(error.message));
