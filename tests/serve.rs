@@ -537,7 +537,7 @@ fn a_run_that_is_stopped_or_whose_server_is_killed_goes_on_where_it_was() {
     // Not twice into one folder.
     assert_eq!(begin(&server).status, 409);
     let under_way = |now: &Value| now["told"]["share"].as_f64().is_some_and(|share| share > 0.1);
-    let now = server.run_until("small_net", under_way);
+    let now = server.run_until("small_net", |now| under_way(now) && now["pictures"][0].is_array());
     assert!(now["pictures"][0][1]["grains"].as_array().is_some_and(|grains| grains.len() > 100), "a picture");
     assert_eq!(server.send("POST", "/api/runs/small_net/stop", &json!({})).status, 200);
     let stopped = server.run_until("small_net", |now| now["state"] == "ended");
