@@ -86,8 +86,12 @@ impl Browser {
 
     fn run_to_the_end(&self, folder: &Scratch, address: &Address) -> Result<Vec<u8>, PrintError> {
         let printed = folder.path().join(FILE);
-        // Without its sandbox only where it would not start with it, as in a container: the page is the program's own, and asks for nothing.
-        let mut told = self.run(folder.path(), address, &printed, &[])?;
+        // Without its sandbox only where it would not start with it, as for root or in a container: the page is the program's own, and asks for
+        // nothing.
+        let mut told = String::new();
+        if !is_roots(folder.path()) {
+            told = self.run(folder.path(), address, &printed, &[])?;
+        }
         if !printed.is_file() {
             told = self.run(folder.path(), address, &printed, &["--no-sandbox"])?;
         }
@@ -141,6 +145,17 @@ impl Printing {
     pub fn take(self) -> Result<Vec<u8>, PrintError> {
         drop(self.hand);
         self.printed.join().map_err(|_| io::Error::other("the browser could not be watched"))?
+    }
+}
+
+/// Whether a folder of this program's belongs to root, who the program is then.
+fn is_roots(folder: &Path) -> bool {
+    #[cfg(unix)]
+    return fs::metadata(folder).is_ok_and(|of| std::os::unix::fs::MetadataExt::uid(&of) == 0);
+    #[cfg(not(unix))]
+    {
+        let _ = folder;
+        false
     }
 }
 
