@@ -12,6 +12,7 @@ mod one_page;
 pub(crate) mod output;
 mod printed;
 pub mod progress;
+mod random_name;
 mod reliability;
 pub mod report;
 pub mod schema;

@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
+use crate::commands::random_name::random_name;
+
 /// Longest that somebody may take to say what is wanted, and longest request (bytes).
 const PATIENCE: Duration = Duration::from_secs(5);
 const LONGEST_REQUEST: u64 = 16 * 1024;
@@ -27,12 +29,10 @@ pub struct Address {
 
 impl OnePage {
     pub fn listen() -> io::Result<Self> {
-        let mut name = [0; 16];
-        getrandom::fill(&mut name).map_err(|error| io::Error::other(error.to_string()))?;
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let address = Address {
             socket: listener.local_addr()?,
-            path: format!("/{:032x}", u128::from_le_bytes(name)),
+            path: format!("/{}", random_name::<16>()?),
             done: Arc::default(),
         };
         Ok(Self { listener, address })

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use crate::commands::random_name::random_name;
+
 pub struct Scratch(PathBuf);
 
 impl Scratch {
     pub fn new() -> io::Result<Self> {
-        let mut name = [0; 8];
-        getrandom::fill(&mut name).map_err(|error| io::Error::other(error.to_string()))?;
-        let folder = std::env::temp_dir().join(format!("barrier-check-{:016x}", u64::from_le_bytes(name)));
+        let folder = std::env::temp_dir().join(format!("barrier-check-{}", random_name::<8>()?));
         let mut builder = fs::DirBuilder::new();
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);

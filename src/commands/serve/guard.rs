@@ -20,6 +20,7 @@ use sha2::Digest;
 
 use super::answer::Refused;
 use crate::commands::Failure;
+use crate::commands::random_name::random_name;
 use crate::report::pictures::REPLAY_SCRIPT;
 
 /// The secret of this server, and the names that it goes by.
@@ -31,9 +32,7 @@ pub struct Guard {
 impl Guard {
     /// With a token of 256 random bits.
     pub fn new(port: u16) -> Result<Self, Failure> {
-        let mut bytes = [0; 32];
-        getrandom::fill(&mut bytes).map_err(|error| format!("the system gives no random numbers: {error}"))?;
-        Ok(Self { port, token: bytes.iter().map(|byte| format!("{byte:02x}")).collect() })
+        Ok(Self { port, token: random_name::<32>()? })
     }
 
     /// What is opened in a browser.
