@@ -25,7 +25,13 @@ const HISTORIES: &str = "histories.csv";
 
 /// Writes all files of the report into `folder`, with those for other programs that are asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &mut Folder, extras: Extras, format: Format) -> ExitCode {
-    match write_report(run, folder, extras) {
+    let written = start_printing(extras).and_then(|printing| write_report_for(run, folder, extras, printing));
+    tell(run, folder, extras, format, written)
+}
+
+/// Tells the verdict of a report that has been written, or why there is none.
+pub fn tell(run: &Run, folder: &Folder, extras: Extras, format: Format, written: Result<View, Failure>) -> ExitCode {
+    match written {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
@@ -39,8 +45,22 @@ pub fn hand_over(run: &Run, folder: &mut Folder, extras: Extras, format: Format)
 
 /// Writes all files of the report into `folder`; returns what they show.
 pub fn write_report(run: &Run, folder: &mut Folder, extras: Extras) -> Result<View, Failure> {
-    // The browser takes its time to start, and to print: meanwhile the report is made.
-    let printing = extras.pdf.then(|| Browser::find()?.start()).transpose()?;
+    let printing = start_printing(extras)?;
+    write_report_for(run, folder, extras, printing)
+}
+
+/// Starts the browser that prints, where that is asked for: it takes its time, in which the run is read and the report made.
+pub fn start_printing(extras: Extras) -> Result<Option<Printing>, Failure> {
+    Ok(extras.pdf.then(|| Browser::find()?.start()).transpose()?)
+}
+
+/// The same with a browser that has been started.
+pub fn write_report_for(
+    run: &Run,
+    folder: &mut Folder,
+    extras: Extras,
+    printing: Option<Printing>,
+) -> Result<View, Failure> {
     let mut view = View::of(run);
     if let Some(printing) = &printing {
         printing.print(for_paper(&mut view)?);

@@ -81,7 +81,7 @@ impl Browser {
             served.join().map_err(|_| io::Error::other("the page could not be served"))?;
             printed
         });
-        Ok(Printing { hand, printed })
+        Ok(Printing { hand: Some(hand), printed: Some(printed) })
     }
 
     fn run_to_the_end(&self, folder: &Scratch, address: &Address) -> Result<Vec<u8>, PrintError> {
@@ -130,21 +130,33 @@ impl Browser {
 
 /// A browser that has been started, and waits for the page that it is to print.
 pub struct Printing {
-    hand: mpsc::Sender<String>,
-    printed: JoinHandle<Result<Vec<u8>, PrintError>>,
+    hand: Option<mpsc::Sender<String>>,
+    printed: Option<JoinHandle<Result<Vec<u8>, PrintError>>>,
 }
 
 impl Printing {
     /// Hands it the page.
     pub fn print(&self, html: String) {
         // Where it has ended already, `take` tells why.
-        let _ = self.hand.send(html);
+        let _ = self.hand.as_ref().map(|hand| hand.send(html));
     }
 
     /// The page as PDF, once it is there.
-    pub fn take(self) -> Result<Vec<u8>, PrintError> {
-        drop(self.hand);
-        self.printed.join().map_err(|_| io::Error::other("the browser could not be watched"))?
+    pub fn take(mut self) -> Result<Vec<u8>, PrintError> {
+        self.end()
+    }
+
+    fn end(&mut self) -> Result<Vec<u8>, PrintError> {
+        self.hand = None;
+        let printed = self.printed.take().map(JoinHandle::join);
+        printed.and_then(Result::ok).unwrap_or_else(|| Err(io::Error::other("the browser could not be watched").into()))
+    }
+}
+
+/// Where no page comes the browser ends by itself, and its folder is taken away.
+impl Drop for Printing {
+    fn drop(&mut self) {
+        let _ = self.end();
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::{self, LONGEST_RECORDING};
-use crate::commands::output::hand_over;
+use crate::commands::output::{start_printing, tell, write_report_for};
 use crate::commands::told::Format;
 use crate::extras::Extras;
 use crate::pipeline::Run;
@@ -16,15 +16,19 @@ use crate::terminal;
 
 /// Makes the report in `folder` again from its recording, with the files for other programs that are asked for.
 pub fn report(folder: &Path, extras: Extras) -> ExitCode {
-    match read_recording(folder) {
+    let read = start_printing(extras).and_then(|printing| Ok((read_recording(folder)?, printing)));
+    match read {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
-        Ok(run) => {
+        Ok((run, printing)) => {
             let claimed = Folder::claim(folder, None, Named::Explicitly);
             match claimed.and_then(|folder| folder.for_recorded(kind_of(&run))) {
-                Ok(mut folder) => hand_over(&run, &mut folder, extras, Format::Text),
+                Ok(mut folder) => {
+                    let written = write_report_for(&run, &mut folder, extras, printing);
+                    tell(&run, &folder, extras, Format::Text, written)
+                }
                 Err(refusal) => {
                     terminal::warn(format_args!("error: {refusal}"));
                     ExitCode::Undecided
