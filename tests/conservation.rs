@@ -46,7 +46,7 @@ fn no_touching_pair_is_missed() {
             continue;
         }
         // What the next step would do first: renew what has expired, find what touches.
-        if simulation.neighbours.expired(&simulation.grains, None) {
+        if simulation.neighbours.expired(&simulation.grains, None, false) {
             continue;
         }
         let mut touching_listed = std::collections::BTreeSet::new();

@@ -21,8 +21,8 @@ const RADIUS: f64 = 0.05;
 const MODULUS: f64 = 4e5;
 const STEP: f64 = 8e-4;
 
-/// Three clumps on a floor of 20° that a rope across it holds back, with two more on top.
-fn heap() -> Simulation {
+/// Three clumps on a floor of 20° that a rope across it holds back, with two more on top; the rope takes so many steps in one of the grains'.
+fn heap(parts: u32) -> Simulation {
     let slope = 20_f64.to_radians();
     let clump = |id: u32, x: f64, y: f64, z: f64| {
         Grain::at(id, Vec3::new(x, y, z), Vec3::y(), GrainBody::clump(2.3 * RADIUS, 1.5, 2600.0))
@@ -41,7 +41,6 @@ fn heap() -> Simulation {
         .map(|number| Node {
             position: place(number),
             velocity: Vec3::zeros(),
-            pace: Vec3::zeros(),
             mass: 0.4,
             fixed: number == 0 || number == nodes - 1,
             radius: 0.0,
@@ -72,6 +71,7 @@ fn heap() -> Simulation {
         ..free_model(grains, GrainShape::Clump)
     };
     let mut simulation = Simulation::new(model, STEP, 0.3 * RADIUS, 1e3);
+    (simulation.barrier_parts, simulation.barrier_step) = (parts, STEP / f64::from(parts));
     simulation.drag = 5.0;
     (0..60_000).for_each(|_| simulation.step().expect("stable"));
     simulation.drag = 0.0;
@@ -99,8 +99,8 @@ fn largest_change(before: &[f64], after: &[f64]) -> f64 {
     before.iter().zip(after).map(|(before, after)| (before - after).abs()).fold(0.0, f64::max)
 }
 
-fn nothing_creeps(steps: u64) {
-    let mut simulation = heap();
+fn nothing_creeps(steps: u64, parts: u32) {
+    let mut simulation = heap(parts);
     simulation.step_and_account().expect("stable");
     let (before, opened): ([Vec<f64>; 3], Ledger) = (state(&simulation), simulation.ledger);
     let largest_tension = before[1].iter().copied().fold(0.0, f64::max);
@@ -109,6 +109,7 @@ fn nothing_creeps(steps: u64) {
         simulation.step().expect("stable");
     }
     simulation.step_and_account().expect("stable");
+    assert_eq!(simulation.barrier_parts, parts);
     let after = state(&simulation);
     let [places, tensions, friction] = [0, 1, 2].map(|part| largest_change(&before[part], &after[part]));
     let energy = (simulation.ledger.total() - opened.total()).abs();
@@ -124,12 +125,18 @@ fn nothing_creeps(steps: u64) {
 
 #[test]
 fn a_heap_at_rest_stays_at_rest() {
-    nothing_creeps(500_000);
+    nothing_creeps(500_000, 1);
+}
+
+/// Friction springs that stick have no dashpot of their own: nor may they swing up where the rope and the grains on it take several steps in one.
+#[test]
+fn a_heap_at_rest_stays_at_rest_in_parts_of_a_step() {
+    nothing_creeps(250_000, 4);
 }
 
 /// A day: `cargo test --release --test endurance -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes some minutes"]
 fn a_heap_at_rest_stays_at_rest_for_a_day() {
-    nothing_creeps((24.0 * 3600.0 / STEP) as u64);
+    nothing_creeps((24.0 * 3600.0 / STEP) as u64, 1);
 }

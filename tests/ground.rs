@@ -21,7 +21,7 @@ fn rope(height: f64, speed: f64, slope: f64) -> Simulation {
     let node = |across: f64| Node {
         position: Vec3::new(0.0, across, height),
         velocity: Vec3::new(speed, 0.0, 0.0),
-        pace: Vec3::zeros(),
+
         mass: 1.0,
         fixed: false,
         radius: 0.0,

@@ -209,7 +209,10 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
         outlet: outlet(design),
     };
     let mean_radius = 0.42 * flow.sizes.quantile(0.5);
-    Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, block))
+    let mut simulation =
+        Simulation::new(model, fidelity.time_step, fidelity.skin_share * mean_radius, speed_limit(design, block));
+    simulation.barrier_step = fidelity.barrier_step;
+    simulation
 }
 
 /// Time in which all surges have come to rest.

@@ -88,7 +88,7 @@ pub fn estimate(design: &Design, fidelity: &Fidelity) -> Estimate {
     let comes_for = flow.hydrograph.as_ref().map_or(0.0, Hydrograph::duration);
     let simulated = expected_time(design).min(comes_for + design.simulation.longest * flow.surges() as f64);
     let steps = simulated / fidelity.time_step;
-    let of_elements = elements * if bends { PARTS * CYLINDER } else { SEGMENT };
+    let of_elements = elements * f64::from(fidelity.barrier_steps()) * if bends { PARTS * CYLINDER } else { SEGMENT };
     let packed = if flow.bulk_density / flow.grain_density() > NEARLY_JAMMED { PACKED_DENSE } else { PACKED };
     Estimate {
         grains,

@@ -119,7 +119,11 @@ impl Knob {
     /// Puts the knob to `value` in how finely the design is modelled, where it is one of that.
     fn refine(self, fidelity: &mut Fidelity, design: &Design, value: f64) {
         match self {
-            Self::Step => fidelity.time_step *= value / step_share(design.simulation.fidelity).1,
+            Self::Step => {
+                let finer = value / step_share(design.simulation.fidelity).1;
+                fidelity.time_step *= finer;
+                fidelity.barrier_step *= finer;
+            }
             Self::Skin => fidelity.skin_share = value,
             _ => {}
         }

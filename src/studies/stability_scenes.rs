@@ -225,7 +225,7 @@ const ROPE_MODULUS: f64 = 4e9;
 
 fn node(position: Vec3, mass: f64, fixed: bool, number: usize) -> Node {
     let velocity = if fixed { Vec3::zeros() } else { nudge(number) };
-    Node { position, velocity, pace: velocity, mass, fixed, radius: 0.0, lines: Vec::new() }
+    Node { position, velocity, mass, fixed, radius: 0.0, lines: Vec::new() }
 }
 
 /// A rope of 2.1 m along y, stretched by a hundredth, `ropes` of them between the same nodes.
@@ -269,7 +269,6 @@ fn rings(lattice: fn(f64) -> Lattice, stretch: f64) -> Model {
     for (number, node) in barrier.nodes.iter_mut().enumerate() {
         node.position *= drawn;
         node.velocity = if node.fixed { Vec3::zeros() } else { nudge(number) };
-        node.pace = node.velocity;
         node.radius = 0.0;
     }
     for ring in &mut barrier.net_rings {
@@ -295,7 +294,6 @@ fn hexagons() -> Model {
     for (number, node) in barrier.nodes.iter_mut().enumerate() {
         node.position *= 1.01;
         node.velocity = if node.fixed { Vec3::zeros() } else { nudge(number) };
-        node.pace = node.velocity;
     }
     with_barrier(barrier, far_ball())
 }

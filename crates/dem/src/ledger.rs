@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Vec3;
 use crate::contact::law::Response;
+use crate::tables::grains::Grain;
 
 /// Sums over the contacts of one block in one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,6 +45,28 @@ pub struct MotionEnergy {
     pub rotational: f64,
     /// Gravity potential.
     pub potential: f64,
+}
+
+impl MotionEnergy {
+    /// Adds a share of another.
+    pub fn add(&mut self, other: &Self, share: f64) {
+        self.kinetic += share * other.kinetic;
+        self.rotational += share * other.rotational;
+        self.potential += share * other.potential;
+    }
+
+    /// Energy of grains at the instant between their motion before and after, half a step from either, at the places that they had before.
+    pub fn between<'a>(grains: impl Iterator<Item = (&'a Grain, &'a Grain)>, gravity: &Vec3) -> Self {
+        let mut sums = Self::default();
+        for (before, after) in grains {
+            let rotational =
+                0.25 * (before.spin().dot(&after.angular_momentum) + after.spin().dot(&before.angular_momentum));
+            sums.kinetic += 0.5 * before.body.mass * before.velocity.dot(&after.velocity) + rotational;
+            sums.rotational += rotational;
+            sums.potential -= before.body.mass * gravity.dot(&before.position);
+        }
+        sums
+    }
 }
 
 /// Energies of the whole model at one instant, and losses since the start (all J).

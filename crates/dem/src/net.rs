@@ -227,9 +227,9 @@ impl NetForces {
         });
     }
 
-    /// Adds the force of a grain on a line, `times` over.
-    pub fn push(&mut self, push: &Push, times: f64) {
-        self.put(&push.nodes, push.share, &(push.force * times), &Vec3::zeros());
+    /// Adds the force of a grain on a line.
+    pub fn push(&mut self, push: &Push) {
+        self.put(&push.nodes, push.share, &push.force, &Vec3::zeros());
         self.from_grains += push.force;
     }
 
@@ -272,23 +272,29 @@ impl NetForces {
         [self.lost_ropes, self.lost_rings, self.lost_dissipators]
     }
 
-    /// Adds what happened in a later part of the same step of the grains; energy stored and lost stay those of the first.
-    pub fn go_on(&mut self, later: &Self) {
-        let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
-        self.forces.iter_mut().zip(&later.forces).for_each(|(sum, more)| *sum += more);
-        add(&mut self.tensions, &later.tensions);
-        add(&mut self.dissipators, &later.dissipators);
-        add(&mut self.axial, &later.axial);
-        add(&mut self.rings, &later.rings);
-        add(&mut self.posts, &later.posts);
-    }
-
-    /// Turns sums over `parts` parts of a step into means.
-    pub fn share_out(&mut self, parts: u32) {
-        let share = 1.0 / f64::from(parts);
-        self.forces.iter_mut().for_each(|force| *force *= share);
-        for sums in [&mut self.tensions, &mut self.dissipators, &mut self.axial, &mut self.rings, &mut self.posts] {
-            sums.iter_mut().for_each(|sum| *sum *= share);
+    /// Forces and tensions, mean over the parts of a step.
+    pub fn mean(parts: &[Self]) -> Self {
+        let share = 1.0 / parts.len() as f64;
+        let of_each = |of: fn(&Self) -> &Vec<f64>| {
+            let mut sums = vec![0.0; parts.first().map_or(0, |part| of(part).len())];
+            for part in parts {
+                sums.iter_mut().zip(of(part)).for_each(|(sum, value)| *sum += share * value);
+            }
+            sums
+        };
+        let mut forces = vec![Vec3::zeros(); parts.first().map_or(0, |part| part.forces.len())];
+        for part in parts {
+            forces.iter_mut().zip(&part.forces).for_each(|(sum, force)| *sum += force * share);
+        }
+        Self {
+            forces,
+            tensions: of_each(|part| &part.tensions),
+            dissipators: of_each(|part| &part.dissipators),
+            posts: of_each(|part| &part.posts),
+            axial: of_each(|part| &part.axial),
+            rings: of_each(|part| &part.rings),
+            from_grains: parts.iter().map(|part| part.from_grains * share).sum(),
+            ..Self::default()
         }
     }
 }
@@ -306,7 +312,7 @@ mod tests {
         let node = |x: f64| Node {
             position: Vec3::x() * x,
             velocity: Vec3::zeros(),
-            pace: Vec3::zeros(),
+
             mass: 1.0,
             fixed: false,
             radius: 0.01,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
 use crate::contact::law::{LawConstants, Memory, Spring};
+use crate::contact::ropes::OnBarrier;
 use crate::contact::surfaces::SurfaceForces;
 use crate::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::model::Model;
@@ -18,9 +19,9 @@ use crate::tables::load_sheets::LoadSheets;
 use crate::tables::pores::STEPS_BETWEEN;
 use crate::tables::surfaces::SurfaceRole;
 use crate::time::inlet::{During, burden};
-use crate::time::integrate::Stretch;
+use crate::time::integrate::{Pace, Stretch};
 use crate::time::links::Linked;
-use crate::time::multi_rate::{BarrierStep, step_barrier};
+use crate::time::multi_rate::{Accounted, BarrierStep, Lost, Pressing, parts, step_barrier};
 use crate::time::stable_step::{StepRatio, step_ratio};
 
 /// Steps between two audits of the stable step.
@@ -45,6 +46,7 @@ fn steps_per_stop(spheres: usize) -> u64 {
 /// number.
 const BARRIER_STEP_SHARE: f64 = 0.7;
 const MOST_PARTS: u32 = 200;
+const ROUNDS_OF_CHOICE: usize = 3;
 
 /// Share of the first time step below which a run is given up.
 const SHORTEST_STEP: f64 = 0.05;
@@ -76,7 +78,18 @@ pub struct Extremes {
 pub struct StepSums {
     pub contacts: ContactSums,
     pub surfaces: SurfaceForces,
+    /// Mean over the step.
     pub net: NetForces,
+    /// In each of the barrier's own steps, where those are several.
+    in_parts: Vec<NetForces>,
+}
+
+impl StepSums {
+    /// What the barrier bore in each of its own steps: the largest of some tensions is to be taken here, since tensions swing faster than the
+    /// grains step.
+    pub fn net_in_parts(&self) -> &[NetForces] {
+        if self.in_parts.is_empty() { std::slice::from_ref(&self.net) } else { &self.in_parts }
+    }
 }
 
 /// A contact of a grain with a surface.
@@ -118,9 +131,11 @@ pub struct Simulation {
     pub step_cuts: u32,
     /// Steps of the barrier in one of the grains'.
     pub barrier_parts: u32,
+    /// Longest step of the barrier that was chosen for what may come to press on it (s).
+    pub barrier_step: f64,
     /// Motion of the barrier when the last step began, and what it has lost since, which is booked with the next step.
     barrier_motion: MotionEnergy,
-    lost_since: [f64; 3],
+    lost_since: Lost,
     first_time_step: f64,
     law: LawConstants,
     /// Speed no grain or node can have by honest means (m/s).
@@ -168,8 +183,9 @@ impl Simulation {
             extremes: Extremes::default(),
             step_cuts: 0,
             barrier_parts: 1,
+            barrier_step: f64::MAX,
             barrier_motion: MotionEnergy::default(),
-            lost_since: [0.0; 3],
+            lost_since: Lost::default(),
             first_time_step: time_step,
             law: LawConstants::new(model.material.restitution, model.material.tangential_ratio, time_step),
             speed_limit,
@@ -189,7 +205,7 @@ impl Simulation {
     /// trapezoidal rule, adds up exactly (½ m v₋² and ½ m v₊² would each be off by what the force does in half a step).
     pub fn step_and_account(&mut self) -> Result<(), Unstable> {
         self.prepare()?;
-        let before: Vec<Grain> = (0..self.grains.len()).map(|row| self.grains.grain(row)).collect();
+        let before = self.snapshot();
         self.advance(true);
         let MotionEnergy { kinetic, rotational, potential } = self.motion_since(&before);
         let barrier = &self.barrier_motion;
@@ -224,6 +240,7 @@ impl Simulation {
 
     /// Puts a barrier up, and chooses how many steps it takes in one of the grains'.
     pub fn put_up(&mut self, barrier: Barrier) {
+        self.grains.catch_up();
         self.model.barrier = Some(barrier);
         self.neighbours.lose();
         self.choose_parts();
@@ -233,6 +250,7 @@ impl Simulation {
     pub fn put(&mut self, row: usize, position: &Vec3) {
         self.grains.place[row].set_vector(position);
         self.grains.motion[row].set_vector(&Vec3::zeros());
+        self.grains.ahead.iter_mut().skip(row).take(1).for_each(|ahead| *ahead = [Vec3::zeros(); 2]);
         self.neighbours.lose();
     }
 
@@ -245,6 +263,9 @@ impl Simulation {
         self.grains.extend(grains);
         if let Some(pores) = &self.model.pores {
             self.grains.grip.resize(self.grains.len(), pores.grip());
+        }
+        if !self.grains.ahead.is_empty() {
+            self.grains.ahead.resize(self.grains.len(), [Vec3::zeros(); 2]);
         }
         if !self.grains.carried.is_empty() {
             self.grains.carried.resize(self.grains.len(), false);
@@ -277,7 +298,7 @@ impl Simulation {
         }
         self.time = 0.0;
         self.ledger = Ledger::default();
-        self.lost_since = [0.0; 3];
+        self.lost_since = Lost::default();
         self.extremes = Extremes::default();
     }
 
@@ -292,7 +313,12 @@ impl Simulation {
 
     /// The law within the barrier, whose steps are shorter.
     fn barrier_law(&self) -> LawConstants {
-        LawConstants { time_step: self.time_step / f64::from(self.barrier_parts), ..self.law }
+        self.law().parted(self.barrier_parts)
+    }
+
+    /// Steps that the barrier takes in one of the grains'; one where there is none.
+    fn parts(&self) -> u32 {
+        if self.model.barrier.is_some() { self.barrier_parts } else { 1 }
     }
 
     /// Sees to it that lists and time step are good for the step to come.
@@ -300,7 +326,7 @@ impl Simulation {
         if self.at_stop() {
             self.neighbours.rest();
         }
-        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref(), self.parts() > 1) {
             self.check_finite()?;
             self.renew();
         }
@@ -341,7 +367,6 @@ impl Simulation {
         for block in &self.neighbours.blocks {
             contacts.add(&block.sums);
             surfaces.add(&block.surface_forces);
-            self.extremes.crossings += block.ropes.crossings;
         }
         self.ledger.lost_damping += contacts.lost_damping;
         self.ledger.lost_friction += contacts.lost_friction;
@@ -382,7 +407,7 @@ impl Simulation {
 
     /// Step over critical step of all that is connected now, grains and barrier in one.
     pub fn step_over_critical(&mut self) -> f64 {
-        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref()) {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref(), self.parts() > 1) {
             self.renew();
         }
         self.whole_ratio().value
@@ -410,19 +435,27 @@ impl Simulation {
             law,
             modulus: self.model.material.modulus,
             friction: self.model.material.friction,
+            finer: self.barrier_parts > 1,
         }
     }
 
-    /// As many steps of the barrier in one of the grains' as what holds it together needs.
+    /// As many steps of the barrier in one of the grains' as what holds it together needs, and what may press on it. What is too stiff is
+    /// looked for at the step that is chosen: at a longer one dashpots seem to be it.
     fn choose_parts(&mut self) {
-        let within = self.linked(self.barrier_law()).within_barrier();
-        let barrier = self.model.barrier.as_ref();
-        let ratio = step_ratio(&within, &self.grains, barrier, self.time_step).value;
-        let wanted = (ratio / BARRIER_STEP_SHARE).ceil();
-        // What is not finite ends the run at the next audit.
-        if wanted.is_finite() {
-            self.barrier_parts = (wanted as u32).clamp(1, MOST_PARTS);
+        let least = parts(self.time_step, self.barrier_step);
+        let mut chosen = least;
+        for _ in 0..ROUNDS_OF_CHOICE {
+            let law = self.law().parted(chosen);
+            let within = self.linked(law).within_barrier();
+            let ratio = step_ratio(&within, &self.grains, self.model.barrier.as_ref(), law.time_step).value;
+            let wanted = (f64::from(chosen) * ratio / BARRIER_STEP_SHARE).ceil();
+            // What is not finite ends the run at the next audit.
+            if !wanted.is_finite() {
+                return;
+            }
+            chosen = (wanted as u32).max(least).min(MOST_PARTS);
         }
+        self.barrier_parts = chosen;
     }
 
     /// Moves everything through the step; `account` asks for the energy of the barrier's motion.
@@ -436,12 +469,17 @@ impl Simulation {
         if let Some(inlet) = &mut self.model.inlet {
             inlet.carry(&mut self.grains, &mut self.ledger, &during);
         }
-        let (net, paces) = sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, own, &time);
+        let parts = self.parts();
+        if parts > 1 {
+            self.grains.ahead.resize(self.grains.len(), [Vec3::zeros(); 2]);
+        }
+        let (net, mut paces) =
+            sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, parts, &time);
+        self.gather_sums();
+        let fastest_node = self.advance_barrier(net, &mut paces, &own, &time, account);
         if let Some(inlet) = &mut self.model.inlet {
             inlet.let_go(&mut self.grains, &mut self.ledger, &during);
         }
-        self.gather_sums();
-        let fastest_node = self.advance_barrier(net, &own, &time, account);
         self.neighbours.tick(&paces, time.step, fastest_node);
         self.steps += 1;
         self.time += self.time_step;
@@ -452,33 +490,49 @@ impl Simulation {
 
     /// Moves the barrier under its own forces at the start of the step, `net`, and those of the grains; returns the largest speed of
     /// a node (m/s).
-    fn advance_barrier(&mut self, net: NetForces, own: &LawConstants, time: &Stretch, account: bool) -> f64 {
+    fn advance_barrier(
+        &mut self,
+        net: NetForces,
+        paces: &mut [Pace],
+        own: &LawConstants,
+        time: &Stretch,
+        account: bool,
+    ) -> f64 {
         let Some(barrier) = &mut self.model.barrier else { return 0.0 };
-        let pushes = self.neighbours.blocks.iter().flat_map(|block| &block.ropes.pushes);
-        let BarrierStep { net, motion, fastest, lost_later } =
-            step_barrier(barrier, net, pushes, own, time, self.barrier_parts, account);
-        self.ledger.stored_barrier = net.stored;
-        for [ropes, rings, dissipators] in [std::mem::replace(&mut self.lost_since, lost_later), net.losses()] {
+        let pressing = Pressing { grains: &mut self.grains, blocks: &mut self.neighbours.blocks, paces };
+        let material = &self.model.material;
+        let on_barrier = OnBarrier { law: *own, grain_modulus: material.modulus, grain_friction: material.friction };
+        let BarrierStep { net, in_parts, at_account, fastest } =
+            step_barrier(barrier, net, pressing, &on_barrier, time, self.barrier_parts, account);
+        self.extremes.crossings += self.neighbours.blocks.iter().map(|block| block.ropes.crossings).sum::<u32>();
+        self.extremes.overlap_ratio = self.extremes.overlap_ratio.max(at_account.overlap_ratio);
+        let Accounted { motion, stored_barrier, stored_contacts, lost, lost_since, .. } = at_account;
+        self.ledger.stored_barrier = stored_barrier;
+        self.ledger.stored_contacts += stored_contacts;
+        for Lost { barrier: [ropes, rings, dissipators], contacts: [in_dashpots, by_slip] } in [self.lost_since, lost] {
+            self.ledger.lost_damping += in_dashpots;
+            self.ledger.lost_friction += by_slip + rings;
             self.ledger.lost_ropes += ropes;
-            self.ledger.lost_friction += rings;
             self.ledger.lost_dissipators += dissipators;
         }
+        self.lost_since = lost_since;
         self.barrier_motion = motion;
-        self.sums.net = net;
+        (self.sums.net, self.sums.in_parts) = (net, in_parts);
         fastest
     }
 
-    /// Energies of the grains at the instant between their motion `before` and now, half a step from either.
+    /// Energies of the grains at the instant between their motion `before` and now, half a step from either; those at the barrier have
+    /// theirs.
     fn motion_since(&self, before: &[Grain]) -> MotionEnergy {
+        let after = self.snapshot();
         let mut sums = MotionEnergy::default();
-        for (row, before) in before.iter().enumerate() {
-            let after = self.grains.grain(row);
-            let rotational =
-                0.25 * (before.spin().dot(&after.angular_momentum) + after.spin().dot(&before.angular_momentum));
-            sums.kinetic += 0.5 * before.body.mass * before.velocity.dot(&after.velocity) + rotational;
-            sums.rotational += rotational;
-            sums.potential -= before.body.mass * self.model.gravity.dot(&before.position);
+        let mut on_its_own = vec![true; after.len()];
+        for at_barrier in self.neighbours.blocks.iter().map(|block| &block.at_barrier).filter(|_| self.parts() > 1) {
+            sums.add(&at_barrier.motion, 1.0);
+            at_barrier.rows().iter().for_each(|&row| on_its_own[row as usize] = false);
         }
+        let others = before.iter().zip(&after).zip(on_its_own).filter(|(_, on_its_own)| *on_its_own);
+        sums.add(&MotionEnergy::between(others.map(|(grains, _)| grains), &self.model.gravity), 1.0);
         sums
     }
 

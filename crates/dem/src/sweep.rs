@@ -10,7 +10,7 @@ use std::sync::{PoisonError, RwLock};
 use crate::contact::grain_pairs::{PairContext, load_border, load_inner};
 use crate::contact::grain_touch::PairConstants;
 use crate::contact::law::LawConstants;
-use crate::contact::ropes::RopeContext;
+use crate::contact::ropes::{OnBarrier, RopeContext};
 use crate::contact::surfaces::{SurfaceContext, load_surfaces};
 use crate::model::Model;
 use crate::neighbours::blocks::{Block, Outbox};
@@ -21,27 +21,39 @@ use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::{GrainRows, Prefetcher, RowsInMotion};
 use crate::tables::grain_table::{GrainLoad, GrainTable};
 use crate::tables::load_sheets::LoadSheets;
+use crate::time::at_barrier::{Moving, Parting};
 use crate::time::integrate::{Pace, Stretch};
 use crate::workers;
 
 /// Loads all grains and moves them through one step of theirs, that of `law`; pulls at the barrier, which stays where it is,
-/// as at the start of its own step, that of `barrier_law`. Returns the forces within the barrier, without those of the grains,
-/// and the pace of each block.
+/// as at the start of its own step, of which it takes so many `parts` in one. Where they are several, the ropes load the grains at the barrier
+/// for the first of these alone. Returns the forces within the barrier, without those of the grains, and the pace of each block.
 pub fn sweep(
     model: &Model,
     grains: &mut GrainTable,
     sheets: &LoadSheets,
     neighbours: &mut Neighbours,
     law: LawConstants,
-    barrier_law: LawConstants,
+    parts: u32,
     time: &Stretch,
 ) -> (NetForces, Vec<Pace>) {
     let Neighbours { blocks, outboxes, drift, .. } = neighbours;
     let outboxes = &*outboxes;
+    let barrier_law = law.parted(parts);
     // No step changes it: it is read while rows are moved.
     let grip = std::mem::take(&mut grains.grip);
+    let ahead = std::mem::take(&mut grains.ahead);
     let rows = RowsInMotion::of(grains, drift);
-    let forces = BlockForces { model, grains: rows.seen(), law, grip: &grip, workers: workers::count() };
+    let forces = BlockForces {
+        model,
+        grains: rows.seen(),
+        law,
+        barrier_law,
+        parts,
+        moving: Moving { drift, ahead: &ahead },
+        grip: &grip,
+        workers: workers::count(),
+    };
     let mut net = None;
     let mut paces = vec![Pace::default(); blocks.len()];
     let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &barrier_law, &mut net));
@@ -72,7 +84,7 @@ pub fn sweep(
             }
         },
     );
-    grains.grip = grip;
+    (grains.grip, grains.ahead) = (grip, ahead);
     (net.unwrap_or_default(), paces)
 }
 
@@ -110,6 +122,9 @@ struct BlockForces<'a> {
     model: &'a Model,
     grains: GrainRows<'a>,
     law: LawConstants,
+    barrier_law: LawConstants,
+    parts: u32,
+    moving: Moving<'a>,
     /// Share of the friction that acts on each grain; empty in a dry flow.
     grip: &'a [f64],
     /// Threads that share the blocks.
@@ -156,12 +171,20 @@ impl<'a> BlockForces<'a> {
             let context = RopeContext {
                 grains,
                 barrier,
-                law,
-                grain_modulus: material.modulus,
-                grain_friction: material.friction,
+                constants: OnBarrier {
+                    law: self.barrier_law,
+                    grain_modulus: material.modulus,
+                    grain_friction: material.friction,
+                },
                 clock: clocks.fixed,
             };
-            sums.add(&block.ropes.load(&context, &block.grains, loads));
+            sums.add(&match self.parts {
+                1 => block.ropes.load(&context, &block.grains, loads),
+                parts => {
+                    let parting = Parting { step: law.time_step, parts };
+                    block.at_barrier.begin(&mut block.ropes, &context, &self.moving, &block.grains, &parting)
+                }
+            });
         }
         block.sums = sums;
     }

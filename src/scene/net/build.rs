@@ -154,7 +154,6 @@ impl Builder<'_> {
         self.barrier.nodes.push(Node {
             position,
             velocity: Vec3::zeros(),
-            pace: Vec3::zeros(),
             mass: 0.0,
             fixed,
             radius: 0.0,

@@ -88,7 +88,6 @@ fn thrown(mass: f64, speed: f64, dissipator: Dissipator) -> Stand {
     let node = |x: f64, fixed| Node {
         position: Vec3::x() * x,
         velocity: Vec3::zeros(),
-        pace: Vec3::zeros(),
         mass,
         fixed,
         radius: 0.016,

@@ -38,7 +38,6 @@ pub fn post(head: Vec3, gravity: Vec3, axial: Option<f64>) -> Barrier {
     let node = |position: Vec3, mass: f64, fixed: bool| Node {
         position,
         velocity: Vec3::zeros(),
-        pace: Vec3::zeros(),
         mass,
         fixed,
         radius: 0.0,

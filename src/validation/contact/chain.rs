@@ -44,7 +44,6 @@ fn measured(mode: u32, expected: f64) -> Result<f64, Broken> {
         barrier.nodes.push(Node {
             position: Vec3::x() * (index as f64 + if fixed { 0.0 } else { 1e-3 * shape }),
             velocity: Vec3::zeros(),
-            pace: Vec3::zeros(),
             mass: MASS,
             fixed,
             radius: 0.01,

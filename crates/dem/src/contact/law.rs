@@ -141,6 +141,11 @@ impl LawConstants {
         }
     }
 
+    /// The law in each of so many parts of a step.
+    pub fn parted(self, parts: u32) -> Self {
+        Self { time_step: self.time_step / f64::from(parts), ..self }
+    }
+
     /// γ of a contact (N s/m).
     #[inline(always)]
     pub fn damping<R: Real>(&self, spring: &Spring<R>) -> R {

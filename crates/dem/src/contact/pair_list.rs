@@ -71,6 +71,18 @@ impl PairList {
         }
     }
 
+    /// Takes the near pairs that were in contact for pairs in contact still, whatever their gap seems to be.
+    pub fn keep_contacts(&mut self, memories: &MemoryRows) {
+        let Self { touching, near, .. } = self;
+        near.retain(|&pair| {
+            let remembered = memories.recall(pair) != Memory::default();
+            if remembered {
+                touching.push(pair);
+            }
+            !remembered
+        });
+    }
+
     /// Puts the pairs in contact in order and gives them back their memory.
     pub fn settle(&mut self, memories: &MemoryRows) {
         self.touching.sort_unstable();
@@ -84,10 +96,7 @@ impl PairList {
     /// have gone away.
     #[inline(always)]
     pub fn sort_near(&mut self, clock: &Clock, separation: &impl Separation) {
-        while let Some(pairs) = self.alarms.open(clock) {
-            self.near.extend_from_slice(&pairs);
-            self.alarms.take_back(pairs);
-        }
+        self.wake(clock);
         // Twice the shortest sleep, so that pairs do not go to and fro.
         let far = 2.0 * self.alarms.shortest(clock);
         let mut place = 0;
@@ -107,6 +116,29 @@ impl PairList {
                 self.memory.push(Quad::default());
             }
         }
+    }
+
+    /// Wakes the pairs that could touch by the time of the clock.
+    #[inline(always)]
+    pub fn wake(&mut self, clock: &Clock) {
+        while let Some(pairs) = self.alarms.open(clock) {
+            self.near.extend_from_slice(&pairs);
+            self.alarms.take_back(pairs);
+        }
+    }
+
+    /// Takes those of the near pairs that are wanted for pairs in contact, with nothing to remember, until [`Self::end_contacts`] parts them
+    /// again.
+    pub fn take_near(&mut self, wanted: impl Fn([u32; 2]) -> bool) {
+        let Self { touching, near, .. } = self;
+        near.retain(|&pair| {
+            let taken = wanted(pair);
+            if taken {
+                touching.push(pair);
+            }
+            !taken
+        });
+        self.memory.resize(self.touching.len(), Quad::default());
     }
 
     /// The eight pairs in contact after `last`, or what is left of them.

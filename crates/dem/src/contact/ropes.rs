@@ -17,7 +17,7 @@ use std::ops::Range;
 use crate::Vec3;
 use crate::contact::law::{ContactPoint, LawConstants, Memory, Spring, respond};
 use crate::contact::pair_list::{PairList, Separation};
-use crate::geometry::point_segment::nearest_on_segment;
+use crate::geometry::point_segment::{OnSegment, nearest_on_segment};
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::Clock;
 use crate::simd::quad::Quad;
@@ -26,6 +26,11 @@ use crate::tables::grain_rows::{GrainRows, Member};
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::nodes::Node;
 
+/// Over the way that a grain and a line go in a step at their present velocities, and over the grain's radius: gap up to which they are
+/// followed from the start of the step.
+const STEPS_AHEAD: f64 = 1.5;
+const ALWAYS_AHEAD: f64 = 0.01;
+
 /// Candidate pairs (member, line) of one block, and the forces they put on nodes in this step.
 #[derive(Clone, Debug, Default)]
 pub struct RopeContacts {
@@ -33,6 +38,8 @@ pub struct RopeContacts {
     pub pushes: Vec<Push>,
     /// Grains whose centre has gone through a line in this step.
     pub crossings: u32,
+    /// How fast a grain and a node could come closer when the lists were made, at most (m/s).
+    pub closing: f64,
     /// Scratch: the contact of every touching pair.
     touches: Vec<Option<RopeTouch>>,
 }
@@ -42,18 +49,27 @@ pub struct RopeContacts {
 pub struct Push {
     /// Row of the grain.
     pub row: u32,
+    /// Place of grain and line among the pairs in contact.
+    pub pair: u32,
     pub nodes: [u32; 2],
     /// Share of the force that the second node takes.
     pub share: f64,
     pub force: Vec3,
 }
 
-pub struct RopeContext<'a> {
-    pub grains: GrainRows<'a>,
-    pub barrier: &'a Barrier,
+/// What all contacts of grains with the barrier have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct OnBarrier {
     pub law: LawConstants,
     pub grain_modulus: f64,
     pub grain_friction: f64,
+}
+
+#[derive(Clone, Copy)]
+pub struct RopeContext<'a> {
+    pub grains: GrainRows<'a>,
+    pub barrier: &'a Barrier,
+    pub constants: OnBarrier,
     /// Way that grains and nodes together can have gone since the lists were made (m).
     pub clock: Clock,
 }
@@ -71,45 +87,87 @@ pub struct RopeTouch {
 impl RopeContacts {
     /// Loads the grains of the block that touch ropes and lists the pushes on the nodes.
     pub fn load(&mut self, context: &RopeContext, range: &Range<usize>, loads: &mut [GrainLoad]) -> ContactSums {
-        let mut sums = ContactSums::default();
-        self.pushes.clear();
         self.crossings = 0;
         let (grains, barrier) = (context.grains, context.barrier);
         self.list.sort_near(&context.clock, &OnRopes { grains, barrier });
-        sums.lost_friction += self.find_touches(context);
+        let pairs = std::mem::take(&mut self.list.touching);
+        let mut pushes = std::mem::take(&mut self.pushes);
+        pushes.clear();
+        let sums = self.press(&pairs, context, loads, range.start, |row| row as u32, &mut pushes);
+        (self.list.touching, self.pushes) = (pairs, pushes);
+        self.list.end_contacts();
+        sums
+    }
+
+    /// Takes all pairs that could touch within the step to come (s) for pairs in contact: [`Self::press`] tells which do. The nodes stand where
+    /// they are in its first part, the grains `to_middle` (s) later. What is faster at the end of the step than now may touch unseen for the rest
+    /// of it.
+    pub fn wake(&mut self, context: &RopeContext, step: f64, to_middle: f64) {
+        let (grains, barrier, clock) = (context.grains, context.barrier, context.clock);
+        self.list.sort_near(&clock, &OnRopes { grains, barrier });
+        // The step to come takes about as much of the way as the last; the first has none before it.
+        let way = STEPS_AHEAD * clock.tick.max(step * self.closing);
+        self.list.wake(&Clock { now: clock.now + way, ..clock });
+        self.list.take_near(|[member, line]| {
+            let member = grains.member(member as usize);
+            let thickness = barrier.lines[line as usize].thickness;
+            let ends = barrier.lines[line as usize].nodes.map(|node| &barrier.nodes[node as usize].velocity);
+            let closing = ends.map(|end| (member.velocity - end).norm_squared());
+            let way = STEPS_AHEAD * step * closing[0].max(closing[1]).sqrt();
+            let reach = member.radius * (1.0 + ALWAYS_AHEAD) + thickness + way;
+            let first = member.centre - member.velocity * to_middle;
+            Nearest::of(&first, line, barrier).square < reach * reach
+        });
+    }
+
+    /// Loads the grains of `pairs`, those of the list as `context` numbers its members, and adds the forces on the nodes to `pushes`. Notes the
+    /// pairs that do not touch.
+    pub fn press(
+        &mut self,
+        pairs: &[[u32; 2]],
+        context: &RopeContext,
+        loads: &mut [GrainLoad],
+        first: usize,
+        named: impl Fn(usize) -> u32,
+        pushes: &mut Vec<Push>,
+    ) -> ContactSums {
+        let mut sums = ContactSums { lost_friction: self.find_touches(pairs, context), ..ContactSums::default() };
+        let (grains, barrier) = (context.grains, context.barrier);
         let per_grain = grains.shape.members();
-        let Self { list, pushes, touches, crossings } = self;
-        for ((pair, memory), contact) in list.touching.iter().zip(&mut list.memory).zip(touches) {
+        let Self { list, touches, crossings, .. } = self;
+        for (place, ((pair, memory), contact)) in pairs.iter().zip(&mut list.memory).zip(touches).enumerate() {
             let [index, line] = *pair;
             let Some(contact) = contact else { continue };
             let member = grains.member(index as usize);
-            let response = respond(&contact.point, &Memory::from_quad(*memory), &context.law);
+            let response = respond(&contact.point, &Memory::from_quad(*memory), &context.constants.law);
             *memory = response.memory.quad();
             let force = Vec3::from(response.force);
-            let row = index as usize / per_grain - range.start;
-            loads[row].add(&force, &(contact.foot - member.centre + member.arm));
+            let row = index as usize / per_grain;
+            loads[row - first].add(&force, &(contact.foot - member.centre + member.arm));
             let nodes = barrier.lines[line as usize].nodes;
-            pushes.push(Push { row: index / per_grain as u32, nodes, share: contact.share, force: -force });
+            pushes.push(Push { row: named(row), pair: place as u32, nodes, share: contact.share, force: -force });
             sums.count(&response, contact.point.overlap / member.radius);
             *crossings += u32::from(contact.crossed);
         }
-        self.list.end_contacts();
         sums
     }
 
     /// Finds the contact of every touching pair, notes those that have ended, and hands the friction springs of pairs whose
     /// contact has passed to another line at the same node on to that. Returns the energy of springs that nobody takes (J).
-    fn find_touches(&mut self, context: &RopeContext) -> f64 {
-        let (grains, barrier) = (context.grains, context.barrier);
-        let on_ropes = OnRopes { grains, barrier };
+    fn find_touches(&mut self, pairs: &[[u32; 2]], context: &RopeContext) -> f64 {
+        let barrier = context.barrier;
         let Self { list, touches, .. } = self;
         touches.clear();
-        for (place, &[index, line]) in list.touching.iter().enumerate() {
-            if on_ropes.gap([index, line]) >= 0.0 {
+        list.ended.clear();
+        for (place, &[index, line]) in pairs.iter().enumerate() {
+            let (centre, radius) = context.grains.sphere(index as usize);
+            let nearest = Nearest::of(&centre, line, barrier);
+            let reach = radius + barrier.lines[line as usize].thickness;
+            if nearest.square >= reach * reach {
                 list.ended.push(place as u32);
                 touches.push(None);
             } else {
-                touches.push(touch(&grains.member(index as usize), line, context));
+                touches.push(touch_at(&context.grains.member(index as usize), line, &nearest, context));
             }
         }
         let mut lost = 0.0;
@@ -119,10 +177,10 @@ impl RopeContacts {
                 continue;
             }
             list.memory[place] = Quad::default();
-            let heir = heir(place, list, touches, barrier);
+            let heir = heir(place, pairs, &list.memory, touches, barrier);
             match heir {
                 Some(heir) => list.memory[heir] = memory.quad(),
-                None => lost += self::stored(&memory, list.touching[place], context),
+                None => lost += self::stored(&memory, pairs[place], context),
             }
         }
         lost
@@ -130,14 +188,20 @@ impl RopeContacts {
 }
 
 /// The pair of the same grain and of a line at the same node that has just begun to touch.
-fn heir(place: usize, list: &PairList, touches: &[Option<RopeTouch>], barrier: &Barrier) -> Option<usize> {
-    let [member, line] = list.touching[place];
+fn heir(
+    place: usize,
+    pairs: &[[u32; 2]],
+    memory: &[Quad],
+    touches: &[Option<RopeTouch>],
+    barrier: &Barrier,
+) -> Option<usize> {
+    let [member, line] = pairs[place];
     let nodes = barrier.lines[line as usize].nodes;
     (0..touches.len()).find(|&other| {
-        let [same, next] = list.touching[other];
+        let [same, next] = pairs[other];
         same == member
             && touches[other].is_some()
-            && list.memory[other] == Quad::default()
+            && memory[other] == Quad::default()
             && barrier.lines[next as usize].nodes.iter().any(|node| nodes.contains(node))
     })
 }
@@ -148,11 +212,11 @@ fn stored(memory: &Memory, [member, line]: [u32; 2], context: &RopeContext) -> f
     let line = &context.barrier.lines[line as usize];
     let [a, b] = line.nodes.map(|node| &context.barrier.nodes[node as usize]);
     let share = nearest_on_segment(&member.centre, &a.position, &b.position).share;
-    let grain = context.grain_modulus * member.radius;
+    let grain = context.constants.grain_modulus * member.radius;
     let rope = context.barrier.contact_modulus * line.radius;
     let spring = Spring::between([grain, rope], member.inverse_mass + inverse_mass_at(a, b, share));
     0.5 * Vec3::from(memory.tangential).norm_squared() * spring.compliance
-        / context.law.friction_spring(&spring).stiffness_ratio()
+        / context.constants.law.friction_spring(&spring).stiffness_ratio()
 }
 
 /// Member spheres and lines, taken as thick as the thicker of their ends: never closer than they are.
@@ -164,18 +228,39 @@ pub struct OnRopes<'a> {
 impl Separation for OnRopes<'_> {
     fn of(&self, [member, line]: [u32; 2]) -> (f64, f64) {
         let (centre, radius) = self.grains.sphere(member as usize);
-        let ends = self.barrier.lines[line as usize].nodes;
-        let [a, b] = ends.map(|node| &self.barrier.nodes[node as usize].position);
+        let line = &self.barrier.lines[line as usize];
+        let [a, b] = line.nodes.map(|node| &self.barrier.nodes[node as usize].position);
         let nearest = nearest_on_segment(&centre, a, b).point;
-        ((nearest - centre).norm_squared(), radius + self.barrier.thickness(line))
+        ((nearest - centre).norm_squared(), radius + line.thickness)
     }
 }
 
 /// Share of its overlap that a line keeps at least, whatever it gives up at its nodes.
 const LEAST_KEPT: f64 = 0.1;
 
+/// The point of a line nearest to a centre.
+struct Nearest {
+    along: OnSegment,
+    towards: Vec3,
+    /// Of its distance (m²).
+    square: f64,
+}
+
+impl Nearest {
+    fn of(centre: &Vec3, line: u32, barrier: &Barrier) -> Self {
+        let [a, b] = barrier.lines[line as usize].nodes.map(|node| &barrier.nodes[node as usize].position);
+        let along = nearest_on_segment(centre, a, b);
+        let towards = along.point - centre;
+        Self { along, towards, square: towards.norm_squared() }
+    }
+}
+
 /// Geometry of sphere against line, or against the node a line ends in.
-pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<RopeTouch> {
+pub fn touch(member: &Member, line: u32, context: &RopeContext) -> Option<RopeTouch> {
+    touch_at(member, line, &Nearest::of(&member.centre, line, context.barrier), context)
+}
+
+fn touch_at(member: &Member, line_index: u32, nearest: &Nearest, context: &RopeContext) -> Option<RopeTouch> {
     let barrier = context.barrier;
     let line = &barrier.lines[line_index as usize];
     if line.broken {
@@ -183,12 +268,10 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
     }
     let [a, b] = line.nodes.map(|node| &barrier.nodes[node as usize]);
     let centre = member.centre;
-    let along = nearest_on_segment(&centre, &a.position, &b.position);
-    let towards = along.point - centre;
+    let Nearest { along, towards, square: distance_squared } = *nearest;
     let end = usize::from(along.share > 0.5);
     let rope_radius = if along.inside { line.radius } else { [a, b][end].radius };
     let reach = member.radius + rope_radius;
-    let distance_squared = towards.norm_squared();
     if distance_squared >= reach * reach || distance_squared == 0.0 {
         return None;
     }
@@ -199,13 +282,14 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
     let overlap = reach - distance;
     let normal = towards / distance;
     let foot = centre + normal * (member.radius - 0.5 * overlap);
-    let rope_velocity = a.pace * (1.0 - along.share) + b.pace * along.share;
-    let half_step = 0.5 * context.law.time_step;
+    let rope_velocity = a.velocity * (1.0 - along.share) + b.velocity * along.share;
+    let half_step = 0.5 * context.constants.law.time_step;
     let of_centres = rope_velocity - member.velocity_before(half_step);
-    let turning = turning(&of_centres, &normal, distance, [a, b].map(|end| (&end.position, &end.pace)), along.inside);
+    let turning =
+        turning(&of_centres, &normal, distance, [a, b].map(|end| (&end.position, &end.velocity)), along.inside);
     let middle = normal - turning * half_step;
     let velocity = of_centres - member.spin.cross(&(middle * (member.radius - 0.5 * overlap)));
-    let grain = context.grain_modulus * member.radius;
+    let grain = context.constants.grain_modulus * member.radius;
     let rope = barrier.contact_modulus * rope_radius;
     let inverse_mass = member.inverse_mass + inverse_mass_at(a, b, along.share);
     let given_up = if along.inside { given_up(member, line_index, barrier) / overlap } else { 0.0 };
@@ -217,9 +301,9 @@ pub fn touch(member: &Member, line_index: u32, context: &RopeContext) -> Option<
         velocity: velocity.into(),
         twist: 0.5 * member.spin.dot(&normal),
         spring: Spring::between([grain, rope], inverse_mass).part(kept),
-        friction: barrier.friction.min(context.grain_friction),
+        friction: barrier.friction.min(context.constants.grain_friction),
     };
-    let before = towards - (rope_velocity - member.velocity) * context.law.time_step;
+    let before = towards - (rope_velocity - member.velocity) * context.constants.law.time_step;
     let crossed = before.dot(&towards) < 0.0;
     Some(RopeTouch { point, foot, share: along.share, crossed })
 }

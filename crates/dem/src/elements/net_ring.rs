@@ -228,7 +228,7 @@ mod tests {
         Node {
             position: Vec3::new(x, y, 0.0),
             velocity: Vec3::zeros(),
-            pace: Vec3::zeros(),
+
             mass: 1.0,
             fixed: false,
             radius: 0.0,

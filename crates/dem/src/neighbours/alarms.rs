@@ -2,7 +2,8 @@
 //!
 //! A clock runs at the rate at which any two bodies could at most come closer (m). A pair with a gap g cannot touch
 //! before the clock has gone on by g, so it need not be looked at until then. Alarms stand in slots of equal width, like
-//! the slots of a timer wheel; a slot is opened when the clock enters it, which is at most one width too early.
+//! the slots of a timer wheel; a slot is opened when the clock enters it, which is at most one width too early. Who looks ahead may open
+//! slots that the clock has not reached: a pair that would belong into one of them may not sleep.
 
 use crate::neighbours::clocks::Clock;
 
@@ -37,13 +38,15 @@ impl Alarms {
     /// Gap below which a pair may not sleep (m): it could wake up too late, or would hardly have slept.
     #[inline(always)]
     pub fn shortest(&self, clock: &Clock) -> f64 {
-        self.width.max(STEPS_WORTH_SLEEPING * clock.tick)
+        let to_the_next_slot = self.next as f64 * self.width - clock.now;
+        self.width.max(STEPS_WORTH_SLEEPING * clock.tick).max(to_the_next_slot)
     }
 
     /// Lets a pair sleep that has the given gap now; the gap must be at least [`Self::shortest`].
     pub fn set(&mut self, pair: [u32; 2], clock: &Clock, gap: f64) {
         let reach = self.width * SLOTS_IN_REACH;
-        let slot = ((clock.now + gap.min(reach)) * self.slots_per_metre) as u64;
+        // Rounding may name the slot before.
+        let slot = (((clock.now + gap.min(reach)) * self.slots_per_metre) as u64).max(self.next);
         self.slots[(slot % SLOTS) as usize].push(pair);
     }
 
@@ -77,11 +80,12 @@ impl Alarms {
 mod tests {
     use super::*;
 
-    /// Whatever the gaps and the pace of the clock, a pair is handed out before its gap is used up.
+    /// Whatever the gaps, the pace of the clock and how far one looks ahead, a pair is handed out before its gap is used up.
     #[test]
     fn no_pair_oversleeps() {
         let mut random = fastrand::Rng::with_seed(5);
-        for _ in 0..200 {
+        for round in 0..400 {
+            let steps_ahead = if round % 2 == 0 { 0.0 } else { 1.5 };
             let reach = 0.1 + random.f64();
             let mut alarms = Alarms::default();
             alarms.reset(reach);
@@ -89,12 +93,13 @@ mod tests {
             let mut due = std::collections::BTreeMap::new();
             let mut clock = Clock::default();
             for number in 0..400_u32 {
-                let gap = alarms.shortest(&clock) + 1.5 * reach * random.f64();
+                let gap = alarms.shortest(&clock) + 1.5 * reach * random.f64() * random.f64();
                 alarms.set([number, 0], &clock, gap);
                 due.insert(number, clock.now + gap);
-                clock.tick = pace * random.f64();
+                clock.tick = pace * random.f64() * random.f64();
                 clock.now += clock.tick;
-                while let Some(pairs) = alarms.open(&clock) {
+                let ahead = Clock { now: clock.now + steps_ahead * clock.tick, ..clock };
+                while let Some(pairs) = alarms.open(&ahead) {
                     for [number, _] in pairs {
                         due.remove(&number);
                     }

@@ -13,6 +13,7 @@ use crate::ledger::ContactSums;
 use crate::neighbours::clocks::BlockClocks;
 use crate::simd::quad::Quad;
 use crate::tables::grains::GrainShape;
+use crate::time::at_barrier::AtBarrier;
 
 /// Grains below which one block is enough: parallel work would cost more than it saves.
 const GRAINS_FOR_TWO_BLOCKS: usize = 600;
@@ -32,6 +33,7 @@ pub struct Block {
     pub border: PairList,
     pub surfaces: PairList,
     pub ropes: RopeContacts,
+    pub at_barrier: AtBarrier,
     pub clocks: BlockClocks,
     pub sums: ContactSums,
     /// Forces on the surfaces in the step just made.

@@ -25,6 +25,10 @@ impl Box3 {
         Self { low: a.low.inf(&b.low), high: a.high.sup(&b.high) }
     }
 
+    pub fn meets(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+    }
+
     pub fn is_finite(&self) -> bool {
         self.low.iter().chain(self.high.iter()).all(|value| value.is_finite())
     }

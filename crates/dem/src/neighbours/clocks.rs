@@ -36,6 +36,8 @@ pub struct Clocks {
     pairs: f64,
     /// A member and a surface or rope (m).
     fixed: f64,
+    /// What the last step has added to that (m).
+    fixed_tick: f64,
     elapsed: f64,
     /// Closing speed that the drift alone may give a pair (m/s).
     drawing_out: f64,
@@ -46,12 +48,13 @@ pub struct Clocks {
 }
 
 impl Clocks {
-    /// Clocks at zero. `span` is the largest distance between grains whose members are in each other's reach (m).
-    pub fn start(drift: &Drift, span: f64, skin: f64, fixed_skin: f64) -> Self {
+    /// Clocks at zero. `span` is the largest distance between grains whose members are in each other's reach, `pairs_left` what two members
+    /// that are in none may come closer at least, `fixed_skin` the reach of the lists of surfaces and ropes (m).
+    pub fn start(drift: &Drift, span: f64, pairs_left: f64, fixed_skin: f64) -> Self {
         Self {
             drawing_out: drift.steepness * span,
             drift: drift.fastest,
-            pairs_limit: skin,
+            pairs_limit: pairs_left,
             fixed_limit: fixed_skin,
             ..Self::default()
         }
@@ -62,7 +65,8 @@ impl Clocks {
     pub fn tick(&mut self, step: f64, stray: f64, nodes: f64) {
         self.elapsed += step;
         self.pairs += step * (2.0 * stray + self.drawing_out);
-        self.fixed += step * (stray + self.drift + nodes);
+        self.fixed_tick = step * (stray + self.drift + nodes);
+        self.fixed += self.fixed_tick;
     }
 
     /// Moves the clocks of one block on through the same step; `own` is the fastest stray in the block (m/s).
@@ -72,9 +76,14 @@ impl Clocks {
         clocks.fixed.go_on(step * (own + self.drift + nodes));
     }
 
-    /// Whether nothing outside the lists can touch yet.
-    pub fn hold(&self) -> bool {
-        self.pairs < self.pairs_limit && self.fixed < self.fixed_limit
+    /// Whether nothing outside the lists can touch yet, surfaces and ropes in so many steps more like the last.
+    pub fn hold(&self, steps_ahead: f64) -> bool {
+        self.pairs < self.pairs_limit && self.fixed + steps_ahead * self.fixed_tick < self.fixed_limit
+    }
+
+    /// What so many steps like the last would add for surfaces and ropes (m).
+    pub fn fixed_ahead(&self, steps: f64) -> f64 {
+        steps * self.fixed_tick
     }
 
     /// Sets the limits anew: pairs may still come closer by `pairs_left`, others by `fixed_left` (m).
@@ -86,10 +95,5 @@ impl Clocks {
     /// Time since the start (s).
     pub fn elapsed(&self) -> f64 {
         self.elapsed
-    }
-
-    /// How much closer the drift alone may have brought a pair since the start (m).
-    pub fn drawn_out(&self) -> f64 {
-        self.drawing_out * self.elapsed
     }
 }

@@ -4,28 +4,15 @@
 //! fitted along the channel, piecewise linear with Lipschitz constant S (1/s), and every grain is given V at its centre.
 //! After the time τ, a member of grain i has strayed from it by δ_i = |u_i − V_i τ|, with u_i its displacement. A pair of
 //! members whose surfaces were a gap g apart has come closer by at most δ_i + δ_j + S τ (2 r + 2 o + g), with r the largest
-//! radius and o the largest distance of a member from its grain's centre.
+//! radius, o the largest distance of a member from its grain's centre, and S the steepness between the two.
 
+use crate::Vec3;
 use crate::simd::quad::Quad;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::moving_rows::Drifting;
-use crate::workers;
-use crate::{Vec3, larger_or_nan};
 
 /// Pieces of the drift along the channel.
 const PIECES: usize = 32;
-
-/// Members that are looked at in one go.
-const MEMBERS_IN_PART: usize = 2048;
-
-/// How far members have gone since their lists were made.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strayed {
-    /// Largest displacement (m).
-    pub moved: f64,
-    /// Largest displacement from the drift (m).
-    pub strayed: f64,
-}
 
 /// The drift V(x): velocities at evenly spaced places along the channel.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +20,8 @@ pub struct Drift {
     low: f64,
     spacing: f64,
     velocities: Vec<Vec3>,
+    /// Steepness of the pieces (1/s).
+    pieces: Vec<f64>,
     /// Lipschitz constant S (1/s).
     pub steepness: f64,
     /// Largest drift (m/s).
@@ -62,11 +51,26 @@ impl Drift {
             let last = velocities.last().copied().unwrap_or_default();
             velocities.push(if number > 0.0 { sum / number } else { last });
         }
-        let steepest = velocities.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
         let fastest = velocities.iter().map(Vec3::norm).fold(0.0, f64::max);
         // Two drifts rounded to single precision, told apart over the smallest distance that matters.
         let rounding = fastest * f64::from(f32::EPSILON) / widest;
-        Self { low, spacing, velocities, steepness: steepest / spacing + rounding, fastest }
+        let pieces = velocities.windows(2).map(|pair| (pair[1] - pair[0]).norm() / spacing + rounding);
+        let pieces: Vec<f64> = pieces.collect();
+        let steepness = pieces.iter().copied().fold(rounding, f64::max);
+        Self { low, spacing, velocities, pieces, steepness, fastest }
+    }
+
+    /// Steepest drift within two pieces of place x (1/s).
+    pub fn steepness_about(&self, x: f64) -> f64 {
+        let piece = ((x - self.low) / self.spacing).max(0.0) as usize;
+        let about = piece.saturating_sub(2)..(piece + 3).min(self.pieces.len());
+        // Rounding is in each of them, and in the steepest where there is none.
+        self.pieces.get(about).map_or(self.steepness, |pieces| pieces.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// Distance along the channel over which [`Self::steepness_about`] speaks of all between two places (m).
+    pub fn reaches_over(&self) -> f64 {
+        2.0 * self.spacing
     }
 
     /// The drift at place x.
@@ -80,26 +84,4 @@ impl Drift {
         };
         [drift.x as f32, drift.y as f32, drift.z as f32, 0.0]
     }
-}
-
-/// How far members with the given reference places have gone after `elapsed` (s); NaN if one is nowhere.
-pub fn strayed(references: &[Vec3], grains: &GrainTable, drift: &[Drifting], elapsed: f64) -> Strayed {
-    let rows = grains.rows();
-    let per_grain = grains.shape.members();
-    let parts = workers::map(references.chunks(MEMBERS_IN_PART), |part, references| {
-        let mut squares = [0.0_f64; 2];
-        for (index, reference) in (part * MEMBERS_IN_PART..).zip(references) {
-            let gone = rows.sphere(index).0 - reference;
-            let [x, y, z, _] = drift[index / per_grain].map(f64::from);
-            let off = gone - Vec3::new(x, y, z) * elapsed;
-            squares = larger_of(squares, [gone.norm_squared(), off.norm_squared()]);
-        }
-        squares
-    });
-    let [moved, strayed] = parts.into_iter().fold([0.0; 2], larger_of).map(f64::sqrt);
-    Strayed { moved, strayed }
-}
-
-fn larger_of(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [larger_or_nan(a[0], b[0]), larger_or_nan(a[1], b[1])]
 }

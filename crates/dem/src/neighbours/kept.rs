@@ -12,8 +12,8 @@ type Contacts = (Vec<[u32; 2]>, Vec<Quad>);
 
 #[derive(Serialize, Deserialize)]
 pub struct Kept {
-    /// Reach of the lists (m): the present, the least.
-    pub skins: [f64; 2],
+    /// Reach of the lists (m): the present, the least; and the way of a node of the barrier (m).
+    pub skins: [f64; 3],
     pub renewals: u64,
     /// Grain numbers in the order of the rows the contacts speak of.
     pub row_ids: Vec<u32>,
@@ -23,7 +23,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    pub fn of(skins: [f64; 2], renewals: u64, row_ids: &[u32], blocks: &[Block]) -> Self {
+    pub fn of(skins: [f64; 3], renewals: u64, row_ids: &[u32], blocks: &[Block]) -> Self {
         fn all<'a>(lists: impl Iterator<Item = &'a PairList>) -> Contacts {
             let (mut pairs, mut memories) = (Vec::new(), Vec::new());
             for list in lists {

@@ -10,4 +10,5 @@ pub(crate) mod drift;
 pub(crate) mod kept;
 pub(crate) mod memory_rows;
 pub(crate) mod order;
+pub(crate) mod reach;
 pub(crate) mod renew;

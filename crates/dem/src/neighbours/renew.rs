@@ -8,13 +8,15 @@ use crate::contact::surfaces::OnFixed;
 use crate::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
 use crate::neighbours::broad_phase::{Box3, BoxTree};
 use crate::neighbours::candidates::{
-    find_border_pairs, find_fixed_pairs, find_inner_pairs, find_rope_pairs, grain_box, line_boxes,
+    Sought, find_border_pairs, find_fixed_pairs, find_inner_pairs, find_rope_pairs, grain_box, line_boxes,
+    margin_of_lines,
 };
 use crate::neighbours::clocks::Clocks;
-use crate::neighbours::drift::{Drift, strayed};
+use crate::neighbours::drift::Drift;
 use crate::neighbours::kept::Kept;
 use crate::neighbours::memory_rows::MemoryRows;
 use crate::neighbours::order::morton_code;
+use crate::neighbours::reach::{Reach, Reaches, strayed};
 use crate::tables::barrier::Barrier;
 use crate::tables::fixed::Fixed;
 use crate::tables::grain_table::GrainTable;
@@ -23,8 +25,10 @@ use crate::time::integrate::Pace;
 use crate::workers;
 use crate::{Vec3, larger_or_nan};
 
-/// Reach of the lists of surfaces and ropes over that of the lists of grains.
-const FIXED_SKIN: f64 = 3.0;
+/// Steps in which the barrier and grains at it go somewhat further than the lists are asked for.
+const STEPS_AHEAD: f64 = 1.5;
+/// Way that nodes of the barrier may go while the next lists live, over that of the last.
+const NODE_RESERVE: f64 = 1.5;
 /// Renewals between two reorderings of the grain table.
 const RENEWALS_PER_ORDERING: u64 = 20;
 /// Grains that are noted in one go.
@@ -47,12 +51,17 @@ pub struct Neighbours {
     /// Extra reach of the lists (m): wider where they soon expire, down to the given one where they last.
     pub skin: f64,
     least_skin: f64,
+    /// Longest way of a node when the last lists expired (m).
+    node_way: f64,
     /// Steps since the lists were made.
     age: u32,
     pub renewals: u64,
     pub clocks: Clocks,
     /// Drift of the flow at each grain.
     pub drift: Vec<Drifting>,
+    /// Reach of each grain.
+    reaches: Vec<Reach>,
+    bounds: Reaches,
     /// Places of the members when the lists were made.
     references: Vec<Vec3>,
     node_reference: Vec<Vec3>,
@@ -86,10 +95,13 @@ impl Neighbours {
             outboxes: Vec::new(),
             skin,
             least_skin: skin,
+            node_way: 0.0,
             age: 0,
             renewals: 0,
             clocks: Clocks::default(),
             drift: Vec::new(),
+            reaches: Vec::new(),
+            bounds: Reaches::default(),
             references: Vec::new(),
             node_reference: Vec::new(),
             row_ids: Vec::new(),
@@ -101,33 +113,39 @@ impl Neighbours {
 
     /// What is kept of the lists at a stop of the run.
     pub fn keep(&self) -> Kept {
-        Kept::of([self.skin, self.least_skin], self.renewals, &self.row_ids, &self.blocks)
+        Kept::of([self.skin, self.least_skin, self.node_way], self.renewals, &self.row_ids, &self.blocks)
     }
 
     /// Lists that are made anew before the next step, with the contacts kept.
     pub fn take_up(kept: Kept) -> Self {
-        let Kept { skins: [skin, least_skin], renewals, .. } = kept;
-        let mut neighbours = Self { least_skin, renewals, row_ids: kept.row_ids.clone(), ..Self::new(skin) };
+        let Kept { skins: [skin, least_skin, node_way], renewals, .. } = kept;
+        let mut neighbours = Self { least_skin, node_way, renewals, row_ids: kept.row_ids.clone(), ..Self::new(skin) };
         neighbours.blocks = vec![kept.block()];
         neighbours.rest();
         neighbours
     }
 
     /// Whether a pair outside the lists could touch now. The clocks run at the fastest pace of all; when they say that
-    /// it could be, a survey of what has really moved may give them more time.
-    pub fn expired(&mut self, grains: &GrainTable, barrier: Option<&Barrier>) -> bool {
+    /// it could be, a survey of what has really moved may give them more time. Where the barrier and grains at it move within a step
+    /// (`finer`), no rope may be reached in that either.
+    pub fn expired(&mut self, grains: &GrainTable, barrier: Option<&Barrier>, finer: bool) -> bool {
         if self.lost {
             return true;
         }
-        if self.clocks.hold() {
+        let steps_ahead = if finer { STEPS_AHEAD } else { 0.0 };
+        if self.clocks.hold(steps_ahead) {
             return false;
         }
-        let gone = strayed(&self.references, grains, &self.drift, self.clocks.elapsed());
-        let pairs_left = self.skin - 2.0 * gone.strayed - self.clocks.drawn_out();
-        let fixed_left = self.fixed_skin() - gone.moved - self.node_way(barrier);
+        let elapsed = self.clocks.elapsed();
+        let gone = strayed(&self.references, grains, &self.drift, &self.reaches, elapsed);
+        let pairs_left = self.bounds.left(&gone, elapsed);
+        self.node_way = self.way_of_nodes(barrier);
+        let fixed_left = -gone.moved_over - self.node_way;
         self.clocks.extend(pairs_left, fixed_left);
         // Asked as "holds", so that a NaN expires the lists.
-        let holds = pairs_left > WORTH_KEEPING * self.skin && fixed_left > WORTH_KEEPING * self.fixed_skin();
+        let fixed_after = fixed_left - self.clocks.fixed_ahead(steps_ahead);
+        let holds =
+            pairs_left > WORTH_KEEPING * 2.0 * self.bounds.least && fixed_after > WORTH_KEEPING * self.bounds.least;
         !holds
     }
 
@@ -156,18 +174,13 @@ impl Neighbours {
 
     /// Drops the surface candidates because surfaces have gone; the next step renews all lists.
     pub fn forget_surfaces(&mut self) {
-        let reach = self.fixed_skin();
+        let reach = self.bounds.fixed;
         self.blocks.iter_mut().for_each(|block| block.surfaces.reset(reach));
         self.lose();
     }
 
-    /// Reach of the lists of surfaces and ropes: wider, because the whole motion of the flow counts for them (m).
-    fn fixed_skin(&self) -> f64 {
-        FIXED_SKIN * self.skin
-    }
-
     /// Longest way of a node since the lists were made (m); NaN if one is nowhere.
-    fn node_way(&self, barrier: Option<&Barrier>) -> f64 {
+    fn way_of_nodes(&self, barrier: Option<&Barrier>) -> f64 {
         let nodes = barrier.into_iter().flat_map(|barrier| barrier.nodes.iter().zip(&self.node_reference));
         let ways = nodes.map(|(node, old)| (node.position - old).norm());
         ways.fold(0.0, larger_or_nan)
@@ -189,8 +202,9 @@ impl Neighbours {
             self.row_ids.clone_from(&grains.ids);
             self.trees.clear();
         }
+        let drift = self.start(bodies);
         self.fill(bodies, &memories);
-        self.restart(bodies);
+        self.start_clocks(&drift, bodies);
         self.renewals += 1;
     }
 
@@ -204,10 +218,11 @@ impl Neighbours {
         }
     }
 
-    /// Restarts the clocks at the present places.
-    fn restart(&mut self, bodies: &Bodies) {
+    /// Notes where everything is now, and how far the lists of each grain are to reach.
+    fn start(&mut self, bodies: &Bodies) -> Drift {
         let grains = &*bodies.grains;
         let drift = Drift::fit(grains);
+        self.bounds = Reaches::choose(grains, &drift, self.skin, NODE_RESERVE * self.node_way, &mut self.reaches);
         self.drift.resize(grains.len(), Drifting::default());
         self.references.resize(grains.members(), Vec3::zeros());
         let (rows, per_grain) = (grains.rows(), grains.shape.members());
@@ -222,8 +237,13 @@ impl Neighbours {
             }
         });
         self.node_reference = bodies.barrier.map_or(Vec::new(), |b| b.nodes.iter().map(|n| n.position).collect());
-        let widest = grains.bodies.iter().map(|body| body.radius + body.offset).fold(0.0, f64::max);
-        self.clocks = Clocks::start(&drift, 2.0 * widest + self.skin, self.skin, self.fixed_skin());
+        drift
+    }
+
+    fn start_clocks(&mut self, drift: &Drift, bodies: &Bodies) {
+        let Reaches { least, .. } = self.bounds;
+        let pairs_left = if bodies.grains.is_empty() { self.skin } else { 2.0 * least };
+        self.clocks = Clocks::start(drift, self.bounds.span(), pairs_left, least);
         self.lost = false;
     }
 
@@ -263,7 +283,8 @@ impl Neighbours {
 
     fn fill(&mut self, bodies: &Bodies, memories: &Memories) {
         let grains = bodies.grains.rows();
-        let (skin, fixed_skin) = (self.skin, self.fixed_skin());
+        let Reaches { largest, fixed, .. } = self.bounds;
+        let sought = Sought { grains, members: &self.references, reaches: &self.reaches };
         let covered = self.blocks.last().map_or(0, |block| block.grains.end);
         if covered != bodies.grains.len() || self.outboxes.len() != self.blocks.len() {
             self.blocks = make_blocks(bodies.grains.len(), grains.shape);
@@ -274,23 +295,30 @@ impl Neighbours {
             self.trees.resize_with(self.blocks.len(), BoxTree::default);
         }
         workers::for_each(self.blocks.iter_mut().zip(&mut self.trees), |_, (block, tree)| {
-            block.reset(skin, fixed_skin);
-            let boxes: Vec<Box3> = block.grains.clone().map(|row| grain_box(grains, row, 0.5 * skin)).collect();
-            tree.fit(&boxes);
-            find_inner_pairs(tree, grains, skin, block);
-            find_fixed_pairs(block, grains, bodies.fixed, fixed_skin);
+            block.reset(2.0 * largest, fixed);
+            let boxes = block.grains.clone().map(|row| grain_box(grains, row, sought.reaches[row].reach));
+            tree.fit(&boxes.collect::<Vec<Box3>>());
+            find_inner_pairs(tree, &sought, block);
+            find_fixed_pairs(block, sought, bodies.fixed);
         });
         let barrier = bodies.barrier.filter(|barrier| !barrier.lines.is_empty());
         // The boxes of the grains do not reach as far as these lists, so those of the lines do.
-        let ropes = barrier.map(|barrier| (barrier, BoxTree::new(&line_boxes(barrier, fixed_skin))));
+        let ropes =
+            barrier.map(|barrier| (barrier, BoxTree::new(&line_boxes(barrier, margin_of_lines(barrier, sought)))));
+        let fastest_node = bodies
+            .barrier
+            .map_or(0.0, |barrier| barrier.nodes.iter().map(|node| node.velocity.norm()).fold(0.0, f64::max));
+        let closing = self.bounds.fastest + fastest_node;
         let starts: Vec<usize> = self.blocks.iter().map(|block| block.grains.start).collect();
         let trees = &self.trees;
         workers::for_each(&mut self.blocks, |number, block| {
             for other in number + 1..trees.len() {
-                find_border_pairs([&trees[number], &trees[other]], starts[other], grains, skin, block);
+                find_border_pairs([&trees[number], &trees[other]], starts[other], &sought, block);
             }
             if let Some((barrier, ropes)) = &ropes {
-                find_rope_pairs(&trees[number], ropes, barrier, grains, fixed_skin, block);
+                find_rope_pairs(&trees[number], ropes, barrier, sought, block);
+                block.ropes.list.keep_contacts(&memories.ropes);
+                block.ropes.closing = closing;
             }
             block.inner.settle(&memories.grains);
             block.border.settle(&memories.grains);

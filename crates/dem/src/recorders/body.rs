@@ -22,6 +22,15 @@ pub fn add_rows(sums: &mut Vec<f64>, values: &[f64]) {
     }
 }
 
+/// Adds to sums the means over so many lists of values, of which this is one.
+pub fn add_shares(sums: &mut Vec<f64>, values: &[f64], lists: usize) {
+    sums.resize(values.len(), 0.0);
+    let share = 1.0 / lists as f64;
+    for (sum, value) in sums.iter_mut().zip(values) {
+        *sum += share * value;
+    }
+}
+
 /// Means over so many steps.
 pub fn means(sums: &[f64], steps: u32) -> Vec<f64> {
     let mean = 1.0 / f64::from(steps);

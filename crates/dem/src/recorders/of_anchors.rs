@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::Vec3;
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
-use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::recorders::body::{BodyRecorder, add_shares, means};
 use crate::recorders::bolts::share_between_bolts;
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
@@ -39,7 +39,10 @@ impl BodyRecorder for OfAnchors {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
         let (Some(barrier), forces) = (&simulation.model.barrier, &simulation.sums.net.forces) else { return };
         self.bed += bed_force(barrier, forces, &setup.net_rows);
-        add_rows(&mut self.load, &anchor_loads(barrier, forces, setup.ropes));
+        let parts = simulation.sums.net_in_parts();
+        for net in parts {
+            add_shares(&mut self.load, &anchor_loads(barrier, &net.forces, setup.ropes), parts.len());
+        }
         self.each.resize(barrier.anchors.len(), Vec3::zeros());
         for (sum, anchor) in self.each.iter_mut().zip(&barrier.anchors) {
             *sum += forces[anchor.node as usize] / barrier.sharing(anchor.kind);

@@ -88,11 +88,16 @@ fn net_round(simulation: &Simulation, setup: &RecorderSetup, force: &[Vec3]) -> 
         let place = barrier.nodes[node as usize].position;
         near.iter().any(|(centre, reach)| (place - centre).norm() < *reach)
     };
-    let mut largest = 0.0;
-    simulation.sums.net.each_strand(barrier, |strand, tension| {
-        if strand.kind == SegmentKind::Net && strand.nodes.iter().any(|node| is_near(*node)) {
-            largest = larger_or_nan(largest, tension);
-        }
+    let near: Vec<bool> = (0..barrier.nodes.len()).map(|node| is_near(node as u32)).collect();
+    let parts = simulation.sums.net_in_parts();
+    let largest = parts.iter().map(|net| {
+        let mut largest = 0.0;
+        net.each_strand(barrier, |strand, tension| {
+            if strand.kind == SegmentKind::Net && strand.nodes.iter().any(|node| near[*node as usize]) {
+                largest = larger_or_nan(largest, tension);
+            }
+        });
+        largest
     });
-    largest
+    largest.sum::<f64>() / parts.len() as f64
 }

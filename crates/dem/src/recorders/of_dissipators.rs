@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
-use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::recorders::body::{BodyRecorder, add_shares, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -24,13 +24,16 @@ pub struct OfDissipators {
 impl BodyRecorder for OfDissipators {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
         let Some(barrier) = &simulation.model.barrier else { return };
-        let mut tensions = vec![0.0_f64; setup.ropes];
-        for (dissipator, &tension) in barrier.dissipators.iter().zip(&simulation.sums.net.dissipators) {
-            let SegmentKind::Main(rope) = dissipator.kind else { continue };
-            let of_rope = &mut tensions[usize::from(rope)];
-            *of_rope = larger_or_nan(*of_rope, tension / barrier.sharing(dissipator.kind));
+        let parts = simulation.sums.net_in_parts();
+        for net in parts {
+            let mut tensions = vec![0.0_f64; setup.ropes];
+            for (dissipator, &tension) in barrier.dissipators.iter().zip(&net.dissipators) {
+                let SegmentKind::Main(rope) = dissipator.kind else { continue };
+                let of_rope = &mut tensions[usize::from(rope)];
+                *of_rope = larger_or_nan(*of_rope, tension / barrier.sharing(dissipator.kind));
+            }
+            add_shares(&mut self.tension, &tensions, parts.len());
         }
-        add_rows(&mut self.tension, &tensions);
     }
 
     fn sample(&mut self, simulation: &Simulation, setup: &RecorderSetup, steps: u32, channels: &mut Channels) {

@@ -6,7 +6,7 @@ use crate::Vec3;
 use crate::elements::post::Post;
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
-use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::recorders::body::{BodyRecorder, add_rows, add_shares, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -49,14 +49,17 @@ impl BodyRecorder for OfPosts {
         for (sum, post) in self.feet.iter_mut().zip(&barrier.posts) {
             *sum += net.forces[post.nodes[0] as usize];
         }
-        let mut largest = vec![0.0_f64; barrier.posts.len()];
-        net.each_strand(barrier, |strand, tension| {
-            if let SegmentKind::Retaining(post) = strand.kind {
-                let of_post = &mut largest[usize::from(post)];
-                *of_post = larger_or_nan(*of_post, tension);
-            }
-        });
-        add_rows(&mut self.retaining, &largest);
+        let parts = simulation.sums.net_in_parts();
+        for net in parts {
+            let mut largest = vec![0.0_f64; barrier.posts.len()];
+            net.each_strand(barrier, |strand, tension| {
+                if let SegmentKind::Retaining(post) = strand.kind {
+                    let of_post = &mut largest[usize::from(post)];
+                    *of_post = larger_or_nan(*of_post, tension);
+                }
+            });
+            add_shares(&mut self.retaining, &largest, parts.len());
+        }
     }
 
     fn sample(&mut self, simulation: &Simulation, _: &RecorderSetup, steps: u32, channels: &mut Channels) {

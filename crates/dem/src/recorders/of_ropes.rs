@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
-use crate::recorders::body::{BodyRecorder, add_rows, means};
+use crate::net::NetForces;
+use crate::recorders::body::{BodyRecorder, add_shares, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -37,27 +38,9 @@ pub struct OfRopes {
 
 impl BodyRecorder for OfRopes {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
-        let (Some(barrier), net) = (&simulation.model.barrier, &simulation.sums.net) else { return };
-        let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
-        let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
-        net.each_strand(barrier, |strand, tension| match strand.kind {
-            SegmentKind::Main(rope) => {
-                if let Some(rest_length) = strand.rest_length {
-                    let [weighted, length] = &mut mean[rope as usize];
-                    *weighted += tension * rest_length;
-                    *length += rest_length;
-                }
-                largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
-            }
-            SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
-            SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
-            SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
-        });
-        let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
-        add_rows(&mut self.mean, &mean);
-        add_rows(&mut self.largest, &largest);
-        self.net += net_largest;
-        self.lateral += lateral;
+        let Some(barrier) = &simulation.model.barrier else { return };
+        let parts = simulation.sums.net_in_parts();
+        parts.iter().for_each(|net| self.add_part(net, barrier, setup, parts.len()));
     }
 
     fn sample(&mut self, simulation: &Simulation, setup: &RecorderSetup, steps: u32, channels: &mut Channels) {
@@ -79,6 +62,32 @@ impl BodyRecorder for OfRopes {
         let top = setup.net_rows.last().into_iter().flatten();
         let lowest = top.map(|&node| barrier.nodes[node as usize].position.z).fold(f64::INFINITY, f64::min);
         channels.push(&TOP_HEIGHT, &[lowest]);
+    }
+}
+
+impl OfRopes {
+    /// Takes in one of so many parts of a step.
+    fn add_part(&mut self, net: &NetForces, barrier: &Barrier, setup: &RecorderSetup, parts: usize) {
+        let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
+        let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
+        net.each_strand(barrier, |strand, tension| match strand.kind {
+            SegmentKind::Main(rope) => {
+                if let Some(rest_length) = strand.rest_length {
+                    let [weighted, length] = &mut mean[rope as usize];
+                    *weighted += tension * rest_length;
+                    *length += rest_length;
+                }
+                largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
+            }
+            SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
+            SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
+            SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
+        });
+        let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
+        add_shares(&mut self.mean, &mean, parts);
+        add_shares(&mut self.largest, &largest, parts);
+        self.net += net_largest / parts as f64;
+        self.lateral += lateral / parts as f64;
     }
 }
 

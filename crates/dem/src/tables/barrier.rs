@@ -20,6 +20,8 @@ pub struct Line {
     pub nodes: [u32; 2],
     /// m
     pub radius: f64,
+    /// Radius with which grains may touch it or either of its nodes (m).
+    pub thickness: f64,
     /// What has broken is touched no more.
     pub broken: bool,
 }
@@ -110,13 +112,6 @@ impl Barrier {
         nodes.map(|(node, _)| -node.position.x).fold(0.0, f64::max)
     }
 
-    /// Radius with which grains may touch a line or either of its nodes (m).
-    pub fn thickness(&self, line: u32) -> f64 {
-        let line = &self.lines[line as usize];
-        let ends = line.nodes.map(|node| self.nodes[node as usize].radius);
-        line.radius.max(ends[0]).max(ends[1])
-    }
-
     /// Lets the piece of rope between two nodes be touched no more.
     pub fn lose_line(&mut self, nodes: [u32; 2]) {
         let Some(index) = self.lines.iter().position(|line| line.nodes == nodes) else { return };
@@ -145,18 +140,14 @@ impl Barrier {
         let segments = self.segments.iter().map(|segment| (segment.kind, segment.nodes, segment.radius));
         let cylinders = self.cylinders.iter().map(|cylinder| (cylinder.kind, cylinder.nodes, cylinder.section.radius));
         let touchable = segments.chain(cylinders).filter(|(kind, ..)| *kind != SegmentKind::Ring);
-        self.lines = touchable.map(|(_, nodes, radius)| Line { nodes, radius, broken: false }).collect();
+        let mut touched: Vec<([u32; 2], f64)> = touchable.map(|(_, nodes, radius)| (nodes, radius)).collect();
         for ring in &self.net_rings {
-            let radius = ring.radius;
-            self.lines.extend(ring.touched.iter().map(|&nodes| Line { nodes, radius, broken: false }));
+            touched.extend(ring.touched.iter().map(|&nodes| (nodes, ring.radius)));
         }
-        self.lines.extend(self.dissipators.iter().map(|dissipator| Line {
-            nodes: dissipator.nodes,
-            radius: dissipator.radius,
-            broken: false,
-        }));
-        let posts = self.posts.iter();
-        self.lines.extend(posts.map(|post| Line { nodes: post.nodes, radius: post.radius, broken: false }));
+        touched.extend(self.dissipators.iter().map(|dissipator| (dissipator.nodes, dissipator.radius)));
+        touched.extend(self.posts.iter().map(|post| (post.nodes, post.radius)));
+        let line = |(nodes, radius)| Line { nodes, radius, thickness: radius, broken: false };
+        self.lines = touched.into_iter().map(line).collect();
         for node in &mut self.nodes {
             node.lines.clear();
             node.radius = 0.0;
@@ -167,6 +158,10 @@ impl Barrier {
                 node.lines.push(index as u32);
                 node.radius = node.radius.max(line.radius);
             }
+        }
+        for line in &mut self.lines {
+            let ends = line.nodes.map(|node| self.nodes[node as usize].radius);
+            line.thickness = line.radius.max(ends[0]).max(ends[1]);
         }
     }
 }

@@ -23,6 +23,9 @@ pub struct GrainRows<'a> {
     motion: *const Quad,
     spin: *const Quad,
     axis: *const Quad,
+    /// Rows of the angular momenta, which copies need not have.
+    momenta: usize,
+    momentum: *const Quad,
     table: PhantomData<&'a GrainTable>,
 }
 
@@ -71,6 +74,8 @@ impl<'a> GrainRows<'a> {
             motion: table.motion.as_ptr(),
             spin: table.spin.as_ptr(),
             axis: table.axis.as_ptr(),
+            momenta: table.momentum.len().min(len),
+            momentum: table.momentum.as_ptr(),
             table: PhantomData,
         }
     }
@@ -115,6 +120,13 @@ impl<'a> GrainRows<'a> {
         assert!(row < self.clumps);
         // SAFETY: as in `place`.
         unsafe { *self.axis.add(row) }
+    }
+
+    /// Clumps only: angular momentum (kg m²/s); 1/I about the axis less 1/I across it.
+    pub fn momentum(&self, row: usize) -> Quad {
+        assert!(row < self.momenta);
+        // SAFETY: as in `place`.
+        unsafe { *self.momentum.add(row) }
     }
 
     /// Asks for the given rows to be brought near.
@@ -221,7 +233,9 @@ impl<'a> RowsInMotion<'a> {
         let (axis, momentum) = (table.axis.as_mut_ptr(), table.momentum.as_mut_ptr());
         let len = table.place.len().min(table.motion.len()).min(table.spin.len());
         let clumps = table.axis.len().min(table.momentum.len()).min(len);
-        let seen = GrainRows { shape: table.shape, len, clumps, place, motion, spin, axis, table: PhantomData };
+        let momenta = table.momentum.len().min(len);
+        let shape = table.shape;
+        let seen = GrainRows { shape, len, clumps, place, motion, spin, axis, momenta, momentum, table: PhantomData };
         Self { seen, place, motion, spin, axis, momentum, drift }
     }
 

@@ -58,6 +58,9 @@ pub struct GrainTable {
     pub ids: Vec<u32>,
     /// Share of its friction that acts on a grain, 1 − r_u ([`crate::tables::pores`]); empty in a dry flow, where all of it does.
     pub grip: Vec<f64>,
+    /// Velocity (m/s) and spin (1/s) at the end of the last step less their means over it, which `motion` and `spin` hold: of grains that took
+    /// the steps of the barrier ([`crate::time::at_barrier`]), zero for others. Empty where the barrier takes none of its own.
+    pub ahead: Vec<[Vec3; 2]>,
     /// Whether a grain is carried to an inlet ([`crate::time::inlet`]); empty where there is none.
     pub carried: Vec<bool>,
 }
@@ -74,6 +77,7 @@ impl GrainTable {
             bodies: Vec::new(),
             ids: Vec::new(),
             grip: Vec::new(),
+            ahead: Vec::new(),
             carried: Vec::new(),
         };
         table.extend(grains);
@@ -137,6 +141,22 @@ impl GrainTable {
         (0..self.len()).map(|row| self.grain(row)).collect()
     }
 
+    /// Gives the grains of this table, those of the given rows of `ahead`, the motion that they have at the end of their step.
+    pub fn speed_up(&mut self, rows: &[u32], ahead: &[[Vec3; 2]]) {
+        for ((motion, spin), &row) in self.motion.iter_mut().zip(&mut self.spin).zip(rows) {
+            let [faster, turning] = ahead[row as usize];
+            motion.set_vector(&(motion.vector() + faster));
+            spin.set_vector(&(spin.vector() + turning));
+        }
+    }
+
+    /// Gives all grains the motion that they have at the end of their last step.
+    pub fn catch_up(&mut self) {
+        let ahead = std::mem::take(&mut self.ahead);
+        let rows: Vec<u32> = (0..ahead.len() as u32).collect();
+        self.speed_up(&rows, &ahead);
+    }
+
     /// Puts the rows into the given order, which may leave rows out.
     pub fn arrange(&mut self, order: &[u32]) {
         fn pick<T: Copy>(rows: &mut Vec<T>, order: &[u32]) {
@@ -152,6 +172,7 @@ impl GrainTable {
         pick(&mut self.bodies, order);
         pick(&mut self.ids, order);
         pick(&mut self.grip, order);
+        pick(&mut self.ahead, order);
         pick(&mut self.carried, order);
     }
 }

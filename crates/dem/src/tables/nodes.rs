@@ -11,8 +11,6 @@ pub struct Node {
     pub position: Vec3,
     /// At half steps, like the grains'; where the barrier takes several steps in one of the grains', at those.
     pub velocity: Vec3,
-    /// Mean velocity over the last step of the grains, which is what they feel.
-    pub pace: Vec3,
     /// kg
     pub mass: f64,
     /// A fixed node never moves: an anchor, or a rope bolted to the bed.

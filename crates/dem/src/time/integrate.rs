@@ -231,6 +231,14 @@ fn turned<R: Real>(axis: Triple<R>, momentum: Triple<R>, step: f64, inverse_tran
     (scaled(turned, dot(turned, turned) * -0.5 + 1.5), square * (4.0 / (step * step)))
 }
 
+/// Turns axes, unit vectors, for a while (s) at the given spins.
+pub fn turn_axes(axes: &mut [Quad], spins: &[Quad], time: f64) {
+    for (axis, spin) in axes.iter_mut().zip(spins) {
+        let turned = small_turn(&(spin.vector() * time)) * axis.vector();
+        axis.set_vector(&(turned * (1.5 - 0.5 * turned.norm_squared())));
+    }
+}
+
 /// Moves the nodes of a barrier through one step.
 pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64) {
     for (node, force) in nodes.iter_mut().zip(forces).filter(|(node, _)| !node.fixed) {

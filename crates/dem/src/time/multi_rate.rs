@@ -1,71 +1,233 @@
 //! Several steps of the barrier within one step of the grains.
 //!
-//! The stiff, light parts of a barrier (short cylinders, rings) need shorter steps than grains do. So forces are parted: those of
-//! the grains act on the nodes as one impulse F Δt at the start of a step Δt of the grains, those within the barrier act in each
-//! of its m steps of Δt/m (the impulse method, r-RESPA, of Tuckerman, Berne & Martyna 1992). For m = 1 this is the
-//! leapfrog itself. Grains feel the mean velocity of the nodes over their step, so that the way a contact slips is the way the
-//! bodies have really gone.
+//! The stiff, light parts of a barrier (ropes, rings, short cylinders), and the grains that press on them, need shorter steps than grains
+//! among themselves do. So forces are parted: what acts on grains but the barrier is found once in a step Δt and stays the same in its m parts;
+//! what holds the barrier together, and what grains and barrier do to each other, is found anew in each. The grains at the barrier take these
+//! parts with it ([`crate::time::at_barrier`]). For m = 1 this is the leapfrog itself.
 //!
-//! Such a method can resonate where a mode of the barrier swings with a whole number of half periods in a step of the grains, even
-//! when both steps are short enough for themselves. What damps such modes here is the damping of the elements; what
-//! would notice is the energy account.
+//! Found at the middle of the parts, slow forces are right to the second order in Δt. They feed a mode that swings at ω under the fast ones by a
+//! share of (ω_s Δt)² (ω Δt)²/48 of its amplitude in a step, with ω_s that of the slow forces alone: far less than what contacts and ropes
+//! damp, unless both are long steps for it, and what would notice is the energy account. Slow forces that act at once as impulses F Δt (r-RESPA)
+//! would keep energy better on the whole, but resonate where ω Δt comes near π, and shake a grain at rest between its neighbours and a rope.
 
-use crate::contact::law::LawConstants;
-use crate::contact::ropes::Push;
-use crate::ledger::MotionEnergy;
-use crate::net::{NetForces, pull_all};
+use serde::{Deserialize, Serialize};
+
+use crate::contact::ropes::OnBarrier;
+use crate::ledger::{ContactSums, MotionEnergy};
+use crate::neighbours::blocks::Block;
+use crate::net::{NetForces, pull_all, slide_all};
 use crate::tables::barrier::Barrier;
+use crate::tables::grain_table::GrainTable;
 use crate::tables::nodes::{Frame, Node};
-use crate::time::integrate::{Stretch, move_nodes, turn_frames};
+use crate::time::at_barrier::Parting;
+use crate::time::integrate::{Pace, Stretch, move_nodes, turn_frames};
+use crate::workers;
 use crate::{Vec3, larger_or_nan};
 
 /// What a step of the grains made of the barrier.
 #[derive(Clone, Debug, Default)]
 pub struct BarrierStep {
-    /// Forces and tensions, mean over the step; energy stored, at its start.
+    /// Forces and tensions, mean over the step, and in each part if they are several.
     pub net: NetForces,
-    /// Motion at the start of the step, where it was asked for.
-    pub motion: MotionEnergy,
+    pub in_parts: Vec<NetForces>,
+    pub at_account: Accounted,
     /// Largest mean speed of a node (m/s).
     pub fastest: f64,
-    /// Lost in the parts after the first, which belong to the time after the instant of `motion`: in ropes, by rings, in
-    /// dissipators (J).
-    pub lost_later: [f64; 3],
 }
 
-/// Moves the barrier through one step of the grains, in `parts` steps of its own. `net` holds the forces at the start; `law` the
-/// barrier's own step; `account` asks for the energy of its motion.
-pub fn step_barrier<'a>(
+/// Energies at the instant of a step that the account is kept at, the middle of its parts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Accounted {
+    /// Motion of the barrier, where it was asked for.
+    pub motion: MotionEnergy,
+    /// In the barrier, and in the contacts of grains with it if the step has several parts (J).
+    pub stored_barrier: f64,
+    pub stored_contacts: f64,
+    /// Lost since the first part, and since the account; the first part's contacts book their own.
+    pub lost: Lost,
+    pub lost_since: Lost,
+    /// Largest overlap over the smaller radius in the parts after the first.
+    pub overlap_ratio: f64,
+}
+
+/// As many parts of a step as keep each within a longest one, or hardly above it.
+pub fn parts(step: f64, longest: f64) -> u32 {
+    ((step / longest - HARDLY).ceil() as u32).max(1)
+}
+
+/// Share of a step by which it may be too long before it is parted.
+const HARDLY: f64 = 0.1;
+
+/// Losses in some of the parts of a step (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Lost {
+    /// In ropes, by rings, in dissipators.
+    pub barrier: [f64; 3],
+    /// In dashpots and by slip between grains and barrier.
+    pub contacts: [f64; 2],
+}
+
+impl Lost {
+    fn add(&mut self, other: &Self, share: f64) {
+        self.barrier.iter_mut().zip(other.barrier).for_each(|(sum, lost)| *sum += share * lost);
+        self.contacts.iter_mut().zip(other.contacts).for_each(|(sum, lost)| *sum += share * lost);
+    }
+
+    fn in_barrier(&mut self, net: &NetForces) {
+        self.barrier.iter_mut().zip(net.losses()).for_each(|(sum, lost)| *sum += lost);
+    }
+
+    fn in_contacts(&mut self, sums: &ContactSums) {
+        self.contacts[0] += sums.lost_damping;
+        self.contacts[1] += sums.lost_friction;
+    }
+}
+
+/// The middle of the parts of a step: one part, or two that count half each.
+#[derive(Clone, Copy)]
+struct Middle {
+    first: u32,
+    last: u32,
+}
+
+impl Middle {
+    fn of(parts: u32) -> Self {
+        Self { first: (parts - 1) / 2, last: parts / 2 }
+    }
+
+    /// Share of a part in the middle.
+    fn weight(self, part: u32) -> f64 {
+        if part < self.first || part > self.last { 0.0 } else { 1.0 / f64::from(self.last - self.first + 1) }
+    }
+
+    /// Share of what is lost up to a part, since the one before, that is lost before the middle.
+    fn before(self, part: u32) -> f64 {
+        if part <= self.first { 1.0 } else { self.weight(part) }
+    }
+}
+
+/// The grains, and the blocks that load them.
+pub struct Pressing<'a> {
+    pub grains: &'a mut GrainTable,
+    pub blocks: &'a mut [Block],
+    /// Pace of each block.
+    pub paces: &'a mut [Pace],
+}
+
+/// Moves the barrier through one step of the grains, in `parts` steps of its own, and if they are several the grains at it. `net` holds the
+/// forces at the start; `account` asks for the energy of the barrier's motion.
+pub fn step_barrier(
     barrier: &mut Barrier,
-    net: NetForces,
-    pushes: impl Iterator<Item = &'a Push>,
-    law: &LawConstants,
+    mut net: NetForces,
+    pressing: Pressing,
+    on_barrier: &OnBarrier,
     time: &Stretch,
     parts: u32,
     account: bool,
 ) -> BarrierStep {
-    let own = Stretch { step: time.step / f64::from(parts), ..*time };
-    let several = parts > 1;
-    let before: Vec<Vec3> = barrier.nodes.iter().filter(|_| several).map(|node| node.position).collect();
-    let mut first = net;
-    pushes.for_each(|push| first.push(push, f64::from(parts)));
-    let at_start = account.then(|| (barrier.nodes.clone(), barrier.frames.clone()));
-    // The impulse of the grains acts at once, that of gravity and of the elements over the first part.
-    first.take_over(barrier);
-    go(barrier, &first, &own);
-    let motion = at_start
-        .map_or(MotionEnergy::default(), |(nodes, frames)| motion_since(&nodes, &frames, barrier, &time.gravity));
-    let mut lost_later = [0.0; 3];
-    for _ in 1..parts {
-        let later = pull_all(barrier, law);
-        later.take_over(barrier);
-        go(barrier, &later, &own);
-        first.go_on(&later);
-        lost_later.iter_mut().zip(later.losses()).for_each(|(sum, lost)| *sum += lost);
+    let Pressing { grains, blocks, paces } = pressing;
+    let before: Vec<Vec3> = barrier.nodes.iter().map(|node| node.position).collect();
+    for block in &*blocks {
+        let pushes = if parts > 1 { &block.at_barrier.pushes } else { &block.ropes.pushes };
+        pushes.iter().for_each(|push| net.push(push));
     }
-    first.share_out(parts);
-    let fastest = if several { note_paces(barrier, &before, time.step) } else { note_velocities(barrier) };
-    BarrierStep { net: first, motion, fastest, lost_later }
+    let own = Stretch { step: time.step / f64::from(parts), ..*time };
+    let mut course = Course { own, middle: Middle::of(parts), account, accounted: Accounted::default() };
+    course.move_barrier(0, Lost::default(), &net, barrier);
+    let mut in_parts = Vec::new();
+    if parts > 1 {
+        let parting = Parting { step: time.step, parts };
+        course.see_blocks(0, blocks);
+        workers::for_each(blocks.iter_mut(), |_, Block { at_barrier, .. }| {
+            at_barrier.hold(grains, time.step);
+            at_barrier.go(&own, course.noted(0));
+        });
+        in_parts.push(net);
+        for part in 1..parts {
+            let mut lost = Lost::default();
+            lost.barrier[1] += slide_all(barrier, own.step);
+            let net = pull_and_press(barrier, blocks, on_barrier, &course, part);
+            course.see_blocks(part, blocks);
+            blocks.iter().for_each(|block| lost.in_contacts(&block.at_barrier.sums));
+            course.move_barrier(part, lost, &net, barrier);
+            in_parts.push(net);
+        }
+        net = NetForces::mean(&in_parts);
+        for (block, pace) in blocks.iter_mut().zip(paces) {
+            let own = block.at_barrier.finish(&mut block.ropes, grains, &parting);
+            pace.stray = pace.stray.max(own.stray);
+        }
+    }
+    let fastest = fastest_on_the_way(barrier, &before, time.step);
+    BarrierStep { net, in_parts, at_account: course.accounted, fastest }
+}
+
+/// The parts of a step, one after the other.
+struct Course {
+    own: Stretch,
+    middle: Middle,
+    /// Whether the energy of motion is asked for.
+    account: bool,
+    accounted: Accounted,
+}
+
+impl Course {
+    /// Weight of a part in the account, where it has some and there is one.
+    fn noted(&self, part: u32) -> Option<f64> {
+        let weight = self.middle.weight(part);
+        (self.account && weight > 0.0).then_some(weight)
+    }
+
+    /// Takes in what the contacts of grains with the barrier store in a part.
+    fn see_blocks(&mut self, part: u32, blocks: &[Block]) {
+        for sums in blocks.iter().map(|block| &block.at_barrier.sums) {
+            self.accounted.stored_contacts += self.middle.weight(part) * sums.stored;
+            self.accounted.overlap_ratio = self.accounted.overlap_ratio.max(sums.overlap_ratio);
+        }
+    }
+
+    /// Moves the barrier through a part, and books it; `lost` is what has been lost since the part before, besides what `net` tells.
+    fn move_barrier(&mut self, part: u32, mut lost: Lost, net: &NetForces, barrier: &mut Barrier) {
+        let Self { middle, accounted, .. } = self;
+        lost.in_barrier(net);
+        accounted.lost.add(&lost, middle.before(part));
+        accounted.lost_since.add(&lost, 1.0 - middle.before(part));
+        accounted.stored_barrier += middle.weight(part) * net.stored;
+        net.take_over(barrier);
+        let Some(weight) = self.noted(part) else { return go(barrier, net, &self.own) };
+        let (nodes, frames) = (barrier.nodes.clone(), barrier.frames.clone());
+        go(barrier, net, &self.own);
+        self.accounted.motion.add(&motion_since(&nodes, &frames, barrier, &self.own.gravity), weight);
+    }
+}
+
+/// A part of the work of a step of the barrier.
+enum Part<'a> {
+    Elements(&'a mut Option<NetForces>),
+    Block(&'a mut Block),
+}
+
+/// Forces within the barrier and those of the grains on it, at the present places; the grains are loaded with what the barrier does to them, and
+/// moved.
+fn pull_and_press(
+    barrier: &Barrier,
+    blocks: &mut [Block],
+    on_barrier: &OnBarrier,
+    course: &Course,
+    part: u32,
+) -> NetForces {
+    let mut net = None;
+    let work = std::iter::once(Part::Elements(&mut net)).chain(blocks.iter_mut().map(Part::Block));
+    workers::for_each(work, |_, work| match work {
+        Part::Elements(net) => *net = Some(pull_all(barrier, &on_barrier.law)),
+        Part::Block(Block { at_barrier, ropes, .. }) => {
+            at_barrier.press(ropes, barrier, on_barrier);
+            at_barrier.go(&course.own, course.noted(part));
+        }
+    });
+    let mut net = net.unwrap_or_default();
+    blocks.iter().flat_map(|block| &block.at_barrier.pushes).for_each(|push| net.push(push));
+    net
 }
 
 /// Moves nodes and frames through one step.
@@ -89,21 +251,8 @@ fn motion_since(nodes: &[Node], frames: &[Frame], barrier: &Barrier, gravity: &V
     sums
 }
 
-/// Notes the mean velocities over the step; returns the largest speed (m/s).
-fn note_paces(barrier: &mut Barrier, before: &[Vec3], step: f64) -> f64 {
-    let mut fastest = 0.0;
-    for (node, before) in barrier.nodes.iter_mut().zip(before) {
-        node.pace = (node.position - before) / step;
-        fastest = larger_or_nan(fastest, node.pace.norm_squared());
-    }
-    fastest.sqrt()
-}
-
-/// The same where the barrier has taken a single step.
-fn note_velocities(barrier: &mut Barrier) -> f64 {
-    let fastest = barrier.nodes.iter_mut().fold(0.0, |fastest, node| {
-        node.pace = node.velocity;
-        larger_or_nan(fastest, node.pace.norm_squared())
-    });
-    fastest.sqrt()
+/// Largest mean speed over the step (m/s).
+fn fastest_on_the_way(barrier: &Barrier, before: &[Vec3], step: f64) -> f64 {
+    let ways = barrier.nodes.iter().zip(before).map(|(node, before)| (node.position - before).norm_squared());
+    ways.fold(0.0, larger_or_nan).sqrt() / step
 }
