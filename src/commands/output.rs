@@ -25,7 +25,7 @@ const HISTORIES: &str = "histories.csv";
 
 /// Writes all files of the report into `folder`, with those for other programs that are asked for, and tells the verdict.
 pub fn hand_over(run: &Run, folder: &mut Folder, extras: Extras, format: Format) -> ExitCode {
-    let written = start_printing(extras).and_then(|printing| write_report_for(run, folder, extras, printing));
+    let written = write_report(run, folder, extras);
     tell(run, folder, extras, format, written)
 }
 

@@ -73,8 +73,8 @@ pub fn choose(design: &Design) -> Fidelity {
     Fidelity { name, time_step, barrier_step, skin_share: 0.6, reason }
 }
 
-/// Steps of the barrier in one of the grains': up to so many the energy account closes about as well as with one, within 4e-4 of what was put in on
-/// nets of a mesh and cylinders; with eight, within 6e-4.
+/// Steps of the barrier in one of the grains': up to so many the energy account closes about as well as with one, within 4e-4 of what was put in on nets
+/// of a mesh and cylinders, and within 9e-4 with dissipators that yield softly (5e-4 to 11e-4 with one to four); with eight, within 6e-4 and 8e-4.
 const MOST_BARRIER_STEPS: f64 = 6.0;
 
 /// Straight pieces of which a side of the mesh is made: what the design says, or one, and on the finest rung what the grains need.

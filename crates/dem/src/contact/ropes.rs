@@ -19,16 +19,14 @@ use crate::contact::law::{ContactPoint, LawConstants, Memory, Spring, respond};
 use crate::contact::pair_list::{PairList, Separation};
 use crate::geometry::point_segment::{OnSegment, nearest_on_segment};
 use crate::ledger::ContactSums;
-use crate::neighbours::clocks::Clock;
+use crate::neighbours::clocks::{Clock, STEPS_AHEAD};
 use crate::simd::quad::Quad;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::{GrainRows, Member};
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::nodes::Node;
 
-/// Over the way that a grain and a line go in a step at their present velocities, and over the grain's radius: gap up to which they are
-/// followed from the start of the step.
-const STEPS_AHEAD: f64 = 1.5;
+/// Gap over the grain's radius up to which grain and line are followed from the start of a step, whatever their velocities.
 const ALWAYS_AHEAD: f64 = 0.01;
 
 /// Candidate pairs (member, line) of one block, and the forces they put on nodes in this step.
@@ -105,7 +103,7 @@ impl RopeContacts {
     pub fn wake(&mut self, context: &RopeContext, step: f64, to_middle: f64) {
         let (grains, barrier, clock) = (context.grains, context.barrier, context.clock);
         self.list.sort_near(&clock, &OnRopes { grains, barrier });
-        // The step to come takes about as much of the way as the last; the first has none before it.
+        // The first step has none before it.
         let way = STEPS_AHEAD * clock.tick.max(step * self.closing);
         self.list.wake(&Clock { now: clock.now + way, ..clock });
         self.list.take_near(|[member, line]| {

@@ -2,6 +2,10 @@
 
 use crate::neighbours::drift::Drift;
 
+/// Steps by which one looks ahead where ropes and the grains at them move within a step: the step to come takes about as much of the way as the
+/// last, and may take more.
+pub const STEPS_AHEAD: f64 = 1.5;
+
 /// A clock, and how far it went in the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {

@@ -11,7 +11,7 @@ use crate::neighbours::candidates::{
     Sought, find_border_pairs, find_fixed_pairs, find_inner_pairs, find_rope_pairs, grain_box, line_boxes,
     margin_of_lines,
 };
-use crate::neighbours::clocks::Clocks;
+use crate::neighbours::clocks::{Clocks, STEPS_AHEAD};
 use crate::neighbours::drift::Drift;
 use crate::neighbours::kept::Kept;
 use crate::neighbours::memory_rows::MemoryRows;
@@ -25,8 +25,6 @@ use crate::time::integrate::Pace;
 use crate::workers;
 use crate::{Vec3, larger_or_nan};
 
-/// Steps in which the barrier and grains at it go somewhat further than the lists are asked for.
-const STEPS_AHEAD: f64 = 1.5;
 /// Way that nodes of the barrier may go while the next lists live, over that of the last.
 const NODE_RESERVE: f64 = 1.5;
 /// Renewals between two reorderings of the grain table.

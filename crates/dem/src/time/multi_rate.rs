@@ -6,8 +6,9 @@
 //! parts with it ([`crate::time::at_barrier`]). For m = 1 this is the leapfrog itself.
 //!
 //! Found at the middle of the parts, slow forces are right to the second order in Δt. They feed a mode that swings at ω under the fast ones by a
-//! share of (ω_s Δt)² (ω Δt)²/48 of its amplitude in a step, with ω_s that of the slow forces alone: far less than what contacts and ropes
-//! damp, unless both are long steps for it, and what would notice is the energy account. Slow forces that act at once as impulses F Δt (r-RESPA)
+//! share of about (ω_s Δt)² (ω Δt)²/48 of its amplitude in a step, with ω_s that of the slow forces alone and both of the grain, not of the light
+//! knots that swing with it: far less than what contacts and ropes damp, unless both steps are long for it. That is what the audit of the time step
+//! looks for; the energy account would notice it as well. Slow forces that act at once as impulses F Δt (r-RESPA)
 //! would keep energy better on the whole, but resonate where ω Δt comes near π, and shake a grain at rest between its neighbours and a rope.
 
 use serde::{Deserialize, Serialize};
