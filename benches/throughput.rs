@@ -3,6 +3,8 @@
 //!     cargo bench                      timings by criterion, then the table
 //!     cargo bench -- --table           the table alone
 //!     cargo bench -- --elements        what the elements of a barrier cost
+//!     cargo bench -- --cores [DESIGN]  what up to 64 cores would bring, for the states or the run of a design; `--message NS` gives the time
+//!                                      of a message between threads instead of measuring it
 //!     benches/peers/compare.sh         beside LAMMPS, LIGGGHTS and Yade, on the same states
 //!
 //! The table tells contacts per sphere z, ns per sphere-step, sphere-steps per second, ns per contact and bytes per sphere;
@@ -14,6 +16,7 @@
 #![allow(unsafe_code)] // it counts what is allocated
 
 mod cells;
+mod many_cores;
 mod states;
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -117,6 +120,11 @@ fn main() {
     let mut arguments = std::env::args().skip_while(|argument| argument != "--one").skip(1);
     if let Some(name) = arguments.next() {
         return tell_one(&name);
+    }
+    let mut arguments = std::env::args().skip_while(|argument| argument != "--cores");
+    if arguments.next().is_some() {
+        let designs: Vec<String> = arguments.filter(|argument| argument.ends_with(".yaml")).collect();
+        return tell_cores(&designs);
     }
     if std::env::args().any(|argument| argument == "--elements") {
         return tell_all_elements();
@@ -224,6 +232,24 @@ fn tell_one(name: &str) {
         let time = time_steps(&mut simulation, steps).as_secs_f64();
         let [sphere, contact] = [spheres as f64, touching_pairs(&simulation)].map(|n| time * 1e9 / (steps as f64 * n));
         println!("{sphere:.1} ns per sphere-step, {contact:.1} ns per contact");
+    });
+}
+
+/// What many cores would bring, for the runs of the given designs or, if there are none, for the states.
+fn tell_cores(designs: &[String]) {
+    // On a busy machine messages take as long as the other threads' turns.
+    let given = std::env::args().skip_while(|argument| argument != "--message").nth(1);
+    let message = 1e-9 * given.and_then(|given| given.parse().ok()).unwrap_or_else(message_time);
+    many_cores::heading(message);
+    pool(1).install(|| {
+        designs.iter().for_each(|path| many_cores::tell_design(path, message));
+        for state in STATES.iter().filter(|_| designs.is_empty()) {
+            let steps = (SPHERE_STEPS / 4 / state.count).max(100);
+            let mut simulation = state.run_in(state.model(), RUN_IN);
+            many_cores::tell_steps(&state.name(), message, || {
+                time_steps(&mut simulation, steps);
+            });
+        }
     });
 }
 

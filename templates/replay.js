@@ -135,7 +135,7 @@
         ropeData[8 * r + 3 + k] = to + t * (metres(node[k][m + b], k) - to);
       }
       ropeData[8 * r + 6] = (tension[f * R + r] + t * (tension[(f + 1) * R + r] - tension[f * R + r])) / 255;
-      ropeData[8 * r + 7] = [1.1, 2.6, 1.6, 0.8][kind];
+      ropeData[8 * r + 7] = head.widths[kind];
     });
     const time = head.times[f] + t * (head.times[f + 1] - head.times[f]);
     clock.textContent = time.toFixed(2) + " s";

@@ -27,6 +27,7 @@ pub(crate) mod reliability;
 pub mod render;
 pub(crate) mod replay;
 pub(crate) mod row;
+pub(crate) mod segment_kinds;
 pub(crate) mod series;
 pub(crate) mod site;
 pub(crate) mod size;

@@ -13,8 +13,8 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde::Serialize;
 
+use crate::report::segment_kinds::{DRAWN_WIDTHS, code};
 use dem::Vec3;
-use dem::elements::segment::SegmentKind;
 use dem::recorders::film::{Film, Frame, Pose};
 
 /// Size that the packed film must not exceed (bytes of base 64): the page is to stay below 4 MB.
@@ -43,8 +43,10 @@ struct Head {
     nodes: usize,
     /// Radius and offset of each grain (mm).
     looks: Vec<[u32; 2]>,
-    /// Nodes and kind of each rope: 0 net, 1 main rope, 2 lateral rope, 3 ring.
+    /// Nodes of each element of the barrier, and its kind as numbered by [`code`].
     ropes: Vec<[u32; 3]>,
+    /// Half the width at which each kind is drawn (pixels).
+    widths: [f32; 6],
     origin: [f32; 3],
     /// Largest extent of the scene (m), of which places are shares.
     extent: f32,
@@ -145,14 +147,6 @@ impl<'a> Packer<'a> {
         let force = largest(&|frame| of_poses(frame, |pose| pose.force));
         let tension = largest(&|frame| frame.tensions.iter().copied().fold(0.0, f32::max));
         let looks = self.film.looks.iter().step_by(self.share);
-        let kind = |kind: &SegmentKind| match kind {
-            SegmentKind::Net => 0,
-            SegmentKind::Main(_) => 1,
-            SegmentKind::Lateral => 2,
-            SegmentKind::Ring => 3,
-            SegmentKind::Retaining(_) => 4,
-            SegmentKind::Post(_) => 5,
-        };
         // To the millimetre.
         let corner = |place: &Vec3| [place.x, place.y, place.z].map(|length| (1e3 * length).round() as f32 / 1e3);
         let head = Head {
@@ -160,7 +154,8 @@ impl<'a> Packer<'a> {
             grains: looks.len(),
             nodes: self.frames[0].nodes.len(),
             looks: looks.map(|look| look.map(|length| (1e3 * length).round() as u32)).collect(),
-            ropes: self.film.ropes.iter().map(|(nodes, of)| [nodes[0], nodes[1], kind(of)]).collect(),
+            ropes: self.film.ropes.iter().map(|(nodes, of)| [nodes[0], nodes[1], code(of).into()]).collect(),
+            widths: DRAWN_WIDTHS,
             origin: self.origin,
             extent: self.extent,
             speed,

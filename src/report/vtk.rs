@@ -7,8 +7,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::report::folder::ReportFile;
+use crate::report::segment_kinds::code;
 use dem::Vec3;
-use dem::elements::segment::SegmentKind;
 use dem::recorders::film::{Film, Frame};
 
 /// Folder of the files within the report's.
@@ -87,16 +87,7 @@ fn barrier(film: &Film, frame: &Frame) -> String {
     let points: Vec<f32> = frame.nodes.iter().flatten().copied().collect();
     let nodes: Vec<u32> = film.ropes.iter().flat_map(|(nodes, _)| *nodes).collect();
     let ends: Vec<u32> = (1..=film.ropes.len() as u32).map(|rope| 2 * rope).collect();
-    // 0 net, 1 main rope, 2 lateral rope, 3 ring, 4 retaining rope, 5 post.
-    let kind = |kind: &SegmentKind| match kind {
-        SegmentKind::Net => 0.0,
-        SegmentKind::Main(_) => 1.0,
-        SegmentKind::Lateral => 2.0,
-        SegmentKind::Ring => 3.0,
-        SegmentKind::Retaining(_) => 4.0,
-        SegmentKind::Post(_) => 5.0,
-    };
-    let kinds: Vec<f32> = film.ropes.iter().map(|(_, of)| kind(of)).collect();
+    let kinds: Vec<f32> = film.ropes.iter().map(|(_, of)| code(of).into()).collect();
     let data = [array("tension_n", 1, &frame.tensions), array("kind", 1, &kinds)];
     poly_data(&points, "Lines", [&nodes, &ends], "CellData", &data)
 }

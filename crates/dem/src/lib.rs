@@ -11,6 +11,7 @@ pub mod model;
 pub mod neighbours;
 pub mod net;
 pub mod recorders;
+pub mod schedule;
 pub mod simd;
 pub mod simulation;
 pub mod sweep;

@@ -294,7 +294,19 @@ impl NetForces {
             axial: of_each(|part| &part.axial),
             rings: of_each(|part| &part.rings),
             from_grains: parts.iter().map(|part| part.from_grains * share).sum(),
-            ..Self::default()
+            // Told part by part, or taken over in each.
+            torques: Vec::new(),
+            stored: 0.0,
+            lost_ropes: 0.0,
+            lost_rings: 0.0,
+            lost_dissipators: 0.0,
+            slipped: Vec::new(),
+            let_go: Vec::new(),
+            slid: Vec::new(),
+            lies: Vec::new(),
+            overloaded: Vec::new(),
+            bent: Vec::new(),
+            torn: Vec::new(),
         }
     }
 }

@@ -8,10 +8,12 @@
 #![allow(unsafe_code)]
 
 use std::cell::{Cell, UnsafeCell};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, Location, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
+
+use crate::schedule::Noting;
 
 /// Looks for work before an idle helper lets others have the core, and before it naps.
 const LOOKS_BEFORE_YIELD: u32 = 2_000;
@@ -79,10 +81,21 @@ pub fn count() -> usize {
     LED.get().map_or(1, |workers| workers.count)
 }
 
+/// The workers that the calling thread leads, if there are helpers among them.
+fn led() -> Option<&'static Workers> {
+    LED.get().filter(|workers| workers.count > 1)
+}
+
 /// Calls `work` for every item, by all of the workers; items go out in their order.
+#[track_caller]
 pub fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) + Sync) {
-    let Some(workers) = LED.get() else {
-        items.into_iter().enumerate().for_each(|(number, item)| work(number, item));
+    let Some(workers) = led() else {
+        let mut noting = Noting::begin(Location::caller());
+        for (number, item) in items.into_iter().enumerate() {
+            work(number, item);
+            noting.iter_mut().for_each(Noting::first);
+        }
+        noting.into_iter().for_each(Noting::end);
         return;
     };
     let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
@@ -96,16 +109,21 @@ pub fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize
 
 /// Calls `first` for every item, by all of the workers, and `second` for each once `first` is through with it and all items
 /// before it.
+#[track_caller]
 pub fn wave<T: Send>(
     items: impl IntoIterator<Item = T>,
     first: impl Fn(&mut T) + Sync,
     second: impl Fn(&mut T) + Sync,
 ) {
-    let Some(workers) = LED.get() else {
+    let Some(workers) = led() else {
+        let mut noting = Noting::begin(Location::caller());
         for mut item in items {
             first(&mut item);
+            noting.iter_mut().for_each(Noting::first);
             second(&mut item);
+            noting.iter_mut().for_each(Noting::second);
         }
+        noting.into_iter().for_each(Noting::end);
         return;
     };
     let items: Vec<Mutex<T>> = items.into_iter().map(Mutex::new).collect();
@@ -133,6 +151,7 @@ pub fn wave<T: Send>(
 }
 
 /// Calls `work` for every item, by all of the workers; results in the order of the items.
+#[track_caller]
 pub fn map<T: Send, R: Send>(items: impl IntoIterator<Item = T>, work: impl Fn(usize, T) -> R + Sync) -> Vec<R> {
     let items: Vec<T> = items.into_iter().collect();
     let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
