@@ -12,7 +12,7 @@ pub use self::rope_load::RopeLoad;
 use self::ropes::Cases;
 use crate::design::{AnchorOf, Arrival, BarrierDesign, Bottom, DamBreak, Design, LateralTo, RunUp};
 use crate::larger::larger_or_nan;
-use crate::loads::cases::load_case::{Extras, LoadCase, OnTheBase, PointLoad};
+use crate::loads::cases::load_case::{AdditionalActions, BaseActions, LoadCase, PointLoad};
 use crate::loads::cases::{all, envelope, later_surge};
 pub use crate::loads::fill::Surface;
 use crate::loads::fill::{Reservoir, Retention};
@@ -44,7 +44,7 @@ pub struct Guideline {
     pub metre_force: f64,
     pub foot_moment: f64,
     /// The same of a wall that stands by its weight.
-    pub on_the_base: OnTheBase,
+    pub on_the_base: BaseActions,
     /// Each main rope under its governing case, from the bottom; rope 1 has a load and no tension where the bed holds it.
     pub ropes: Vec<RopeLoad>,
     /// On what holds the lowest rope to the bed, in all, with the partial factor on loads (N); nothing where it is free.
@@ -173,11 +173,11 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
 }
 
 /// The most of each over these cases, for a point load that spreads over no more than this width of a wall of this height.
-fn on_the_base(design: &Design, stages: &[LoadCase], width: f64, height: f64) -> OnTheBase {
-    let BarrierDesign::RigidWall(wall) = &design.barrier else { return OnTheBase::default() };
+fn on_the_base(design: &Design, stages: &[LoadCase], width: f64, height: f64) -> BaseActions {
+    let BarrierDesign::RigidWall(wall) = &design.barrier else { return BaseActions::default() };
     let block = wall.stability.and_then(|stability| stability.block_length);
     let each = stages.iter().map(|case| case.on_the_base(block, width, height, wall.lean));
-    each.fold(OnTheBase::default(), |most, case| OnTheBase {
+    each.fold(BaseActions::default(), |most, case| BaseActions {
         slides: larger_or_nan(most.slides, case.slides),
         pushes: larger_or_nan(most.pushes, case.pushes),
         tips: larger_or_nan(most.tips, case.tips),
@@ -201,7 +201,7 @@ fn flows_with(design: &Design, event: &EventFill, first: GuidelineInput) -> Vec<
     let (depth, velocity) = incoming(design);
     let fills = first.fill_height / event.filled(design, first).fill_height;
     let surges = design.flow.later.iter().map(|later| [later.surge.depth, later.surge.velocity]);
-    let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.hard.iter().skip(1));
+    let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.governing.iter().skip(1));
     let later = surges.chain(rows.map(|hard| [hard.moment.depth, hard.moment.velocity])).map(|own| {
         let [depth, velocity] = [own[0] * first.depth / depth, own[1] * first.velocity / velocity];
         let flow = event.filled(design, GuidelineInput { depth, velocity, ..first });
@@ -272,7 +272,7 @@ impl EventFill {
         let last = later.chain(design.flow.last_of_the_event()).fold(design.flow.volume(), f64::min);
         // Before the last of the hardest moments of a hydrograph lies what has come until then, and more where the event is larger.
         let to_come = design.flow.hydrograph.as_ref().map_or(last, |hydrograph| {
-            design.flow.volume() - hydrograph.hard.iter().map(|hard| hard.before).fold(0.0, larger_or_nan)
+            design.flow.volume() - hydrograph.governing.iter().map(|hard| hard.before).fold(0.0, larger_or_nan)
         });
         let before = (event - to_come / width).max(0.0);
         Self {
@@ -357,9 +357,9 @@ pub fn hit_of_the_largest(design: &Design) -> f64 {
     design.loads.impact_reduction * hertz(0.5 * diameter, mass, velocity)
 }
 
-fn extras(design: &Design) -> Extras {
+fn extras(design: &Design) -> AdditionalActions {
     let loads = &design.loads;
-    Extras {
+    AdditionalActions {
         overflow_depth: loads.overflow_depth,
         overflow_drag: loads.overflow_drag.map(|(friction, length)| [friction, length]),
         drained: loads.drained.map(|(earth_pressure, density)| [earth_pressure, density]),

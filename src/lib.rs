@@ -3,7 +3,7 @@
 //! # Map
 //! The run is one chain, all of it in [`pipeline::run`], its simulations in [`simulated::simulate`]:
 //!
-//! [`design`] (what is asked) → [`load_cases`] (the flow as it is, and factored) → [`fidelity`] (how finely to model) → [`scene`] (bodies, and the event itself)
+//! [`design`] (what is asked) → [`flow_cases`] (the flow as it is, and factored) → [`fidelity`] (how finely to model) → [`scene`] (bodies, and the event itself)
 //! → histories of [`dem`] → [`demand`] (one number per check, by guideline and by simulation) → [`checks`]
 //! (demand over capacity) → verdict → [`report`].
 //!
@@ -26,13 +26,13 @@
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], a variant of `SegmentKind` with its matches (recorders, [`report::segment_kinds`], [`report::pictures`]), its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands`, `Barrier::springs` and `Barrier::connect` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
-//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::Extras` and `guideline`; its working with [`loads::cases::working`] |
+//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::AdditionalActions` and `guideline`; its working with [`loads::cases::working`] |
 //! | another impact model | an entry of [`loads::other_models::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
 //! | a shape of surface | a file in [`dem::tables`] beside `surfaces` and `terrain`, and its lines in [`dem::tables::fixed`], which tells all others what a grain touches; where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
-//! | a load case that is simulated, or where a partial factor stands | [`load_cases`]; its runs in `pipeline::simulate_cases`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
+//! | a load case that is simulated, or where a partial factor stands | [`flow_cases`]; its runs in `pipeline::simulate_cases`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
 //! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
@@ -47,7 +47,7 @@
 //! | a kind of report | [`report::kind`] |
 //! | a question that a new design asks | a line in [`new_design::QUESTIONS`], its flag in `src/main.rs`, its place in `templates/new_design.yaml` |
 //! | something that the page of `serve` asks for | a function in `commands::serve::requests`, its address in `commands::serve::router`; the page itself in `templates/serve`, whose README says how its bundle is built |
-//! | a file beside the report for another program | a field of [`extras::Extras`], its flag in `src/main.rs`, a file in [`report`], its line in [`commands::output`] |
+//! | a file beside the report for another program | a field of [`exports::Exports`], its flag in `src/main.rs`, a file in [`report`], its line in [`commands::output`] |
 //! | a command | a file in [`commands`], its arguments in `src/main.rs` |
 //! | a time series of the barrier | a channel in the file of its body in [`dem::recorders`] and a line in `CHANNELS` there |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
@@ -100,12 +100,12 @@ pub mod container;
 pub mod demand;
 pub mod design;
 pub mod explain;
-pub mod extras;
+pub mod exports;
 pub mod fidelity;
+pub mod flow_cases;
 pub mod guideline;
 mod larger;
 pub mod lattice;
-pub mod load_cases;
 mod loads;
 mod lock;
 mod new_design;

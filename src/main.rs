@@ -8,15 +8,15 @@ use barrier_check::commands::check::{MOST_STARTS, Options, check, dry_run, loads
 use barrier_check::commands::compare::compare;
 use barrier_check::commands::engines::{Engine, Mode};
 use barrier_check::commands::explain::explain;
+use barrier_check::commands::messages::Format;
 use barrier_check::commands::new::{Given, new};
 use barrier_check::commands::progress::Audience;
 use barrier_check::commands::report::report;
 use barrier_check::commands::schema::SchemaOf;
 use barrier_check::commands::serve::{self, serve};
 use barrier_check::commands::study::study;
-use barrier_check::commands::told::Format;
 use barrier_check::commands::validate::{Selection, validate};
-use barrier_check::extras::Extras;
+use barrier_check::exports::Exports;
 use barrier_check::terminal;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -100,7 +100,7 @@ struct HowArguments {
     #[arg(long)]
     vary: bool,
     #[command(flatten)]
-    extras: ExtraArguments,
+    exports: ExtraArguments,
 }
 
 /// What is written beside the report.
@@ -128,8 +128,8 @@ struct OfficeArguments {
 }
 
 impl OfficeArguments {
-    fn extras(&self, vtk: bool) -> Extras {
-        Extras { vtk, xlsx: self.xlsx, dxf: self.dxf, pdf: self.pdf }
+    fn exports(&self, vtk: bool) -> Exports {
+        Exports { vtk, xlsx: self.xlsx, dxf: self.dxf, pdf: self.pdf }
     }
 }
 
@@ -140,7 +140,7 @@ impl HowArguments {
             threads,
             starts: self.seeds,
             vary: self.vary,
-            extras: self.extras.office.extras(self.extras.vtk),
+            exports: self.exports.office.exports(self.exports.vtk),
             format,
             audience,
         }
@@ -189,7 +189,7 @@ enum Command {
         /// Folder of the earlier run
         folder: PathBuf,
         #[command(flatten)]
-        extras: ExtraArguments,
+        exports: ExtraArguments,
     },
     /// Goes on with a run that was interrupted: the result is that of a run that was not
     Resume {
@@ -388,14 +388,14 @@ fn run() -> i32 {
             print(String::from_utf8_lossy(&script).into_owned())
         }
         Some(Command::Loads { design, out, office, format }) => {
-            loads(&design, out.as_deref(), office.extras(false), format) as i32
+            loads(&design, out.as_deref(), office.exports(false), format) as i32
         }
         Some(Command::New(arguments)) => new(&arguments.given()) as i32,
         Some(Command::Compare { designs, out, how }) => {
             compare(&designs, &out, how.options(Format::Text, Audience::Person)) as i32
         }
         Some(Command::Explain { id, all }) => explain(id.as_deref(), all) as i32,
-        Some(Command::Report { folder, extras }) => report(&folder, extras.office.extras(extras.vtk)) as i32,
+        Some(Command::Report { folder, exports }) => report(&folder, exports.office.exports(exports.vtk)) as i32,
         Some(Command::Resume { folder, threads, keep, watched }) => {
             resume(&folder, threads.map(usize::from), watched.audience(), keep.every()) as i32
         }

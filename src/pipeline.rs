@@ -4,7 +4,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::arriving;
 use crate::checks::check_all;
-use crate::checks::not_covered::known::{FirstSurge, Known};
+use crate::checks::not_covered::context::{CheckContext, FirstSurge};
 use crate::checks::not_covered::leave_open_not_covered;
 use crate::checks::outcome::{CheckVerdict, Outcome, most_used};
 use crate::checks::range::leave_open_outside_range;
@@ -14,9 +14,9 @@ use crate::design::read::DesignFile;
 use crate::design::{BarrierDesign, Design, FidelityWish};
 use crate::fidelity::choose;
 use crate::fidelity::ladder::{RUNGS, Rung, RungKind, Step, rung_of};
+use crate::flow_cases::{self, FlowCase, cases};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
-use crate::load_cases::{self, LoadCase, cases};
 use crate::quantities::observed::Observed;
 use crate::quantities::{boulder, earth_pressure, total_force, wall};
 use crate::scene::estimate::estimate;
@@ -114,7 +114,7 @@ pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch
     let threads = rayon::current_num_threads();
     let (started, began) = (Instant::now(), SystemTime::now());
     let cases = cases(design);
-    let jobs: Vec<(u32, &(LoadCase, Design))> =
+    let jobs: Vec<(u32, &(FlowCase, Design))> =
         (0..starts.max(1)).flat_map(|start| cases.iter().map(move |case| (start, case))).collect();
     let one = |index: usize| {
         let (start, (_, design)) = jobs[index];
@@ -129,7 +129,7 @@ pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch
     };
     let runs = if jobs.len() == 1 { vec![one(0)] } else { side_by_side(threads, jobs.len(), one) };
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let mut runs: Vec<(LoadCase, Simulated)> = jobs.iter().map(|(_, (case, _))| *case).zip(runs).collect();
+    let mut runs: Vec<(FlowCase, Simulated)> = jobs.iter().map(|(_, (case, _))| *case).zip(runs).collect();
     let doubts = runs.iter().flat_map(|(case, run)| doubts_of(*case, run, starts)).collect();
     let (_, mut simulated) = runs.remove(0);
     simulated.doubts = doubts;
@@ -139,9 +139,9 @@ pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch
     for (case, other) in runs {
         simulated.numerics = simulated.numerics.worst(&other.numerics);
         match case {
-            LoadCase::Characteristic => simulated.starts.extend(other.starts),
-            LoadCase::Factored => simulated.factored.extend(other.starts),
-            LoadCase::WeakDissipators => simulated.weak.extend(other.starts),
+            FlowCase::Characteristic => simulated.starts.extend(other.starts),
+            FlowCase::Factored => simulated.factored.extend(other.starts),
+            FlowCase::WeakDissipators => simulated.weak.extend(other.starts),
         }
     }
     Ok(simulated)
@@ -222,7 +222,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     let variants = variants(&run.file.design);
     let answer = |number: usize, design: &Design| -> Result<Point, RunError> {
         // Forces and strokes are designed for the factored flow alone.
-        let design = load_cases::governing(design);
+        let design = flow_cases::governing(design);
         let guideline = guideline(&design);
         let seed = design.simulation.seed;
         let progress = |report: ProgressReport| {
@@ -243,13 +243,13 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
     Ok(())
 }
 
-fn doubts_of(case: LoadCase, run: &Simulated, starts: u32) -> Vec<String> {
+fn doubts_of(case: FlowCase, run: &Simulated, starts: u32) -> Vec<String> {
     let named = |doubt: &String| {
         let seed = if starts > 1 { format!("seed {}: ", run.starts[0].seed) } else { String::new() };
         let flow = match case {
-            LoadCase::Characteristic => "",
-            LoadCase::Factored => "factored flow: ",
-            LoadCase::WeakDissipators => "weakest dissipators: ",
+            FlowCase::Characteristic => "",
+            FlowCase::Factored => "factored flow: ",
+            FlowCase::WeakDissipators => "weakest dissipators: ",
         };
         format!("{seed}{flow}{doubt}")
     };
@@ -271,7 +271,7 @@ fn finish(file: DesignFile, guideline: Guideline, simulated: Option<Simulated>, 
             let led = design.led_by(number);
             let guideline = crate::guideline::guideline(&led);
             let seen = whole.map(|simulated| shown_by(rung, &led, number, &guideline, simulated));
-            leave_open_not_covered(Known { design: &led, guideline: &guideline, seen }, &mut outcomes);
+            leave_open_not_covered(CheckContext { design: &led, guideline: &guideline, seen }, &mut outcomes);
         }
         leave_open_outside_range(design, &guideline, &mut outcomes);
         if whole.is_some() {
@@ -358,7 +358,7 @@ fn verdict(outcomes: &[Outcome], doubts: &[String]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::outcome::{CheckName, Opening, Resistance};
+    use crate::checks::outcome::{CheckName, OpenReason, Resistance};
     use crate::demand::Demand;
     use crate::quantities::counts::Counts;
     use crate::quantities::quantity::Unit;
@@ -374,7 +374,7 @@ mod tests {
     fn doubt_holds_back_a_pass_and_a_fail_of_the_simulation_but_not_one_of_the_equations() {
         let doubt = ["why".to_string()];
         let mut open = check(0.1, 0.1);
-        open.leave_open(Opening::NotGiven("x".into()));
+        open.leave_open(OpenReason::NotGiven("x".into()));
         for (outcomes, doubts, expected) in [
             (vec![check(0.5, 0.5)], &[][..], Verdict::Pass),
             (vec![check(0.5, 0.5)], &doubt[..], Verdict::Undecided),
@@ -452,10 +452,10 @@ mod tests {
             doubts: vec!["it broke".into()],
             ..simulated(vec![Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })])
         };
-        assert_eq!(doubts_of(LoadCase::Characteristic, &run, 1), ["it broke"]);
-        assert_eq!(doubts_of(LoadCase::Characteristic, &run, 2), ["seed 7: it broke"]);
-        assert_eq!(doubts_of(LoadCase::Factored, &run, 1), ["factored flow: it broke"]);
-        assert_eq!(doubts_of(LoadCase::Factored, &run, 5), ["seed 7: factored flow: it broke"]);
+        assert_eq!(doubts_of(FlowCase::Characteristic, &run, 1), ["it broke"]);
+        assert_eq!(doubts_of(FlowCase::Characteristic, &run, 2), ["seed 7: it broke"]);
+        assert_eq!(doubts_of(FlowCase::Factored, &run, 1), ["factored flow: it broke"]);
+        assert_eq!(doubts_of(FlowCase::Factored, &run, 5), ["seed 7: factored flow: it broke"]);
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub struct Simulated {
     /// Worst over the starts.
     pub numerics: Numerics,
     pub starts: Vec<Start>,
-    /// What the factored flow showed, packing by packing, where it was simulated ([`crate::load_cases`]).
+    /// What the factored flow showed, packing by packing, where it was simulated ([`crate::flow_cases`]).
     pub factored: Vec<Start>,
     /// The same of the factored flow against dissipators with their least force, where that is known.
     pub weak: Vec<Start>,
@@ -125,7 +125,7 @@ pub struct Facts {
     /// How often an audit has cut the time step.
     pub step_cuts: u32,
     /// Steps of the barrier in one of the grains'.
-    pub barrier_parts: u32,
+    pub barrier_substeps: u32,
     /// Largest step over critical step that an audit found.
     pub step_ratio: StepRatio,
     /// How often the neighbour lists were made anew.
@@ -363,7 +363,7 @@ impl Facts {
         self.steps = simulation.steps;
         self.time_step = simulation.time_step;
         self.step_cuts = simulation.step_cuts;
-        self.barrier_parts = simulation.barrier_parts;
+        self.barrier_substeps = simulation.barrier_substeps;
         self.step_ratio = simulation.extremes.step_ratio;
         self.renewals = simulation.neighbours.renewals;
     }

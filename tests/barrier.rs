@@ -385,7 +385,7 @@ fn the_account_of_a_sliding_rope_closes_in_any_number_of_steps() {
         barrier.segments = vec![segment([0, 1], 1.0, 0.0), segment([1, 2], 1.5, 0.0), segment([2, 3], 1.5, 0.0)];
         barrier.chains = vec![Chain { segments: vec![0, 1, 2], frictions: vec![0.1; 2], shortest: 0.2 }];
         let mut simulation = simulate(barrier, Vec3::new(0.0, 0.0, -9.81), 2e-4 * f64::from(parts));
-        simulation.barrier_parts = parts;
+        simulation.barrier_substeps = parts;
         simulation.step_and_account().expect("stable");
         let start = simulation.ledger;
         let mut worst: f64 = 0.0;

@@ -71,7 +71,7 @@ fn heap(parts: u32) -> Simulation {
         ..free_model(grains, GrainShape::Clump)
     };
     let mut simulation = Simulation::new(model, STEP, 0.3 * RADIUS, 1e3);
-    (simulation.barrier_parts, simulation.barrier_step) = (parts, STEP / f64::from(parts));
+    (simulation.barrier_substeps, simulation.barrier_step) = (parts, STEP / f64::from(parts));
     simulation.drag = 5.0;
     (0..60_000).for_each(|_| simulation.step().expect("stable"));
     simulation.drag = 0.0;
@@ -109,7 +109,7 @@ fn nothing_creeps(steps: u64, parts: u32) {
         simulation.step().expect("stable");
     }
     simulation.step_and_account().expect("stable");
-    assert_eq!(simulation.barrier_parts, parts);
+    assert_eq!(simulation.barrier_substeps, parts);
     let after = state(&simulation);
     let [places, tensions, friction] = [0, 1, 2].map(|part| largest_change(&before[part], &after[part]));
     let energy = (simulation.ledger.total() - opened.total()).abs();

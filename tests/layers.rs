@@ -28,15 +28,15 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("ring_law", &[]),
     ("lattice", &[]),
     ("yield_curve", &[]),
-    ("extras", &[]),
+    ("exports", &[]),
     ("terminal", &["problem"]),
     ("units", &["problem"]),
     ("design", &["lattice", "problem", "profile", "raster", "relief", "ring_law", "section", "units", "yield_curve"]),
-    ("load_cases", &["design"]),
+    ("flow_cases", &["design"]),
     ("new_design", &["units"]),
     ("explain", &["design", "problem", "sources"]),
     ("loads", &["larger", "lattice", "profile", "relief", "section", "sources", "units", "yield_curve"]),
-    ("checkpoint", &["dem", "extras", "lock", "program", "container", "terminal"]),
+    ("checkpoint", &["dem", "exports", "lock", "program", "container", "terminal"]),
     ("guideline", &["design", "larger", "loads", "section", "units"]),
     ("quantities", &["dem", "design", "guideline", "loads", "section"]),
     ("demand", &["design", "guideline", "larger", "quantities", "starts", "yield_curve"]),
@@ -58,7 +58,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "fidelity",
             "guideline",
             "larger",
-            "load_cases",
+            "flow_cases",
             "program",
             "quantities",
             "scene",
@@ -77,7 +77,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "fidelity",
             "guideline",
             "larger",
-            "load_cases",
+            "flow_cases",
             "quantities",
             "scene",
             "sensitivity",
@@ -139,7 +139,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "design",
             "fidelity",
             "guideline",
-            "load_cases",
+            "flow_cases",
             "loads",
             "pipeline",
             "problem",
@@ -166,11 +166,11 @@ const LAYERS: &[(&str, &[&str])] = &[
         "commands",
         &[
             "checkpoint",
-            "extras",
+            "exports",
             "design",
             "explain",
             "fidelity",
-            "load_cases",
+            "flow_cases",
             "new_design",
             "pipeline",
             "problem",
@@ -205,7 +205,7 @@ fn breaches(of: &Crate) -> Vec<String> {
         if own == "lib" || own == "main" {
             continue;
         }
-        let Some((_, allowed)) = LAYERS.iter().find(|(known, _)| *known == own) else {
+        let Some((_, allowed)) = LAYERS.iter().find(|(context, _)| *context == own) else {
             list.push(format!("{own} has no line in LAYERS"));
             continue;
         };
@@ -214,8 +214,8 @@ fn breaches(of: &Crate) -> Vec<String> {
             Name::Other(krate) if krate == "dem" => krate.clone(),
             Name::Other(_) => continue,
         };
-        let known = other == "dem" || LAYERS.iter().any(|(known, _)| *known == other);
-        if known && other != own && !allowed.contains(&other.as_str()) {
+        let context = other == "dem" || LAYERS.iter().any(|(context, _)| *context == other);
+        if context && other != own && !allowed.contains(&other.as_str()) {
             list.push(format!("{file} names {other}"));
         }
     }
@@ -332,6 +332,6 @@ fn unsafe_stands_only_where_the_map_says() {
     let allowed = allowed.map(|file| format!("crates/dem/src/{file}"));
     for (file, text) in main_crate().texts().chain(engine().texts()) {
         let used = text.lines().any(|line| !line.trim_start().starts_with("//") && line.contains("unsafe "));
-        assert!(!used || allowed.iter().any(|known| known == file), "{file} is unsafe");
+        assert!(!used || allowed.iter().any(|context| context == file), "{file} is unsafe");
     }
 }

@@ -4,7 +4,7 @@
 use barrier_check::design::Design;
 use barrier_check::design::read::read_design;
 use barrier_check::fidelity::choose;
-use barrier_check::load_cases::factored;
+use barrier_check::flow_cases::factored;
 use barrier_check::scene::build::build;
 use dem::tables::barrier::Barrier;
 

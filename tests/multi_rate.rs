@@ -56,7 +56,7 @@ fn above_the_net(grains: Vec<Grain>, shape: GrainShape, gravity: f64, parts: u32
     model.material.modulus = 2e7;
     model.material.restitution = material(0.3, 0.5).restitution;
     let mut simulation = Simulation::new(model, BARRIER_STEP * f64::from(parts), 0.02, 1e3);
-    simulation.barrier_parts = parts;
+    simulation.barrier_substeps = parts;
     simulation.barrier_step = BARRIER_STEP;
     simulation
 }
@@ -80,7 +80,7 @@ fn what_no_rope_touches_moves_to_the_last_bit_as_by_the_leapfrog() {
         let mut simulation = above_the_net(grains, GrainShape::Sphere, GRAVITY, 6);
         // Which are slow enough for the whole step.
         simulation.model.barrier = Some(net(500.0 * LIGHT));
-        simulation.barrier_parts = parts;
+        simulation.barrier_substeps = parts;
         (0..500).for_each(|_| simulation.step().expect("stable"));
         simulation.snapshot()
     };
@@ -96,14 +96,14 @@ fn a_grain_that_lies_in_a_mesh_is_at_rest_in_every_part() {
     let mut simulation = above_the_net(vec![grain], GrainShape::Sphere, GRAVITY, 6);
     simulation.drag = 100.0;
     (0..40_000).for_each(|_| simulation.step().expect("stable"));
-    assert_eq!(simulation.barrier_parts, 6);
+    assert_eq!(simulation.barrier_substeps, 6);
     let [faster, _] = simulation.grains.ahead[0];
     let (speed, shaken) = (simulation.grains.motion[0].vector().norm(), GRAVITY * simulation.time_step);
     assert!(speed < 0.5 * shaken, "it moves at {speed} m/s");
     assert!(faster.norm() < 0.01 * shaken, "it is faster by {} m/s", faster.norm());
     // The net still swings.
     assert_relative_eq!(-simulation.sums.net.from_grains.z, weight, max_relative = 0.05);
-    for net in simulation.sums.net_in_parts() {
+    for net in simulation.sums.net_in_substeps() {
         assert_relative_eq!(net.from_grains.z, simulation.sums.net.from_grains.z, max_relative = 1e-3);
     }
 }
@@ -128,7 +128,7 @@ fn grains_come_back_from_a_net_in_six_parts_of_a_step_as_in_six_steps() {
                     window += WINDOW;
                 }
             }
-            assert_eq!(simulation.barrier_parts, parts);
+            assert_eq!(simulation.barrier_substeps, parts);
             let grains = simulation.snapshot();
             let mass: f64 = grains.iter().map(|grain| grain.body.mass).sum();
             let momentum: f64 = grains.iter().map(|grain| grain.body.mass * grain.velocity.z).sum();

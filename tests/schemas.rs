@@ -154,7 +154,7 @@ fn what_a_command_tells_in_json_is_valid() {
         std::io::Write::write_all(&mut child.stdin.take().expect("input"), text.as_bytes()).expect("written");
         let output = child.wait_with_output().expect("an end");
         let told: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
-        validator("told").validate(&told).unwrap_or_else(|error| panic!("{error}: {told}"));
+        validator("messages").validate(&told).unwrap_or_else(|error| panic!("{error}: {told}"));
         (output.status.code(), told)
     };
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("told");

@@ -130,7 +130,7 @@ fn a_rope_that_breaks_within_a_step_is_booked_at_its_instant() {
     rope.strength.breaking = 15e3;
     barrier.segments = vec![rope];
     let mut simulation = simulate(barrier, Vec3::new(0.0, 0.0, -9.81), 1e-4);
-    simulation.barrier_parts = 8;
+    simulation.barrier_substeps = 8;
     simulation.step_and_account().expect("stable");
     let opened = simulation.ledger;
     let mut worst: f64 = 0.0;

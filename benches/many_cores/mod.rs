@@ -41,7 +41,10 @@ pub fn tell_design(path: &str, message: f64) {
     tell(path, &stretches, message);
     let mut places = BTreeMap::<String, Vec<Stretch>>::new();
     for stretch in stretches {
-        places.entry(format!("  before and at {}:{}", stretch.place.file(), stretch.place.line())).or_default().push(stretch);
+        places
+            .entry(format!("  before and at {}:{}", stretch.place.file(), stretch.place.line()))
+            .or_default()
+            .push(stretch);
     }
     places.iter().for_each(|(place, stretches)| tell(place, stretches, message));
 }

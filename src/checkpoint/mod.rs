@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use sha2::Digest;
 
 use crate::checkpoint::file::{CheckpointError, Kind, read, write};
-use crate::extras::Extras;
+use crate::exports::Exports;
 use crate::lock::Watch;
 use crate::terminal;
 
@@ -39,7 +39,7 @@ pub struct Request {
     pub source: Option<String>,
     pub starts: u32,
     pub vary: bool,
-    pub extras: Extras,
+    pub exports: Exports,
 }
 
 impl Request {

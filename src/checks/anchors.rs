@@ -1,6 +1,6 @@
 //! Load of the anchors against their design resistance.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, OpenReason, Outcome, Resistance};
 use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{Demand, Demands};
 use crate::design::{AnchorOf, Bank, BarrierDesign, Design, FlexibleNet, LateralTo};
@@ -127,7 +127,7 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands) -> Opt
 pub fn open_without_overstrength(design: &Design, mut outcome: Outcome) -> Outcome {
     let known = design.factors.overstrength_given || design.factors.load >= USUAL_OVERSTRENGTH;
     if !known && matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "how far above its plateau or curve a dissipator may pull is not given (give factors.dissipator_overstrength from its tests; 1 if what is given is the upper bound)".into(),
         ));
     }

@@ -7,7 +7,7 @@
 //! hold, and the pull of the lateral ropes that end there as well. The bolts are taken as unyielding.
 
 use crate::checks::between_bolts::{concentration, end_bolt, tension_between};
-use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, LoadScaling, OpenReason, Outcome, Resistance};
 use crate::checks::ropes::{leave_open_what_is_not_known, resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Bottom, Design};
@@ -62,13 +62,13 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let mut outcome =
                 outcome.only_by_simulation("the load is not even along the rope, and the equations spread it evenly");
             outcome.kind = kind;
-            outcome.growth = Growth::EndBolt { axial: ropes * axial, lateral };
+            outcome.growth = LoadScaling::EndBolt { axial: ropes * axial, lateral };
             if kind == Kind::BetweenBolts {
                 leave_open_what_is_not_known(design, &lowest.rope, &mut outcome);
-                outcome.growth = Growth::BetweenBolts { axial };
+                outcome.growth = LoadScaling::BetweenBolts { axial };
             }
             if outcome.holds() && spacing > MOST_RINGS * net.main_ropes.ring_spacing {
-                outcome.leave_open(Opening::OutOfRange(format!(
+                outcome.leave_open(OpenReason::OutOfRange(format!(
                     "the lowest rope is modelled as held at every ring, and between bolts {spacing:.2} m apart it would hang free (at most {MOST_RINGS} ring spacings)"
                 )));
             }

@@ -1,6 +1,6 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Growth, Kind, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Kind, LoadScaling, Outcome, Resistance};
 use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{CAP_TOLERANCE, Demand, Demands, USED_UP};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
@@ -36,12 +36,12 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
 }
 
 /// How the stroke of dissipators grows with the load where the equations see none: nothing where they do.
-pub fn growth_of(given: &DissipatorDesign, stroke: &Demand, tension: &Demand) -> Option<Growth> {
+pub fn growth_of(given: &DissipatorDesign, stroke: &Demand, tension: &Demand) -> Option<LoadScaling> {
     if stroke.guideline.is_some_and(|stroke| stroke > 0.0) {
         return None;
     }
     let yields_at = given.lower_bound.unwrap_or(1.0) * given.plateau * given.curve.least();
-    Some(Growth::ToItsStop { tension: tension.simulation?, yields_at, stroke: given.stroke })
+    Some(LoadScaling::ToItsStop { tension: tension.simulation?, yields_at, stroke: given.stroke })
 }
 
 /// With stroke left, a dissipator pulls with its plateau force at the most. At the plateau it works as it should, so there

@@ -1,7 +1,7 @@
 //! The level that the event reaches in front of the barrier against the barrier's height, less the freeboard that the design asks for.
 
 use crate::checks::height::left_by_sag;
-use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, OpenReason, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{Design, RunUp};
 use crate::guideline::{Guideline, flows, guideline, height_over_bed};
@@ -24,13 +24,13 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         }
     };
     if outcome.holds() && !guideline(design).level_is_known {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "the deposit of the event reaches beyond what is known of the channel, so that its level at the barrier is not known (a terrain: raise channel.terrain.upstream, or put the ends further apart; a level reach: give the slope that follows it)".to_string(),
         ));
     }
     let by_energy_alone = design.limits.run_up == RunUp::Energy;
     if outcome.holds() && by_energy_alone && !energy_is_enough(design) {
-        outcome.leave_open(Opening::OutOfRange(
+        outcome.leave_open(OpenReason::OutOfRange(
             "the run-up by energy is lower than that by a momentum jump here, and no bound (limits.run_up: larger)"
                 .to_string(),
         ));

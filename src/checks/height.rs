@@ -1,6 +1,6 @@
 //! Height the barrier keeps against the least share the design asks for.
 
-use crate::checks::outcome::{CheckName, Kind, Opening, Outcome};
+use crate::checks::outcome::{CheckName, Kind, OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::guideline::{Guideline, guideline};
@@ -21,7 +21,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         // Asked as "enough", so that what is not a number is not.
         let enough = left >= design.limits.residual_height;
         if !enough {
-            outcome.leave_open(Opening::Contradicted(format!(
+            outcome.leave_open(OpenReason::Contradicted(format!(
                 "by the guideline the top rope sags so far downstream that a net which does not stretch keeps {:.0} % of its height (a stiffer rope, a shorter span, or a higher net)",
                 100.0 * left
             )));

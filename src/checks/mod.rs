@@ -14,12 +14,12 @@ pub mod outcome;
 pub(crate) mod posts;
 pub(crate) mod range;
 pub(crate) mod retained;
+pub(crate) mod rope_damage;
 pub(crate) mod ropes;
 pub(crate) mod total_force;
 pub(crate) mod wall;
 pub(crate) mod wall_local;
 pub(crate) mod wall_moment;
-pub(crate) mod wear;
 
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
@@ -36,8 +36,8 @@ const CHECKS: &[Check] = &[
     ropes::check_main,
     ropes::check_net,
     ropes::check_lateral,
-    wear::check_broken,
-    wear::tell_drawn_out,
+    rope_damage::check_broken,
+    rope_damage::tell_drawn_out,
     dissipators::check_stroke,
     dissipators::check_plateau,
     ropes::check_plateau,

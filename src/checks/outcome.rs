@@ -63,12 +63,12 @@ pub enum Kind {
     LateralRopes,
     NetRopes,
     /// What acts at the base of a wall that stands by its weight, and does not grow in proportion to the load.
-    OnTheBase,
+    BaseActions,
 }
 
 /// How a demand grows with the load of the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Growth {
+pub enum LoadScaling {
     /// In proportion, but for what is there without the flow: a wall's own pull and the water under it.
     InProportion { fixed: f64 },
     /// As the tension of a rope of this axial stiffness (N) between bolts that the load pulls on.
@@ -76,23 +76,23 @@ pub enum Growth {
     /// As the load of the bolt at the end of such a rope; in the simulation a lateral rope that grows in proportion pulls there too (N).
     EndBolt { axial: f64, lateral: f64 },
     /// As the pressure under a wall that stands by its weight.
-    UnderAWall(UnderAWall),
+    BasePressure(BasePressure),
     /// As the stroke of a dissipator beside which nothing else holds: in proportion up to where its rope is pulled with its force (N), and then all of
     /// it (m).
     ToItsStop { tension: f64, yields_at: f64, stroke: f64 },
     /// As the compression of a post whose moment grows with its compression.
-    OfAPost(OfAPost),
+    PostInteraction(PostInteraction),
 }
 
 /// Compression (N) and moment (N m) of a post, by the equations and by the simulation, and what it withstands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OfAPost {
+pub struct PostInteraction {
     pub strut: Strut,
     pub guideline: Option<[f64; 2]>,
     pub simulation: Option<[f64; 2]>,
 }
 
-impl OfAPost {
+impl PostInteraction {
     /// The compression that uses up as much (N) by one route with so many times its load.
     pub fn compression(&self, route: Route, more: f64) -> Option<f64> {
         let [compression, moment] = match route {
@@ -103,7 +103,7 @@ impl OfAPost {
     }
 }
 
-impl Default for Growth {
+impl Default for LoadScaling {
     fn default() -> Self {
         Self::InProportion { fixed: 0.0 }
     }
@@ -111,7 +111,7 @@ impl Default for Growth {
 
 /// A wall that stands by its weight, and what the flow does to it, by the equations and by the simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct UnderAWall {
+pub struct BasePressure {
     pub wall: WallInput,
     /// Factor on its weight.
     pub weight_factor: f64,
@@ -120,7 +120,7 @@ pub struct UnderAWall {
     pub simulation: Option<[f64; 2]>,
 }
 
-impl UnderAWall {
+impl BasePressure {
     /// The pressure (Pa) by one route with so many times its load.
     pub fn pressure(&self, route: Route, more: f64) -> Option<f64> {
         let [moment, press] = match route {
@@ -140,7 +140,7 @@ pub enum Route {
 
 /// Why a check is open, with what would close it, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Opening {
+pub enum OpenReason {
     /// The design gives no resistance for a part that carries load.
     NotGiven(String),
     /// The equations cannot make this check.
@@ -153,7 +153,7 @@ pub enum Opening {
     Contradicted(String),
 }
 
-impl Opening {
+impl OpenReason {
     pub fn words(&self) -> &str {
         match self {
             Self::NotGiven(words)
@@ -181,9 +181,9 @@ pub struct Outcome {
     pub unit: Unit,
     pub verdict: CheckVerdict,
     /// Why the check is open; nothing for any other verdict.
-    pub open: Option<Opening>,
+    pub open: Option<OpenReason>,
     /// Why the check would be open, where the design lets it stand all the same (`limits.outside_range`).
-    pub stands_despite: Vec<Opening>,
+    pub stands_despite: Vec<OpenReason>,
     /// The main rope, counted from 0, whose parabola by the equations gives the guideline's demand, if one does.
     pub rope: Option<usize>,
     /// Whether the guideline's demand follows from its pressures.
@@ -192,7 +192,7 @@ pub struct Outcome {
     pub of_parts: bool,
     pub kind: Kind,
     /// How the demand grows with the load of the flow.
-    pub growth: Growth,
+    pub growth: LoadScaling,
     /// What of the guideline's demand is from the simulation: the pull of a lateral rope (N).
     pub beside: f64,
     /// Where by the guideline more presses on the barrier than was simulated: how many times as much, and the utilisation scaled up to that.
@@ -286,7 +286,7 @@ impl Outcome {
         // Asked as "unloaded", so that a demand that is unknown or not a number leaves the check open.
         let unloaded = demand.largest().is_some_and(|largest| largest <= 0.0);
         if !unloaded {
-            outcome.leave_open(Opening::NotGiven(format!(
+            outcome.leave_open(OpenReason::NotGiven(format!(
                 "the part carries load and the design gives no resistance for it (give {give})"
             )));
         }
@@ -296,7 +296,7 @@ impl Outcome {
     /// Leaves a check that would otherwise hold open where nothing was simulated, because the equations alone cannot make it.
     pub fn only_by_simulation(mut self, why: &str) -> Self {
         if self.demand.simulation.is_none() && matches!(self.verdict, CheckVerdict::Pass | CheckVerdict::Warn) {
-            self.leave_open(Opening::NeedsSimulation(format!("{why} (run the simulation)")));
+            self.leave_open(OpenReason::NeedsSimulation(format!("{why} (run the simulation)")));
         }
         self
     }
@@ -333,12 +333,12 @@ impl Outcome {
         }
     }
 
-    pub fn leave_open(&mut self, why: Opening) {
+    pub fn leave_open(&mut self, why: OpenReason) {
         (self.verdict, self.open) = (CheckVerdict::Open, Some(why));
     }
 
     /// Lets a check that passes stand with a warning, whatever speaks against it.
-    pub fn stand_despite(&mut self, why: Opening) {
+    pub fn stand_despite(&mut self, why: OpenReason) {
         if self.verdict == CheckVerdict::Pass {
             self.verdict = CheckVerdict::Warn;
         }
@@ -353,7 +353,7 @@ impl Outcome {
     /// Whether it is of a rigid wall, which takes impacts as they come.
     pub fn is_of_a_wall(&self) -> bool {
         matches!(self.unit, Unit::NewtonPerMetre | Unit::NewtonMetrePerMetre | Unit::Pascal)
-            || matches!(self.kind, Kind::WallStrength | Kind::OnTheBase)
+            || matches!(self.kind, Kind::WallStrength | Kind::BaseActions)
     }
 
     /// Whether the guideline's demand alone is beyond the capacity: no simulation can make such a check hold.
@@ -378,20 +378,20 @@ impl Outcome {
             Route::Simulation => self.demand.simulation,
         }?;
         match self.growth {
-            Growth::InProportion { fixed } => Some(fixed + (demand - fixed) * more),
-            Growth::BetweenBolts { axial } => Some(tension_under_more(demand, more, axial)),
-            Growth::EndBolt { axial, lateral } => {
+            LoadScaling::InProportion { fixed } => Some(fixed + (demand - fixed) * more),
+            LoadScaling::BetweenBolts { axial } => Some(tension_under_more(demand, more, axial)),
+            LoadScaling::EndBolt { axial, lateral } => {
                 let lateral = if route == Route::Simulation { lateral } else { 0.0 };
                 Some(end_bolt_under_more(demand - lateral, more, axial) + lateral * more)
             }
-            Growth::UnderAWall(wall) => wall.pressure(route, more),
-            Growth::OfAPost(post) => post.compression(route, more),
-            Growth::ToItsStop { tension, yields_at, stroke } if route == Route::Simulation => {
+            LoadScaling::BasePressure(wall) => wall.pressure(route, more),
+            LoadScaling::PostInteraction(post) => post.compression(route, more),
+            LoadScaling::ToItsStop { tension, yields_at, stroke } if route == Route::Simulation => {
                 // Asked so that a tension that is not a number yields.
                 let stays = more <= 1.0 || more * tension < yields_at;
                 Some(if stays { demand * more } else { stroke })
             }
-            Growth::ToItsStop { .. } => Some(demand * more),
+            LoadScaling::ToItsStop { .. } => Some(demand * more),
         }
     }
 
@@ -427,13 +427,13 @@ impl Outcome {
             rests_on_pressures: true,
             of_parts: false,
             kind: Kind::Any,
-            growth: Growth::default(),
+            growth: LoadScaling::default(),
             beside: 0.0,
             scaled: None,
             source,
         };
         if capacity.is_some() && utilisation.is_none() {
-            outcome.leave_open(Opening::NeedsSimulation(
+            outcome.leave_open(OpenReason::NeedsSimulation(
                 "the equations give no demand for it (run the simulation)".into(),
             ));
         }
@@ -513,13 +513,13 @@ mod tests {
     fn verdicts_and_reasons_have_their_words() {
         use CheckVerdict::{Fail, Info, Open, Pass, Warn};
         assert_eq!([Pass, Warn, Fail, Open, Info].map(CheckVerdict::word), ["pass", "warn", "fail", "open", "info"]);
-        type Why = fn(String) -> Opening;
+        type Why = fn(String) -> OpenReason;
         let reasons: [Why; 5] = [
-            Opening::NotGiven,
-            Opening::NeedsSimulation,
-            Opening::TooClose,
-            Opening::OutOfRange,
-            Opening::Contradicted,
+            OpenReason::NotGiven,
+            OpenReason::NeedsSimulation,
+            OpenReason::TooClose,
+            OpenReason::OutOfRange,
+            OpenReason::Contradicted,
         ];
         assert!(reasons.iter().all(|why| why("words".into()).words() == "words"));
     }

@@ -2,7 +2,7 @@
 
 use crate::checks::anchors::open_without_overstrength;
 use crate::checks::dissipators::growth_of;
-use crate::checks::outcome::{CheckName, Growth, Kind, OfAPost, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, LoadScaling, OpenReason, Outcome, PostInteraction, Resistance};
 use crate::checks::ropes;
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, PostStrength, Posts};
@@ -85,11 +85,12 @@ fn compressed(design: &Design, given: &Posts, number: usize, demands: &Demands) 
     let resistance = Resistance { characteristic: factor * strut.compression, factor };
     let mut outcome = Outcome::at_most(name, with_moment, resistance, 1.0).only_by_simulation(NOT_BY_EQUATIONS);
     if given.retaining.count() == 1 && outcome.holds() {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "nothing but friction of the rope holds the head of a post with a single retaining rope across the channel (give posts.retaining_ropes.spread)".into(),
         ));
     }
-    let growth = Growth::OfAPost(OfAPost { strut, guideline: of_guideline, simulation: of_simulation });
+    let growth =
+        LoadScaling::PostInteraction(PostInteraction { strut, guideline: of_guideline, simulation: of_simulation });
     Outcome { growth, ..outcome }
 }
 

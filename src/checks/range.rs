@@ -4,14 +4,14 @@
 //! A check fails all the same: outside its range a formula may say too little, and what fails by it is not saved by that.
 
 use crate::checks::detailing::{Bearing, LARGEST_SAG, LARGEST_STRAIN, LEAST_K, LEAST_LAMBDA, rules};
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::design::{BarrierDesign, Design, OutsideRange};
 use crate::guideline::Guideline;
 
 /// Leaves open what would hold by a formula that is used outside its range.
 pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes: &mut [Outcome]) {
     let stand = design.limits.outside_range == OutsideRange::Warn;
-    let outside = |outcome: &mut Outcome, kind: fn(String) -> Opening, why: String| {
+    let outside = |outcome: &mut Outcome, kind: fn(String) -> OpenReason, why: String| {
         // What is stretched beyond all sense stands by no wish.
         let absurd = strain_beyond(design, outcome).is_some_and(|strain| strain > 3.0 * LARGEST_STRAIN);
         if stand && !absurd {
@@ -29,7 +29,7 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
                 100.0 * strain,
                 100.0 * LARGEST_STRAIN
             );
-            outside(outcome, Opening::Contradicted, why);
+            outside(outcome, OpenReason::Contradicted, why);
         }
     }
     let broken =
@@ -54,7 +54,7 @@ pub fn leave_open_outside_range(design: &Design, guideline: &Guideline, outcomes
             pressures.map(|titles| format!("its pressures are used outside the range they are known for ({titles}; see the rules of detailing and range)"))
         });
         if let Some(why) = why {
-            outside(outcome, Opening::OutOfRange, format!("the equations govern it and {why}"));
+            outside(outcome, OpenReason::OutOfRange, format!("the equations govern it and {why}"));
         }
     }
 }

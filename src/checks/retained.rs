@@ -1,7 +1,7 @@
 //! Mass held by the barrier against the least share the design asks for.
 
 use crate::checks::height::left_by_sag;
-use crate::checks::outcome::{CheckName, CheckVerdict, Kind, Opening, Outcome};
+use crate::checks::outcome::{CheckName, CheckVerdict, Kind, OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, Flow};
 use crate::guideline::{event_fill, flows, guideline, height_over_bed, held, held_below, input};
@@ -25,11 +25,11 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
 }
 
 /// What the simulation cannot have seen get lost: grains that were made too coarse for mesh and gap, and surges that were not simulated.
-fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
+fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<OpenReason> {
     unseen_fines(design, held_in_simulation).or_else(|| unseen_volume(design))
 }
 
-fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<Opening> {
+fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<OpenReason> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return None };
     let flow = &design.flow;
     let surges: Vec<Flow> = (0..flow.surges()).map(|number| flow.alone(number)).collect();
@@ -51,7 +51,7 @@ fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<Open
     let doubtful = share(&held_alone);
     let within = doubtful + finer + unknown + lost <= allowed + 1e-9;
     if doubtful > 0.0 && !within {
-        return Some(Opening::NotGiven(format!(
+        return Some(OpenReason::NotGiven(format!(
             "{:.0} % of the simulated flow are stones that a ring of the net lets through alone and the model of straight sides holds, so that with the {:.0} % that are finer, not given or lost in the simulation more may be lost than the {:.0} % allowed (smaller rings; a finer mesh hung before them is not modelled)",
             100.0 * doubtful,
             100.0 * (finer + unknown + lost),
@@ -61,7 +61,7 @@ fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<Open
     // Asked as "within", so that what is not a number is not.
     let within = finer + lost <= allowed;
     if flow.cut.is_some() && !within {
-        return Some(Opening::NotGiven(format!(
+        return Some(OpenReason::NotGiven(format!(
             "{:.0} % of the real flow is finer than the openings of the net and was not simulated as it is (simulation.coarsen), so that what of it gets through is not known",
             100.0 * finer
         )));
@@ -69,7 +69,7 @@ fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<Open
     // All of it may pass, beside what the simulation shows to be lost.
     let within = unknown + lost <= allowed + 1e-9;
     if unknown > 0.0 && !within {
-        return Some(Opening::NotGiven(format!(
+        return Some(OpenReason::NotGiven(format!(
             "the finest {:.0} % of the flow are not given, and finer grains pass a net: with the {:.1} % lost in the simulation more may be lost than the {:.0} % allowed (give flow.grain_sizes.curve from its fine end, as d5 or d1{})",
             100.0 * unknown,
             100.0 * lost,
@@ -79,18 +79,18 @@ fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<Open
     }
     let none_passes = |surge: &Flow| surge.cut.is_none() && surge.sizes.quantile(0.1) > net.opening();
     surges.iter().any(none_passes).then(|| {
-        Opening::NotGiven(
+        OpenReason::NotGiven(
             "nine tenths of the simulated grains are larger than the mesh and cannot pass it, and whether the real flow has finer ones is not said (give the whole curve, with simulation.coarsen: auto where it has too many grains)".into(),
         )
     })
 }
 
-fn unseen_volume(design: &Design) -> Option<Opening> {
+fn unseen_volume(design: &Design) -> Option<OpenReason> {
     let flow = &design.flow;
     // What the barrier does not store is held by friction upstream of it, as long as the flow is no wetter than the simulated one.
     let behind = stored(design);
     if behind.is_none() && design.channel.profile.is_some() {
-        return Some(Opening::NotGiven(
+        return Some(OpenReason::NotGiven(
             "the surface of the deposit does not meet the bed in the part of the channel that is known, so that what the barrier stores is not known (a terrain: raise channel.terrain.upstream, or put the ends further apart; a level reach: give the slope that follows it)".to_string(),
         ));
     }
@@ -98,7 +98,7 @@ fn unseen_volume(design: &Design) -> Option<Opening> {
     // Asked as "suffices", so that what is not a number does not.
     let suffices = behind >= design.limits.retained_mass * flow.volume_of_all();
     if !suffices {
-        return Some(Opening::NotGiven(format!(
+        return Some(OpenReason::NotGiven(format!(
             "the barrier stores {behind:.0} m³ of its {:.0} m³, with the slope of the deposit that the design counts on, and the rest is held by friction upstream: a wetter flow of that volume would go over it (a higher barrier, or loads.deposit_slope and filled_height as they are known to be)",
             flow.volume_of_all()
         )));
@@ -109,7 +109,7 @@ fn unseen_volume(design: &Design) -> Option<Opening> {
     let reach = |flow: &GuidelineInput| event_fill(design, flow).reach();
     let heaped = flows(design, input(design)).iter().map(reach).fold(0.0, larger_or_nan);
     if heaped > height_over_bed(design) {
-        return Some(Opening::NotGiven(format!(
+        return Some(OpenReason::NotGiven(format!(
             "{} was simulated, and the last of the event's {:.0} m³ may run up to {heaped:.1} m, from what the others leave, over the barrier's {:.1} m, so that what of the later surges is held is not known",
             simulated_part(flow),
             flow.event_volume,
@@ -121,7 +121,7 @@ fn unseen_volume(design: &Design) -> Option<Opening> {
     let holds = level.is_some_and(|level| level >= design.limits.retained_mass * flow.event_volume);
     let level = level.map_or("an unknown volume".to_string(), |level| format!("{level:.0} m³"));
     (!holds).then(|| {
-        Opening::NotGiven(format!(
+        OpenReason::NotGiven(format!(
             "{} was simulated, and to a level surface the barrier holds {level} of the event's {:.0} m³, so that what of the later surges is held is not known",
             simulated_part(flow),
             flow.event_volume

@@ -1,6 +1,6 @@
 //! Tension of main, net and lateral ropes against their design resistance.
 
-use crate::checks::outcome::{CheckName, Kind, Opening, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, OpenReason, Outcome, Resistance};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, FlexibleNet, Level, NetRings, Rope};
 use crate::quantities::quantity::Unit;
@@ -60,14 +60,14 @@ fn check_rings(design: &Design, rings: &NetRings, name: CheckName, demand: Deman
         Outcome::at_most(name, demand, resistance_of_rings(design, rings), design.limits.rope_utilisation);
     outcome = outcome.only_by_simulation("single grains load rings more than the even pressure of the equations");
     if outcome.holds() && rings.tested && rings.used() > MOST_USED {
-        outcome.leave_open(Opening::NotGiven(format!(
+        outcome.leave_open(OpenReason::NotGiven(format!(
             "the chain_test that is given uses {:.0} % of the strength of its wires, and no test that is known more than {:.0} % (give the wires as they are, or the test)",
             100.0 * rings.used(),
             100.0 * MOST_USED
         )));
     }
     if outcome.holds() && !rings.is_known() {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "it holds by the tests of rings of 300 mm with four contacts and 5 to 19 windings of 3 mm of 1770 MPa, and what rings of other kinds hold is not known (give net.rings.chain_test)".into(),
         ));
     }
@@ -107,7 +107,7 @@ pub fn leave_open_what_is_not_known(design: &Design, rope: &Rope, outcome: &mut 
     let Some((largest, capacity)) = outcome.demand.largest().zip(outcome.capacity) else { return };
     let breaks = rope.breaking_load * design.factors.rope_end / design.factors.rope;
     if rope.elastic_limit.is_some_and(|limit| limit < breaks && largest >= CUT_OFF * limit) && largest <= breaks {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "the rope would be pulled to its elastic limit and draw out, and how far it may the design does not say (give a stronger rope; without elastic_limit its breaking load decides)".into(),
         ));
     } else if outcome.holds() && !design.factors.rope_end_given && largest > WEAKEST_END * capacity {
@@ -115,8 +115,8 @@ pub fn leave_open_what_is_not_known(design: &Design, rope: &Rope, outcome: &mut 
     }
 }
 
-fn holds_with_sockets_alone() -> Opening {
-    Opening::NotGiven(format!(
+fn holds_with_sockets_alone() -> OpenReason {
+    OpenReason::NotGiven(format!(
         "it holds with ends that hold the whole breaking load, as sockets do, but not with ferrules or grips that hold {:.0} % of it (give factors.rope_end)",
         100.0 * WEAKEST_END
     ))

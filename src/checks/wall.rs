@@ -1,7 +1,7 @@
 //! A wall that stands by its weight: sliding along its base, overturning about the downstream edge, pressure under the base. Per metre of
 //! width.
 
-use crate::checks::outcome::{CheckName, Growth, Kind, Opening, Outcome, Resistance, Route, UnderAWall};
+use crate::checks::outcome::{BasePressure, CheckName, Kind, LoadScaling, OpenReason, Outcome, Resistance, Route};
 use crate::demand::{Demand, Demands};
 use crate::design::{BarrierDesign, Design, Stability};
 use crate::guideline::{input, point_load, wall_of};
@@ -106,11 +106,11 @@ impl Base {
         );
         let [_, tilt] = self.wall.overturning();
         let outcome = held(name, off_centre, self.wall.base_width / 3.0, 1.0);
-        Outcome { kind: Kind::OnTheBase, ..but_for(self.eccentricity_under(tilt), outcome) }
+        Outcome { kind: Kind::BaseActions, ..but_for(self.eccentricity_under(tilt), outcome) }
     }
 
     fn pressure(&self) -> Outcome {
-        let under = UnderAWall {
+        let under = BasePressure {
             wall: self.wall,
             // What presses on the ground is unfavourable there.
             weight_factor: self.load_factor,
@@ -133,7 +133,7 @@ impl Base {
             Some(characteristic) => held(name, demand, characteristic, self.stability.bearing_factor),
             None => Outcome::without_resistance(name, demand, "barrier.rigid_wall.stability.bearing_resistance"),
         };
-        Outcome { kind: Kind::OnTheBase, growth: Growth::UnderAWall(under), ..outcome }
+        Outcome { kind: Kind::BaseActions, growth: LoadScaling::BasePressure(under), ..outcome }
     }
 }
 
@@ -154,7 +154,7 @@ fn held(name: CheckName, demand: Demand, characteristic: f64, factor: f64) -> Ou
 
 /// An outcome whose demand grows in proportion to the load, but for what is there without it.
 fn but_for(fixed: f64, outcome: Outcome) -> Outcome {
-    Outcome { growth: Growth::InProportion { fixed }, ..outcome }
+    Outcome { growth: LoadScaling::InProportion { fixed }, ..outcome }
 }
 
 /// Where the resultant leaves the middle third of the base, the joint under the upstream edge opens, and water fills it with its full head:
@@ -165,7 +165,7 @@ fn leave_open_where_the_base_gapes(wall: &WallInput, off_centre: Demand, outcome
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "the joint under the wall opens at its upstream edge (the resultant lies outside the middle third of the base), and water stands in it with its full head, not with one that falls evenly (drain the base, or widen it)".into(),
         ));
     }
@@ -178,7 +178,7 @@ fn leave_open_below_water(design: &Design, stability: &Stability, outcomes: &mut
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        outcome.leave_open(Opening::NotGiven(format!(
+        outcome.leave_open(OpenReason::NotGiven(format!(
             "water with a head of {head:.2} m under the base may stand as high behind the wall, above the {filled:.2} m of the deposit, and its thrust there is in no load case (lower barrier.rigid_wall.stability.water_head by drains, or loads.filling: to_the_top)"
         )));
     }
@@ -197,7 +197,7 @@ fn leave_open_untold(stability: &Stability, outcomes: &mut [Outcome]) {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        outcome.leave_open(Opening::NotGiven(format!(
+        outcome.leave_open(OpenReason::NotGiven(format!(
             "it holds on the mildest base, and the design does not describe its own (give {})",
             untold.join(", and ")
         )));
@@ -210,7 +210,7 @@ fn leave_open_where_joints_are_unknown(design: &Design, stability: &Stability, o
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        outcome.leave_open(Opening::NotGiven(
+        outcome.leave_open(OpenReason::NotGiven(
             "it holds where the point load spreads at 45° to one side, and whether joints of the wall stop it is not said (give barrier.rigid_wall.stability.block_length, the length of the wall if it has no joints)".into(),
         ));
     }

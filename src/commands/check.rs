@@ -8,18 +8,18 @@ use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, CheckpointStore, Request};
 use crate::commands::ExitCode;
 use crate::commands::input;
+use crate::commands::messages::Format;
 use crate::commands::output::{exit_code, hand_over, write_report};
 use crate::commands::printed::Browser;
 use crate::commands::progress::{Audience, Progress, duration};
 use crate::commands::signals::{listen, listen_to_whoever_started_it, stop};
-use crate::commands::told::Format;
 use crate::design::FidelityWish;
 use crate::design::attached::within;
 use crate::design::entries::Purpose;
 use crate::design::read::{DesignFile, read_design_for, stem};
-use crate::extras::Extras;
+use crate::exports::Exports;
 use crate::fidelity::choose;
-use crate::load_cases::cases;
+use crate::flow_cases::cases;
 use crate::pipeline::{Run, by_equations, climb, run, vary};
 use crate::problem::{Problem, Problems};
 use crate::report::folder::{Folder, Named, folder_name};
@@ -43,7 +43,7 @@ pub struct Options {
     /// Whether to run the design again with its inputs changed.
     pub vary: bool,
     /// Files for other programs that are to be written.
-    pub extras: Extras,
+    pub exports: Exports,
     pub format: Format,
     /// Whom progress is told.
     pub audience: Audience,
@@ -52,7 +52,7 @@ pub struct Options {
 /// Runs one design and writes its report below `out`, or `out/<design name>` when none is given. The run is kept every so often, so
 /// that it can be resumed.
 pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Duration) -> ExitCode {
-    if let Err(code) = can_print(options.extras) {
+    if let Err(code) = can_print(options.exports) {
         return code;
     }
     let (file, folder) = match prepare(Purpose::Simulation, path, out, options.format) {
@@ -61,7 +61,7 @@ pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Dura
     };
     let place = folder.path().to_path_buf();
     tell_what_auto_leaves_out(&file, options);
-    let Options { starts, vary, extras, .. } = options;
+    let Options { starts, vary, exports, .. } = options;
     let source = folder.source().map(str::to_string);
     let request = Request {
         name: file.name.clone(),
@@ -70,7 +70,7 @@ pub fn check(path: &Path, out: Option<&Path>, options: Options, keep_every: Dura
         source,
         starts,
         vary,
-        extras,
+        exports,
     };
     let store = open_store(&place, request, &file, keep_every, true).watched(folder.watch());
     if let Ok(kept) = CheckpointStore::request_in(store.folder()) {
@@ -141,9 +141,9 @@ pub fn resume(folder: &Path, threads: Option<usize>, audience: Audience, keep_ev
         terminal::warn(format_args!("error: the run kept in {} asks for {} runs", kept.display(), request.starts));
         return ExitCode::Undecided;
     }
-    let Request { starts, vary, extras, .. } = request;
+    let Request { starts, vary, exports, .. } = request;
     let store = open_store(folder, request, &file, keep_every, false).watched(claimed.watch());
-    run_kept(file, claimed, Options { threads, starts, vary, extras, format: Format::Text, audience }, &store)
+    run_kept(file, claimed, Options { threads, starts, vary, exports, format: Format::Text, audience }, &store)
 }
 
 fn open_store(
@@ -164,10 +164,10 @@ fn open_store(
 /// Runs a design whose simulations are kept in `store`, and writes its report into `folder`.
 fn run_kept(file: DesignFile, mut folder: Folder, options: Options, store: &CheckpointStore) -> ExitCode {
     let ran = simulate(file, options, Some(store));
-    match ran.and_then(|run| Ok((write_report(&run, &mut folder, options.extras)?, run))) {
+    match ran.and_then(|run| Ok((write_report(&run, &mut folder, options.exports)?, run))) {
         Ok((view, run)) => {
             store.clear();
-            options.format.tell_verdict(&run, &view, folder.path(), options.extras);
+            options.format.tell_verdict(&run, &view, folder.path(), options.exports);
             exit_code(run.verdict)
         }
         Err(error) => {
@@ -259,20 +259,20 @@ fn decided(estimate: &Estimate) -> ExitCode {
 }
 
 /// Checks one design by the equations alone; the report goes to `out` or `out/<design name>_loads`.
-pub fn loads(path: &Path, out: Option<&Path>, extras: Extras, format: Format) -> ExitCode {
-    if let Err(code) = can_print(extras) {
+pub fn loads(path: &Path, out: Option<&Path>, exports: Exports, format: Format) -> ExitCode {
+    if let Err(code) = can_print(exports) {
         return code;
     }
     let (file, mut folder) = match prepare(Purpose::Equations, path, out, format) {
         Ok(prepared) => prepared,
         Err(code) => return code,
     };
-    hand_over(&by_equations(file), &mut folder, extras, format)
+    hand_over(&by_equations(file), &mut folder, exports, format)
 }
 
 /// Whether there is what prints, where that is asked for: nobody is to wait for a run whose report cannot be written.
-pub fn can_print(extras: Extras) -> Result<(), ExitCode> {
-    match extras.pdf.then(Browser::find).transpose() {
+pub fn can_print(exports: Exports) -> Result<(), ExitCode> {
+    match exports.pdf.then(Browser::find).transpose() {
         Ok(_) => Ok(()),
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));

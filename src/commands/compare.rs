@@ -16,7 +16,7 @@ use crate::terminal;
 /// Runs every design, or takes up the recording where a folder of an earlier run is named; writes each report below `out` as soon as it is
 /// there, so that one that is cut short keeps those before it, and the page that holds them side by side. Ends by the worst verdict.
 pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
-    if let Err(code) = can_print(options.extras) {
+    if let Err(code) = can_print(options.exports) {
         return code;
     }
     let mut variants = Vec::new();
@@ -63,7 +63,7 @@ pub fn compare(paths: &[PathBuf], out: &Path, options: Options) -> ExitCode {
         let ran = source.run(options).and_then(|run| {
             // A page of before does not stand beside reports that are not its own.
             put(&mut page, &[])?;
-            write_report(&run, report, options.extras)?;
+            write_report(&run, report, options.exports)?;
             Ok(run)
         });
         match ran {

@@ -7,6 +7,7 @@ pub mod explain;
 pub(crate) mod input;
 pub(crate) mod kept;
 mod kept_simulations;
+pub mod messages;
 pub mod new;
 mod one_page;
 pub(crate) mod output;
@@ -23,7 +24,6 @@ mod size;
 mod steps;
 pub mod study;
 mod sweep;
-pub mod told;
 pub mod validate;
 
 /// How the program ends.

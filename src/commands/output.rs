@@ -5,9 +5,9 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::ATTACHED;
+use crate::commands::messages::Format;
 use crate::commands::printed::{self, Browser, Printing};
-use crate::commands::told::Format;
-use crate::extras::Extras;
+use crate::exports::Exports;
 use crate::pipeline::{Run, Verdict};
 use crate::report::folder::{Folder, ReportFile};
 use crate::report::json::ResultFile;
@@ -24,48 +24,48 @@ use crate::terminal;
 const HISTORIES: &str = "histories.csv";
 
 /// Writes all files of the report into `folder`, with those for other programs that are asked for, and tells the verdict.
-pub fn hand_over(run: &Run, folder: &mut Folder, extras: Extras, format: Format) -> ExitCode {
-    let written = write_report(run, folder, extras);
-    tell(run, folder, extras, format, written)
+pub fn hand_over(run: &Run, folder: &mut Folder, exports: Exports, format: Format) -> ExitCode {
+    let written = write_report(run, folder, exports);
+    tell(run, folder, exports, format, written)
 }
 
 /// Tells the verdict of a report that has been written, or why there is none.
-pub fn tell(run: &Run, folder: &Folder, extras: Extras, format: Format, written: Result<View, Failure>) -> ExitCode {
+pub fn tell(run: &Run, folder: &Folder, exports: Exports, format: Format, written: Result<View, Failure>) -> ExitCode {
     match written {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
             ExitCode::Undecided
         }
         Ok(view) => {
-            format.tell_verdict(run, &view, folder.path(), extras);
+            format.tell_verdict(run, &view, folder.path(), exports);
             exit_code(run.verdict)
         }
     }
 }
 
 /// Writes all files of the report into `folder`; returns what they show.
-pub fn write_report(run: &Run, folder: &mut Folder, extras: Extras) -> Result<View, Failure> {
-    let printing = start_printing(extras)?;
-    write_report_for(run, folder, extras, printing)
+pub fn write_report(run: &Run, folder: &mut Folder, exports: Exports) -> Result<View, Failure> {
+    let printing = start_printing(exports)?;
+    write_report_for(run, folder, exports, printing)
 }
 
 /// Starts the browser that prints, where that is asked for: it takes its time, in which the run is read and the report made.
-pub fn start_printing(extras: Extras) -> Result<Option<Printing>, Failure> {
-    Ok(extras.pdf.then(|| Browser::find()?.start()).transpose()?)
+pub fn start_printing(exports: Exports) -> Result<Option<Printing>, Failure> {
+    Ok(exports.pdf.then(|| Browser::find()?.start()).transpose()?)
 }
 
 /// The same with a browser that has been started.
 pub fn write_report_for(
     run: &Run,
     folder: &mut Folder,
-    extras: Extras,
+    exports: Exports,
     printing: Option<Printing>,
 ) -> Result<View, Failure> {
     let mut view = View::of(run);
     if let Some(printing) = &printing {
         printing.print(for_paper(&mut view)?);
     }
-    let files = files(run, &view, extras);
+    let files = files(run, &view, exports);
     let printed = printing.map(Printing::take).transpose()?.map(|pdf| ReportFile::new(printed::FILE, pdf));
     files.and_then(|files| put(folder, &files.into_iter().chain(printed).collect::<Vec<_>>())).map_err(|error| {
         Failure::from(format!("the report could not be written to {}: {error}", folder.path().display()))
@@ -112,14 +112,14 @@ fn for_paper(view: &mut View) -> Result<String, Failure> {
     Ok(rendered?.html)
 }
 
-fn files(run: &Run, view: &View, extras: Extras) -> Result<Vec<ReportFile>, Failure> {
+fn files(run: &Run, view: &View, exports: Exports) -> Result<Vec<ReportFile>, Failure> {
     let rendered = render(view).map_err(|error| error.to_string())?;
     let mut files =
         vec![ReportFile::new("report.html", rendered.html), ReportFile::new("report.md", rendered.markdown)];
-    if extras.xlsx {
+    if exports.xlsx {
         files.push(ReportFile::new(workbook::FILE, workbook::xlsx(run)?));
     }
-    if extras.dxf {
+    if exports.dxf {
         files.push(ReportFile::new(drawing::FILE, drawing::dxf(run)?));
     }
     files.extend(view.pictures().into_iter().map(|(name, text)| ReportFile::new(name, text)));
@@ -127,7 +127,7 @@ fn files(run: &Run, view: &View, extras: Extras) -> Result<Vec<ReportFile>, Fail
         files.push(ReportFile::new(HISTORIES, series::csv(&simulated.histories)));
         files.push(ReportFile::new("histories.parquet", series::parquet(&simulated.histories)?));
     }
-    if let Some(seen) = run.simulated.as_ref().filter(|_| extras.vtk) {
+    if let Some(seen) = run.simulated.as_ref().filter(|_| exports.vtk) {
         let named = |file: ReportFile| ReportFile { name: format!("{}/{}", vtk::FOLDER, file.name), ..file };
         let film = &seen.histories.film;
         let ground = pieces(&run.file.design.channel, film.stretch());

@@ -5,9 +5,9 @@ use std::path::Path;
 use crate::commands::ExitCode;
 use crate::commands::Failure;
 use crate::commands::input::{self, LONGEST_RECORDING};
+use crate::commands::messages::Format;
 use crate::commands::output::{start_printing, tell, write_report_for};
-use crate::commands::told::Format;
-use crate::extras::Extras;
+use crate::exports::Exports;
 use crate::pipeline::Run;
 use crate::report::folder::{Folder, Named};
 use crate::report::kind::Kind;
@@ -15,8 +15,8 @@ use crate::report::recording::{self, decode};
 use crate::terminal;
 
 /// Makes the report in `folder` again from its recording, with the files for other programs that are asked for.
-pub fn report(folder: &Path, extras: Extras) -> ExitCode {
-    let read = start_printing(extras).and_then(|printing| Ok((read_recording(folder)?, printing)));
+pub fn report(folder: &Path, exports: Exports) -> ExitCode {
+    let read = start_printing(exports).and_then(|printing| Ok((read_recording(folder)?, printing)));
     match read {
         Err(error) => {
             terminal::warn(format_args!("error: {error}"));
@@ -26,8 +26,8 @@ pub fn report(folder: &Path, extras: Extras) -> ExitCode {
             let claimed = Folder::claim(folder, None, Named::Explicitly);
             match claimed.and_then(|folder| folder.for_recorded(kind_of(&run))) {
                 Ok(mut folder) => {
-                    let written = write_report_for(&run, &mut folder, extras, printing);
-                    tell(&run, &folder, extras, Format::Text, written)
+                    let written = write_report_for(&run, &mut folder, exports, printing);
+                    tell(&run, &folder, exports, Format::Text, written)
                 }
                 Err(refusal) => {
                     terminal::warn(format_args!("error: {refusal}"));

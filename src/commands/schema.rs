@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
-use crate::commands::told::ToldFile;
+use crate::commands::messages::MessagesFile;
 use crate::design::key::{Key, Kind, Need};
 use crate::design::schema::{DESIGN, EITHER, Either};
 use crate::report::json::ResultFile;
@@ -32,7 +32,7 @@ pub enum SchemaOf {
     /// sweep.json of a study
     Sweep,
     /// What --format json prints
-    Told,
+    Messages,
 }
 
 impl SchemaOf {
@@ -44,7 +44,7 @@ impl SchemaOf {
             Self::Size => of_a_file::<SizeFile>(),
             Self::Reliability => of_a_file::<ReliabilityFile>(),
             Self::Sweep => of_a_file::<SweepFile>(),
-            Self::Told => of_a_file::<ToldFile>(),
+            Self::Messages => of_a_file::<MessagesFile>(),
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::quantities::quantity::{Demanded, Quantity};
 ///
 /// Guideline and simulation follow one rule: the partial factor is on the action, so that what yields, stretches or is used up does
 /// so under the factored load. The guideline's rope states are computed under factored pressures; the simulation runs the factored
-/// flow beside the characteristic one ([`crate::load_cases`]). Where the response is proportional to the action, as on a rigid
+/// flow beside the characteristic one ([`crate::flow_cases`]). Where the response is proportional to the action, as on a rigid
 /// wall, the characteristic result times the factor is the same. A dissipator that yields pulls with its plateau times the
 /// overstrength: what is beyond the plateau is added to the load of its rope and anchor, by both routes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -93,7 +93,7 @@ mod tests {
     use crate::quantities::counts::Counts;
     use crate::quantities::observed::Observed;
     use crate::quantities::{
-        anchor_load, bed, dissipator, height, mass, other_ropes, rope_tension, total_force, wall, wear,
+        anchor_load, bed, dissipator, height, mass, other_ropes, rope_damage, rope_tension, total_force, wall,
     };
     use crate::starts::k_n;
     use approx::assert_relative_eq;
@@ -349,13 +349,16 @@ mod tests {
         let design = small_net();
         let seen = |broken_pieces: f64, drawn_out: f64| {
             Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
-                .with(&wear::BROKEN, &[broken_pieces])
-                .with(&wear::DRAWN_OUT, &[drawn_out])
+                .with(&rope_damage::BROKEN, &[broken_pieces])
+                .with(&rope_damage::DRAWN_OUT, &[drawn_out])
         };
         let [one, other] = [seen(2.0, 0.1), seen(0.0, 0.3)];
         let both = Seen { characteristic: vec![&one, &other], ..Seen::default() };
         let met = Demands::meet(&guideline(&design), &both, &design.factors);
-        assert_eq!((met.one(&wear::BROKEN).simulation, met.one(&wear::DRAWN_OUT).simulation), (Some(2.0), Some(0.3)));
+        assert_eq!(
+            (met.one(&rope_damage::BROKEN).simulation, met.one(&rope_damage::DRAWN_OUT).simulation),
+            (Some(2.0), Some(0.3))
+        );
     }
 
     /// 600 kN on a wall of 15.2 m, by a factor of 1.35: 53.3 kN on each metre.

@@ -4,7 +4,7 @@ use crate::section::Section;
 
 /// One row of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct HydrographPoint {
     /// s
     pub time: f64,
     /// Normal to the bed (m).
@@ -15,17 +15,17 @@ pub struct Moment {
 
 /// A moment that loads a barrier as no other does, and what has come before it (m³).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hard {
-    pub moment: Moment,
+pub struct GoverningPoint {
+    pub moment: HydrographPoint,
     pub before: f64,
 }
 
 /// Times rise from 0; flow comes between the first and the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hydrograph {
-    pub rows: Vec<Moment>,
+    pub rows: Vec<HydrographPoint>,
     /// The moments than which none is both deeper and faster, that of the largest momentum A v² first.
-    pub hard: Vec<Hard>,
+    pub governing: Vec<GoverningPoint>,
 }
 
 /// Parts of an interval over which what passes is summed, by Simpson's rule in each: exact in a rectangle.
@@ -36,29 +36,31 @@ const MOST_HARD: usize = 16;
 
 impl Hydrograph {
     /// Of rows in a section.
-    pub fn new(rows: Vec<Moment>, section: &Section) -> Self {
-        let mut hydrograph = Self { rows, hard: Vec::new() };
-        let hard = hydrograph.hardest(section).into_iter();
-        hydrograph.hard = hard.map(|moment| Hard { moment, before: hydrograph.volume(section, moment.time) }).collect();
+    pub fn new(rows: Vec<HydrographPoint>, section: &Section) -> Self {
+        let mut hydrograph = Self { rows, governing: Vec::new() };
+        let governing = hydrograph.governing_points(section).into_iter();
+        hydrograph.governing = governing
+            .map(|moment| GoverningPoint { moment, before: hydrograph.volume(section, moment.time) })
+            .collect();
         hydrograph
     }
 
     /// Depth and velocity at a time (s); none before the first and after the last.
-    pub fn at(&self, time: f64) -> Moment {
+    pub fn at(&self, time: f64) -> HydrographPoint {
         let rows = &self.rows;
         let next = rows.partition_point(|row| row.time <= time);
         match (next.checked_sub(1).map(|before| rows[before]), rows.get(next)) {
             (Some(before), Some(next)) => {
                 let share = (time - before.time) / (next.time - before.time);
                 let between = |from: f64, to: f64| from + share * (to - from);
-                Moment {
+                HydrographPoint {
                     time,
                     depth: between(before.depth, next.depth),
                     velocity: between(before.velocity, next.velocity),
                 }
             }
             (Some(last), None) if last.time == time => last,
-            _ => Moment { time, depth: 0.0, velocity: 0.0 },
+            _ => HydrographPoint { time, depth: 0.0, velocity: 0.0 },
         }
     }
 
@@ -88,7 +90,7 @@ impl Hydrograph {
     }
 
     /// Sum over time of what a row passes in a second.
-    fn sum(&self, time: f64, rate: impl Fn(Moment) -> f64) -> f64 {
+    fn sum(&self, time: f64, rate: impl Fn(HydrographPoint) -> f64) -> f64 {
         let mut sum = 0.0;
         for pair in self.rows.windows(2) {
             let (from, to) = (pair[0].time, pair[1].time.min(time));
@@ -99,7 +101,7 @@ impl Hydrograph {
             let inside = |share: f64| {
                 let share = (from + share * (to - from) - pair[0].time) / (pair[1].time - pair[0].time);
                 let between = |a: f64, b: f64| a + share * (b - a);
-                rate(Moment {
+                rate(HydrographPoint {
                     time: from,
                     depth: between(pair[0].depth, pair[1].depth),
                     velocity: between(pair[0].velocity, pair[1].velocity),
@@ -124,8 +126,8 @@ impl Hydrograph {
     }
 
     /// The moments than which none is both deeper and faster, that of the largest momentum A v² first.
-    fn hardest(&self, section: &Section) -> Vec<Moment> {
-        let mut all: Vec<Moment> = self.rows.windows(2).flat_map(|pair| between(pair[0], pair[1])).collect();
+    fn governing_points(&self, section: &Section) -> Vec<HydrographPoint> {
+        let mut all: Vec<HydrographPoint> = self.rows.windows(2).flat_map(|pair| between(pair[0], pair[1])).collect();
         all.retain(|moment| moment.depth > 0.0 && moment.velocity > 0.0);
         all.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(b.velocity.total_cmp(&a.velocity)));
         let mut fastest = 0.0;
@@ -134,41 +136,47 @@ impl Hydrograph {
             fastest = fastest.max(moment.velocity);
             faster
         });
-        let momentum = |moment: &Moment| section.area(moment.depth) * moment.velocity * moment.velocity;
+        let momentum = |moment: &HydrographPoint| section.area(moment.depth) * moment.velocity * moment.velocity;
         let leads = all.iter().copied().max_by(|a, b| momentum(a).total_cmp(&momentum(b)));
         let alike = all.len().div_ceil(MOST_HARD).max(1);
-        let together = |some: &[Moment]| Moment {
+        let together = |some: &[HydrographPoint]| HydrographPoint {
             depth: some[0].depth,
             velocity: some[some.len() - 1].velocity,
             time: some.iter().map(|moment| moment.time).fold(0.0, f64::max),
         };
-        let mut hard: Vec<Moment> = leads.into_iter().collect();
-        hard.extend(all.chunks(alike).map(together).filter(|moment| Some(*moment) != leads));
-        hard
+        let mut governing: Vec<HydrographPoint> = leads.into_iter().collect();
+        governing.extend(all.chunks(alike).map(together).filter(|moment| Some(*moment) != leads));
+        governing
     }
 
     /// The same flow in so many times the time.
     pub fn longer(&self, factor: f64) -> Self {
-        self.changed(|row| Moment { time: row.time * factor, ..row }, factor)
+        self.changed(|row| HydrographPoint { time: row.time * factor, ..row }, factor)
     }
 
     /// The same volume with so many times the velocity, in the less time.
     pub fn faster(&self, factor: f64) -> Self {
-        self.changed(|row| Moment { time: row.time / factor, velocity: row.velocity * factor, ..row }, 1.0)
+        self.changed(|row| HydrographPoint { time: row.time / factor, velocity: row.velocity * factor, ..row }, 1.0)
     }
 
-    fn changed(&self, change: impl Fn(Moment) -> Moment, volume: f64) -> Self {
-        let hard = |hard: &Hard| Hard { moment: change(hard.moment), before: hard.before * volume };
-        Self { rows: self.rows.iter().copied().map(&change).collect(), hard: self.hard.iter().map(hard).collect() }
+    fn changed(&self, change: impl Fn(HydrographPoint) -> HydrographPoint, volume: f64) -> Self {
+        let governing = |governing: &GoverningPoint| GoverningPoint {
+            moment: change(governing.moment),
+            before: governing.before * volume,
+        };
+        Self {
+            rows: self.rows.iter().copied().map(&change).collect(),
+            governing: self.governing.iter().map(governing).collect(),
+        }
     }
 }
 
 /// Two rows and eight places between them.
-fn between(from: Moment, to: Moment) -> Vec<Moment> {
+fn between(from: HydrographPoint, to: HydrographPoint) -> Vec<HydrographPoint> {
     let place = |index: u32| {
         let share = f64::from(index) / 9.0;
         let between = |a: f64, b: f64| a + share * (b - a);
-        Moment {
+        HydrographPoint {
             time: between(from.time, to.time),
             depth: between(from.depth, to.depth),
             velocity: between(from.velocity, to.velocity),
@@ -182,8 +190,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn row(time: f64, depth: f64, velocity: f64) -> Moment {
-        Moment { time, depth, velocity }
+    fn row(time: f64, depth: f64, velocity: f64) -> HydrographPoint {
+        HydrographPoint { time, depth, velocity }
     }
 
     /// Up to 1 m and 4 m/s in 2 s, and down in 6 s, 3 m wide: ∫ h v dt of a triangle times a triangle is t/3 of the product of the peaks.
@@ -205,27 +213,35 @@ mod tests {
     #[test]
     fn no_moment_is_both_deeper_and_faster_than_a_hard_one() {
         let section = Section::Rectangle { width: 3.0 };
-        let hard = |rows: &[Moment]| Hydrograph::new(rows.to_vec(), &section).hard;
+        let governing = |rows: &[HydrographPoint]| Hydrograph::new(rows.to_vec(), &section).governing;
         // Every row of a table that gets deeper as it slows, and what is between them.
         let rows = [row(0.0, 0.2, 7.0), row(1.0, 1.0, 6.0), row(2.0, 1.5, 2.0)];
-        let found = hard(&rows);
+        let found = governing(&rows);
         assert_eq!((found[0].moment.depth, found[0].moment.velocity), (1.0, 6.0));
         for row in rows {
-            assert!(found.iter().any(|hard| hard.moment.depth >= row.depth && hard.moment.velocity >= row.velocity));
+            assert!(
+                found
+                    .iter()
+                    .any(|governing| governing.moment.depth >= row.depth && governing.moment.velocity >= row.velocity)
+            );
         }
         // 3 m · (0.2 · 7 + 4 · 0.6 · 6.5 + 1 · 6)/6 m²/s have come before the second.
         assert_relative_eq!(found[0].before, 3.0 * (1.4 + 15.6 + 6.0) / 6.0, max_relative = 1e-9);
         // One that is deepest and fastest at once is alone; where h v² is largest between two rows that is found.
-        assert_eq!(hard(&[row(0.0, 0.5, 4.0), row(1.0, 1.0, 5.0), row(2.0, 0.4, 3.0)]).len(), 1);
-        let crossing = hard(&[row(0.0, 0.1, 6.0), row(3.0, 2.0, 1.0)])[0].moment;
+        assert_eq!(governing(&[row(0.0, 0.5, 4.0), row(1.0, 1.0, 5.0), row(2.0, 0.4, 3.0)]).len(), 1);
+        let crossing = governing(&[row(0.0, 0.1, 6.0), row(3.0, 2.0, 1.0)])[0].moment;
         assert!(crossing.time > 0.0 && crossing.time < 3.0, "{crossing:?}");
         // However long the table is.
-        let long: Vec<Moment> =
+        let long: Vec<HydrographPoint> =
             (0..1000).map(|n| row(f64::from(n), 0.1 + 1e-3 * f64::from(n), 9.0 - 8e-3 * f64::from(n))).collect();
-        let found = hard(&long);
+        let found = governing(&long);
         assert!(found.len() <= MOST_HARD + 1, "{}", found.len());
         for row in long {
-            assert!(found.iter().any(|hard| hard.moment.depth >= row.depth && hard.moment.velocity >= row.velocity));
+            assert!(
+                found
+                    .iter()
+                    .any(|governing| governing.moment.depth >= row.depth && governing.moment.velocity >= row.velocity)
+            );
         }
     }
 

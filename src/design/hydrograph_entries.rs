@@ -3,7 +3,7 @@
 use crate::design::channel_entries::section;
 use crate::design::entries::Entries;
 use crate::design::flow::RUN_IN;
-use crate::design::hydrograph::{Hydrograph, Moment};
+use crate::design::hydrograph::{Hydrograph, HydrographPoint};
 
 pub const HYDROGRAPH: &str = "flow.arrival.hydrograph";
 
@@ -51,9 +51,9 @@ pub fn hydrograph(e: &Entries) -> Option<Hydrograph> {
             _ => return None,
         };
         let sound = depth.is_finite() && velocity.is_finite();
-        sound.then_some(Moment { time: at(times) - times[0], depth, velocity })
+        sound.then_some(HydrographPoint { time: at(times) - times[0], depth, velocity })
     };
-    let rows: Option<Vec<Moment>> = (0..=(times.len() - 1) * parts).map(place).collect();
+    let rows: Option<Vec<HydrographPoint>> = (0..=(times.len() - 1) * parts).map(place).collect();
     let hydrograph = Hydrograph::new(rows?, &section);
     (hydrograph.volume(&section, hydrograph.duration()) > 0.0).then_some(hydrograph)
 }
@@ -69,7 +69,7 @@ pub fn hydrograph_volume(e: &Entries) -> Option<f64> {
 fn clear_of_the_deposit(e: &Entries, hydrograph: &Hydrograph) -> Option<f64> {
     let (section, slope) = (section(e)?, e.number("channel.slope")?);
     let volume = hydrograph.volume(&section, hydrograph.duration());
-    let depth = hydrograph.hard.first()?.moment.depth;
+    let depth = hydrograph.governing.first()?.moment.depth;
     let least = RUN_IN * depth;
     if slope <= 0.0 {
         return Some(least);
@@ -82,7 +82,7 @@ fn clear_of_the_deposit(e: &Entries, hydrograph: &Hydrograph) -> Option<f64> {
 /// Depth and velocity of its hardest row, and the way from the inlet, where it is given, as those of a surge.
 pub fn as_of_a_surge(e: &Entries, name: &str) -> Option<f64> {
     let hydrograph = hydrograph(e)?;
-    let hardest = hydrograph.hard.first()?.moment;
+    let hardest = hydrograph.governing.first()?.moment;
     match name {
         "depth" => Some(hardest.depth),
         "velocity" => Some(hardest.velocity),

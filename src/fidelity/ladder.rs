@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::checks::not_covered::rigid_wall::SIMULATIONS_REACH;
-use crate::checks::outcome::{CheckVerdict, Kind, Opening, Outcome, Route};
+use crate::checks::outcome::{CheckVerdict, Kind, OpenReason, Outcome, Route};
 use crate::demand::USED_UP;
 use crate::design::{BarrierDesign, BarrierModel, Design, FidelityWish};
 use crate::fidelity::{needed_pieces, net_pieces};
@@ -220,7 +220,7 @@ impl Rung {
                     2 => format!("{packings} simulations are not enough: the scatter between runs could reverse the result (run with --seeds 5 or simulation.fidelity: auto)"),
                     _ => "it is closer to its limit than this model is accurate".to_string(),
                 };
-                outcome.leave_open(Opening::TooClose(finer));
+                outcome.leave_open(OpenReason::TooClose(finer));
             }
         }
     }
@@ -250,9 +250,9 @@ impl Rung {
     fn answer(&self, outcome: &Outcome) -> Answer {
         match &outcome.open {
             // No finer model closes these.
-            Some(Opening::NotGiven(_) | Opening::OutOfRange(_)) if self.starts > 0 => return Answer::Holds,
-            Some(Opening::NotGiven(_)) => return Answer::Holds,
-            Some(Opening::TooClose(_) | Opening::Contradicted(_)) => return Answer::Open,
+            Some(OpenReason::NotGiven(_) | OpenReason::OutOfRange(_)) if self.starts > 0 => return Answer::Holds,
+            Some(OpenReason::NotGiven(_)) => return Answer::Holds,
+            Some(OpenReason::TooClose(_) | OpenReason::Contradicted(_)) => return Answer::Open,
             _ => {}
         }
         let (Some(capacity), Some(used)) = (outcome.capacity, outcome.utilisation) else {

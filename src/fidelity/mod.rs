@@ -9,7 +9,7 @@ use crate::scene::net::build::{ROPE_DAMPING_RATIO, ROPE_DENSITY};
 use crate::scene::net::posts::piece_of_retaining_rope;
 use dem::contact::law::contact_stiffness;
 use dem::contact::restitution::{LONGEST_PHASE, damping_ratio_for};
-use dem::time::multi_rate::parts;
+use dem::time::multi_rate::substeps;
 use dem::time::stable_step::critical_step_of_pair;
 
 /// Choices that trade time against accuracy, each with its reason.
@@ -39,7 +39,7 @@ pub fn step_share(wish: FidelityWish) -> (&'static str, f64) {
 impl Fidelity {
     /// Steps that the barrier, and the grains at it, take in one of the others.
     pub fn barrier_steps(&self) -> u32 {
-        parts(self.time_step, self.barrier_step)
+        substeps(self.time_step, self.barrier_step)
     }
 }
 
@@ -65,7 +65,7 @@ pub fn choose(design: &Design) -> Fidelity {
     if MOST_BARRIER_STEPS * barrier_step < stable.min(bounce) {
         reason.push_str(&format!(", shortened to {MOST_BARRIER_STEPS} steps of the barrier"));
     }
-    if parts(time_step, barrier_step) > 1 {
+    if substeps(time_step, barrier_step) > 1 {
         reason.push_str(&format!(
             "; the barrier and the grains at it take several steps in one, of {share} of that of a knot of the net with a grain pressed on it ({net:.2e} s)"
         ));
@@ -127,8 +127,8 @@ fn stiffest_pairs(design: &Design) -> Pairs {
 fn critical_step_of_net(net: &FlexibleNet, design: &Design) -> f64 {
     let area = |rope: &Rope| std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2);
     let lattice = net.lattice();
-    let knot = |rope: &Rope, length: f64, parts: f64, sides: f64| {
-        let mass = 0.5 * parts * ROPE_DENSITY * area(rope) * length;
+    let knot = |rope: &Rope, length: f64, substeps: f64, sides: f64| {
+        let mass = 0.5 * substeps * ROPE_DENSITY * area(rope) * length;
         let stiffness = rope.modulus * area(rope) / length;
         (mass, sides * stiffness)
     };

@@ -18,11 +18,11 @@ pub mod other_ropes;
 pub mod posts;
 pub mod quantity;
 pub mod reading;
+pub mod rope_damage;
 pub mod rope_tension;
 pub mod run_up;
 pub mod total_force;
 pub mod wall;
-pub mod wear;
 
 use self::quantity::Quantity;
 
@@ -60,9 +60,9 @@ pub const QUANTITIES: &[&Quantity] = &[
     &bed::BOLT_LIFT,
     &other_ropes::NET,
     &other_ropes::NET_RESIDUAL,
-    &wear::BROKEN,
-    &wear::FIRST_BREAK,
-    &wear::DRAWN_OUT,
+    &rope_damage::BROKEN,
+    &rope_damage::FIRST_BREAK,
+    &rope_damage::DRAWN_OUT,
     &wall::SEGMENT,
     &wall::SEGMENT_RESIDUAL,
     &wall::MOMENT,

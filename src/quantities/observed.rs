@@ -100,7 +100,8 @@ mod tests {
     use crate::design::{BarrierDesign, Stability};
     use crate::quantities::quantity::Quantity;
     use crate::quantities::{
-        anchor_load, bed, dissipator, earth_pressure, incoming, other_ropes, rope_tension, total_force, wall, wear,
+        anchor_load, bed, dissipator, earth_pressure, incoming, other_ropes, rope_damage, rope_tension, total_force,
+        wall,
     };
     use approx::assert_relative_eq;
     use dem::Vec3;
@@ -256,9 +257,9 @@ mod tests {
             (&bed::FORCE, 23.0),
             (&bed::BOLT, 24.0),
             (&bed::BOLT_LIFT, 25.0),
-            (&wear::BROKEN, 2.0),
-            (&wear::FIRST_BREAK, 2.0),
-            (&wear::DRAWN_OUT, 0.27),
+            (&rope_damage::BROKEN, 2.0),
+            (&rope_damage::FIRST_BREAK, 2.0),
+            (&rope_damage::DRAWN_OUT, 0.27),
             (&incoming::DEPOSIT, 0.7),
             (&incoming::THICKNESS_AT_PEAK, 0.4),
             // From 8 m to 2 m before the barrier in the two seconds between samples.

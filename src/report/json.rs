@@ -319,7 +319,7 @@ fn numerics_part(run: &Simulated) -> NumericsPart {
         time_step_s: facts.time_step,
         time_step_over_critical: facts.step_ratio.value,
         time_step_cuts: facts.step_cuts,
-        barrier_steps_per_step: facts.barrier_parts,
+        barrier_steps_per_step: facts.barrier_substeps,
         rope_crossings: run.numerics.crossings,
         grains_outside: run.numerics.escaped,
         energy_error_relative: run.numerics.energy_error,

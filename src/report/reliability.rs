@@ -49,7 +49,7 @@ fn limit_rows(run: &Simulated) -> Vec<Row> {
         row(
             "Grains that passed through a rope",
             numerics.crossings.to_string(),
-            match facts.barrier_parts {
+            match facts.barrier_substeps {
                 0 | 1 => "a numerical error, none is allowed; what passes the mesh is under mass lost".to_string(),
                 parts => format!(
                     "a numerical error, none is allowed; what passes the mesh is under mass lost. The barrier takes {parts} steps in one of the grains'"

@@ -7,10 +7,10 @@ use crate::checks::detailing;
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome, most_used};
 use crate::demand::USED_UP;
 use crate::design::entries::Origin;
-use crate::design::hydrograph::{Hard, Moment};
+use crate::design::hydrograph::{GoverningPoint, HydrographPoint};
 use crate::design::read::sha256;
 use crate::design::{Arrival, BarrierDesign, NetRings, Rope};
-use crate::load_cases::{Combination, combinations};
+use crate::flow_cases::{Combination, combinations};
 use crate::pipeline::{Run, Verdict};
 use crate::program::PROGRAM;
 use crate::report::anchors;
@@ -594,9 +594,9 @@ fn hydrograph_rows(run: &Run) -> Vec<Row> {
         return Vec::new();
     };
     let section = design.channel.section();
-    let most = |of: &dyn Fn(&Moment) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
-    let moment = |hard: &Hard| {
-        let Moment { time, depth, velocity } = hard.moment;
+    let most = |of: &dyn Fn(&HydrographPoint) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
+    let moment = |hard: &GoverningPoint| {
+        let HydrographPoint { time, depth, velocity } = hard.moment;
         format!("{} with {} at {}", with_unit(depth, "m"), with_unit(velocity, "m/s"), with_unit(time, "s"))
     };
     vec![
@@ -617,7 +617,7 @@ fn hydrograph_rows(run: &Run) -> Vec<Row> {
         ),
         row(
             "Moments of the hydrograph in the equations",
-            hydrograph.hard.iter().map(moment).collect::<Vec<_>>().join("; "),
+            hydrograph.governing.iter().map(moment).collect::<Vec<_>>().join("; "),
             "none is both deeper and faster; that of the largest momentum first",
         ),
     ]

@@ -14,7 +14,7 @@ use crate::fidelity::ladder::rung_of;
 use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
-use crate::quantities::{incoming, mass, total_force, wear};
+use crate::quantities::{incoming, mass, rope_damage, total_force};
 use crate::report::numbers::{figures, with_unit};
 use crate::report::row::{in_a_line, is_share, lower_first};
 use crate::report::validation::Kept;
@@ -414,7 +414,7 @@ fn sag_beyond_the_equations(run: &Run) -> Option<String> {
 
 /// From when on ropes have broken in the first start.
 fn ropes_broken(run: &Run) -> Option<String> {
-    let first = run.simulated.as_ref()?.first().known(&wear::FIRST_BREAK)?;
+    let first = run.simulated.as_ref()?.first().known(&rope_damage::FIRST_BREAK)?;
     Some(format!(
         "From {first:.2} s on ropes have broken: what the simulation shows later is no load of the barrier as it was designed. Strengthen what broke first and run again."
     ))

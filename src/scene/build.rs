@@ -10,8 +10,8 @@ use crate::scene::flow::packing::{Attempts, PackingError};
 use crate::scene::flow::release::{Block, count_of_boulders, packed_block, shape};
 use crate::scene::ground::{self, bed_at, gravity};
 use crate::scene::inlet::{Feed, block_behind, inlet};
+use crate::scene::interrupt_grace::Patience;
 use crate::scene::net::build::{BuiltNet, build as build_net};
-use crate::scene::patience::Patience;
 use crate::scene::surges::farthest_upstream;
 use crate::section::{Section, Survey};
 use crate::units::GRAVITY;
@@ -300,13 +300,13 @@ fn upstream_reach(design: &Design, net: Option<&BuiltNet>) -> f64 {
 fn settle(simulation: &mut Simulation, block: &Block, stop: &AtomicBool, keep: Keep) -> Result<(), PackingError> {
     let fall = (block.height / GRAVITY).sqrt();
     simulation.drag = SETTLING_DRAG / fall;
-    let mut patience = Patience::default();
+    let mut interrupt_grace = Patience::default();
     while simulation.time < SETTLING * fall {
         let asked = stop.load(Ordering::Relaxed);
         if simulation.at_stop() {
             keep(Prepared::Settling(simulation, *block), asked);
         }
-        if asked && (simulation.at_stop() || patience.is_over()) {
+        if asked && (simulation.at_stop() || interrupt_grace.is_over()) {
             return Err(PackingError::Interrupted);
         }
         simulation.step()?;

@@ -9,7 +9,7 @@ use crate::design::Design;
 use crate::scene::build::Scene;
 use crate::scene::flow::packing::PackingError;
 use crate::scene::inlet::Feed;
-use crate::scene::patience::Patience;
+use crate::scene::interrupt_grace::Patience;
 use crate::scene::surges::{Next, Ready};
 use dem::recorders::film::Film;
 use dem::recorders::histories::{Histories, tail_mean};
@@ -121,7 +121,7 @@ impl Ongoing {
     /// handed the run, and told whether it ends there because it was asked to; a run that nobody keeps, or whose next stop is far, ends
     /// before.
     pub fn go_on(mut self, design: &Design, seed: u64, watch: &Watch, mut keep: impl FnMut(&Self, bool)) -> Event {
-        let mut patience = Patience::default();
+        let mut interrupt_grace = Patience::default();
         let ending = loop {
             let sampled = match self.recorder.step(&mut self.simulation) {
                 Err(unstable) => break Ending::BrokeDown(unstable),
@@ -144,7 +144,7 @@ impl Ongoing {
             if self.simulation.at_stop() {
                 keep(&self, asked);
             }
-            if asked && (self.simulation.at_stop() || patience.is_over()) {
+            if asked && (self.simulation.at_stop() || interrupt_grace.is_over()) {
                 break Ending::Interrupted;
             }
         };

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::hydrograph::{Hydrograph, Moment};
+use crate::design::hydrograph::{Hydrograph, HydrographPoint};
 use crate::design::{Arrival, Design};
 use crate::scene::flow::packing::{Attempts, Growth, PackingError, PackingRoom, Parts, overlaps, pack_watched};
 use crate::scene::flow::release::{Block, bodies, shape};
@@ -20,7 +20,7 @@ use dem::time::inlet::Inlet;
 
 /// Length of a part of the flow over the largest grain, at the least, and number of parts, at the most.
 const LEAST_LENGTH: f64 = 1.5;
-const MOST_PARTS: f64 = 200.0;
+const MOST_SUBSTEPS: f64 = 200.0;
 /// Height of the room of a part over the largest grain, at the least: what is thinner is loose.
 const LEAST_HEIGHT: f64 = 1.2;
 /// Length of what stands behind the inlet over the largest grain, at the least and at the most.
@@ -45,7 +45,7 @@ fn laid_out(design: &Design, hydrograph: &Hydrograph) -> (Vec<[f64; 2]>, Vec<f64
     let (flow, section) = (&design.flow, design.channel.section());
     let largest = flow.sizes.quantile(1.0);
     let (last, way) = (hydrograph.duration(), hydrograph.way(hydrograph.duration()));
-    let count = (way / (LEAST_LENGTH * largest).max(way / MOST_PARTS)).floor().max(1.0);
+    let count = (way / (LEAST_LENGTH * largest).max(way / MOST_SUBSTEPS)).floor().max(1.0);
     let whole = hydrograph.volume(&section, last);
     // From the tail, which comes last.
     let times: Vec<f64> = (0..=count as usize)
@@ -81,7 +81,7 @@ pub fn inlet(design: &Design, hydrograph: &Hydrograph, reach: f64) -> Result<Inl
 
 /// As a block, what stands behind the inlet at the most.
 pub fn block_behind(design: &Design, hydrograph: &Hydrograph, reach: f64) -> Block {
-    let most = |of: fn(&Moment) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
+    let most = |of: fn(&HydrographPoint) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
     let largest = design.flow.sizes.quantile(1.0);
     let height = most(|row| row.depth).max(LEAST_HEIGHT * largest);
     Block::behind_an_inlet(distance(design, reach), BEHIND[1] * largest, height, most(|row| row.velocity))

@@ -6,6 +6,6 @@ pub mod event;
 pub mod flow;
 pub(crate) mod ground;
 pub mod inlet;
+pub(crate) mod interrupt_grace;
 pub(crate) mod net;
-pub(crate) mod patience;
 pub(crate) mod surges;

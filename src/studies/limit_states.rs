@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::arriving;
 use crate::checks::check_all;
-use crate::checks::outcome::{CheckVerdict, Opening, Outcome};
+use crate::checks::outcome::{CheckVerdict, OpenReason, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::changes::Changes;
@@ -138,7 +138,7 @@ impl LimitStates<'_> {
             let open = by_a_run.and_then(|other| other.open.as_ref()).or(outcome.open.as_ref());
             let why = open.map(|open| open.words().to_string());
             // A check that rests on what nobody has given is not judged as if it were harmless.
-            let untold = matches!(open, Some(Opening::NotGiven(_)));
+            let untold = matches!(open, Some(OpenReason::NotGiven(_)));
             match outcome.utilisation.filter(|used| used.is_finite() && !untold) {
                 Some(at_medians) => {
                     asked.checks.push(Judged { id: outcome.id, title: outcome.title, at_medians, partly: why });
@@ -157,7 +157,7 @@ impl LimitStates<'_> {
         let outcomes = self.outcomes(design, simulated);
         // Whether the design lets such formulas stand or not.
         let outside = |outcome: &Outcome| {
-            matches!(outcome.open, Some(Opening::OutOfRange(_) | Opening::Contradicted(_)))
+            matches!(outcome.open, Some(OpenReason::OutOfRange(_) | OpenReason::Contradicted(_)))
                 || !outcome.stands_despite.is_empty()
         };
         if outcomes.iter().any(outside) {

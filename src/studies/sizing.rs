@@ -9,7 +9,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::checks::outcome::{CheckVerdict, Opening, Outcome, most_used};
+use crate::checks::outcome::{CheckVerdict, OpenReason, Outcome, most_used};
 use crate::design::anchors::AnchorResistance;
 use crate::design::{BarrierDesign, Design, Project};
 use crate::pipeline::{Run, Verdict};
@@ -134,7 +134,7 @@ fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
             let open: Vec<&Outcome> = open.collect();
             let titles: Vec<&str> = open.iter().take(3).map(|outcome| outcome.title.as_str()).collect();
             let more = if open.len() > 3 { format!(" and {} more", open.len() - 3) } else { String::new() };
-            let first = open.first().and_then(|outcome| outcome.open.as_ref()).map_or("", Opening::words);
+            let first = open.first().and_then(|outcome| outcome.open.as_ref()).map_or("", OpenReason::words);
             let why = run.doubts.first().cloned().unwrap_or_else(|| format!("{}{more}: {first}", titles.join(", ")));
             Fate::Undecided { by, why, used }
         }
@@ -199,7 +199,8 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
                         }
                     }
                     None => {
-                        match run.outcomes.iter().find(|outcome| matches!(outcome.open, Some(Opening::NotGiven(_)))) {
+                        match run.outcomes.iter().find(|outcome| matches!(outcome.open, Some(OpenReason::NotGiven(_))))
+                        {
                             // No simulation gives what the design leaves out.
                             Some(_) => found.ways[place].fate = fate_of(&run, BY_EQUATIONS, wanted),
                             None => left.push(place),
@@ -247,8 +248,8 @@ fn told(run: Result<Run, Fault>, wanted: &Wanted) -> Result<(Fate, Option<Run>),
 /// Whether several packings may pass what one simulation shows: it passes, or nothing is open that none of them can close.
 fn several_may_pass(run: &Run, fate: &Fate) -> bool {
     let closable = |outcome: &Outcome| match &outcome.open {
-        Some(Opening::TooClose(_) | Opening::Contradicted(_)) | None => true,
-        Some(Opening::NotGiven(_) | Opening::NeedsSimulation(_) | Opening::OutOfRange(_)) => false,
+        Some(OpenReason::TooClose(_) | OpenReason::Contradicted(_)) | None => true,
+        Some(OpenReason::NotGiven(_) | OpenReason::NeedsSimulation(_) | OpenReason::OutOfRange(_)) => false,
     };
     match fate {
         Fate::Passes { .. } => true,

@@ -60,7 +60,7 @@ impl Point {
             energy_error: seen.numerics.energy_error,
             reliable: seen.doubts.is_empty(),
             sphere_steps: steps * facts.spheres as f64,
-            element_steps: steps * f64::from(facts.barrier_parts) * facts.barrier_elements as f64,
+            element_steps: steps * f64::from(facts.barrier_substeps) * facts.barrier_elements as f64,
             wall_clock: facts.wall_clock,
         }
     }

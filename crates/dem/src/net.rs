@@ -8,7 +8,7 @@ use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingForce, RingSide};
 use crate::elements::rope::{Fate, pull};
-use crate::elements::segment::Strand;
+use crate::elements::segment::AxialMember;
 use crate::tables::barrier::Barrier;
 
 /// Forces on the nodes and tensions of the elements.
@@ -215,14 +215,14 @@ impl NetForces {
         }
     }
 
-    /// Calls `take` for all that pulls or pushes along a line, in the order of [`Barrier::strands`], with its tension (N); that of one rope where
+    /// Calls `take` for all that pulls or pushes along a line, in the order of [`Barrier::axial_members`], with its tension (N); that of one rope where
     /// several share it.
-    pub fn each_strand(&self, barrier: &Barrier, mut take: impl FnMut(Strand, f64)) {
+    pub fn each_axial_member(&self, barrier: &Barrier, mut take: impl FnMut(AxialMember, f64)) {
         let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators);
         let mut all = all.chain(&self.posts);
-        barrier.strands().for_each(|strand| {
+        barrier.axial_members().for_each(|member| {
             if let Some(tension) = all.next() {
-                take(strand, tension / barrier.sharing(strand.kind));
+                take(member, tension / barrier.sharing(member.kind));
             }
         });
     }
@@ -347,7 +347,7 @@ mod tests {
         };
         let net = pull_all(&barrier, &LawConstants::new(1.0, 2.0 / 7.0, 1e-5));
         let mut told = Vec::new();
-        net.each_strand(&barrier, |_, tension| told.push(tension));
+        net.each_axial_member(&barrier, |_, tension| told.push(tension));
         assert!((net.forces[0].x - 2e3).abs() < 1e-6 && (told[0] - 1e3).abs() < 1e-6 && (told[1] - 2e3).abs() < 1e-6);
     }
 }

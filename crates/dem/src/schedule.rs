@@ -113,7 +113,9 @@ impl Stretch {
         let mut hands: Vec<Hand> =
             (0..workers).map(|hand| Hand { free: if hand == 0 { 0.0 } else { message }, ..Hand::default() }).collect();
         let mut end = 0.0_f64;
-        while let Some(next) = (0..workers).filter(|&hand| !hands[hand].left).min_by(|&a, &b| hands[a].free.total_cmp(&hands[b].free)) {
+        while let Some(next) =
+            (0..workers).filter(|&hand| !hands[hand].left).min_by(|&a, &b| hands[a].free.total_cmp(&hands[b].free))
+        {
             let now = hands[next].free;
             if let Some(done) = hands[next].doing.take() {
                 dealer.through[done] = true;

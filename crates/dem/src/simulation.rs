@@ -19,9 +19,9 @@ use crate::tables::load_sheets::LoadSheets;
 use crate::tables::pores::STEPS_BETWEEN;
 use crate::tables::surfaces::SurfaceRole;
 use crate::time::inlet::{During, burden};
-use crate::time::integrate::{Pace, Stretch};
+use crate::time::integrate::{Pace, StepInterval};
 use crate::time::links::Linked;
-use crate::time::multi_rate::{Accounted, BarrierStep, Lost, Pressing, parts, step_barrier};
+use crate::time::multi_rate::{Accounted, BarrierStep, Lost, Pressing, step_barrier, substeps};
 use crate::time::stable_step::{StepRatio, step_ratio};
 
 /// Steps between two audits of the stable step.
@@ -45,7 +45,7 @@ fn steps_per_stop(spheres: usize) -> u64 {
 /// Step of the barrier over its critical step that is aimed at where it takes several in one of the grains', and their largest
 /// number.
 const BARRIER_STEP_SHARE: f64 = 0.7;
-const MOST_PARTS: u32 = 200;
+const MOST_SUBSTEPS: u32 = 200;
 const ROUNDS_OF_CHOICE: usize = 3;
 
 /// Share of the first time step below which a run is given up.
@@ -81,14 +81,14 @@ pub struct StepSums {
     /// Mean over the step.
     pub net: NetForces,
     /// In each of the barrier's own steps, where those are several.
-    in_parts: Vec<NetForces>,
+    in_substeps: Vec<NetForces>,
 }
 
 impl StepSums {
     /// What the barrier bore in each of its own steps: the largest of some tensions is to be taken here, since tensions swing faster than the
     /// grains step.
-    pub fn net_in_parts(&self) -> &[NetForces] {
-        if self.in_parts.is_empty() { std::slice::from_ref(&self.net) } else { &self.in_parts }
+    pub fn net_in_substeps(&self) -> &[NetForces] {
+        if self.in_substeps.is_empty() { std::slice::from_ref(&self.net) } else { &self.in_substeps }
     }
 }
 
@@ -130,7 +130,7 @@ pub struct Simulation {
     /// How often an audit has shortened the time step.
     pub step_cuts: u32,
     /// Steps of the barrier in one of the grains'.
-    pub barrier_parts: u32,
+    pub barrier_substeps: u32,
     /// Longest step of the barrier that was chosen for what may come to press on it (s).
     pub barrier_step: f64,
     /// Motion of the barrier when the last step began, and what it has lost since, which is booked with the next step.
@@ -182,7 +182,7 @@ impl Simulation {
             ledger: Ledger::default(),
             extremes: Extremes::default(),
             step_cuts: 0,
-            barrier_parts: 1,
+            barrier_substeps: 1,
             barrier_step: f64::MAX,
             barrier_motion: MotionEnergy::default(),
             lost_since: Lost::default(),
@@ -243,7 +243,7 @@ impl Simulation {
         self.grains.catch_up();
         self.model.barrier = Some(barrier);
         self.neighbours.lose();
-        self.choose_parts();
+        self.choose_substeps();
     }
 
     /// Puts the grain in `row` somewhere else, without velocity; it spins on.
@@ -313,12 +313,12 @@ impl Simulation {
 
     /// The law within the barrier, whose steps are shorter.
     fn barrier_law(&self) -> LawConstants {
-        self.law().parted(self.barrier_parts)
+        self.law().of_substep(self.barrier_substeps)
     }
 
     /// Steps that the barrier takes in one of the grains'; one where there is none.
-    fn parts(&self) -> u32 {
-        if self.model.barrier.is_some() { self.barrier_parts } else { 1 }
+    fn substeps(&self) -> u32 {
+        if self.model.barrier.is_some() { self.barrier_substeps } else { 1 }
     }
 
     /// Sees to it that lists and time step are good for the step to come.
@@ -326,7 +326,7 @@ impl Simulation {
         if self.at_stop() {
             self.neighbours.rest();
         }
-        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref(), self.parts() > 1) {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref(), self.substeps() > 1) {
             self.check_finite()?;
             self.renew();
         }
@@ -378,7 +378,7 @@ impl Simulation {
     /// Holds the time step against what is connected now, and cuts it where it is too long.
     fn audit(&mut self) -> Result<(), Unstable> {
         let barrier = self.model.barrier.as_ref();
-        let ratio = if self.barrier_parts == 1 {
+        let ratio = if self.barrier_substeps == 1 {
             self.whole_ratio()
         } else {
             let links = self.linked(self.law()).contacts();
@@ -388,7 +388,7 @@ impl Simulation {
             if own.value > 1.0 && own.value.is_finite() {
                 self.note_ratio(own);
                 let before = self.barrier_law().time_step;
-                self.choose_parts();
+                self.choose_substeps();
                 own.value *= self.barrier_law().time_step / before;
             }
             // Asked so that what is not finite is kept.
@@ -407,7 +407,7 @@ impl Simulation {
 
     /// Step over critical step of all that is connected now, grains and barrier in one.
     pub fn step_over_critical(&mut self) -> f64 {
-        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref(), self.parts() > 1) {
+        if self.neighbours.expired(&self.grains, self.model.barrier.as_ref(), self.substeps() > 1) {
             self.renew();
         }
         self.whole_ratio().value
@@ -435,17 +435,17 @@ impl Simulation {
             law,
             modulus: self.model.material.modulus,
             friction: self.model.material.friction,
-            finer: self.barrier_parts > 1,
+            finer: self.barrier_substeps > 1,
         }
     }
 
     /// As many steps of the barrier in one of the grains' as what holds it together needs, and what may press on it. What is too stiff is
     /// looked for at the step that is chosen: at a longer one dashpots seem to be it.
-    fn choose_parts(&mut self) {
-        let least = parts(self.time_step, self.barrier_step);
+    fn choose_substeps(&mut self) {
+        let least = substeps(self.time_step, self.barrier_step);
         let mut chosen = least;
         for _ in 0..ROUNDS_OF_CHOICE {
-            let law = self.law().parted(chosen);
+            let law = self.law().of_substep(chosen);
             let within = self.linked(law).within_barrier();
             let ratio = step_ratio(&within, &self.grains, self.model.barrier.as_ref(), law.time_step).value;
             let wanted = (f64::from(chosen) * ratio / BARRIER_STEP_SHARE).ceil();
@@ -453,14 +453,14 @@ impl Simulation {
             if !wanted.is_finite() {
                 return;
             }
-            chosen = (wanted as u32).max(least).min(MOST_PARTS);
+            chosen = (wanted as u32).max(least).min(MOST_SUBSTEPS);
         }
-        self.barrier_parts = chosen;
+        self.barrier_substeps = chosen;
     }
 
     /// Moves everything through the step; `account` asks for the energy of the barrier's motion.
     fn advance(&mut self, account: bool) {
-        let time = Stretch { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
+        let time = StepInterval { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
         let (law, own) = (self.law(), self.barrier_law());
         if let Some(barrier) = &mut self.model.barrier {
             self.ledger.lost_friction += slide_all(barrier, own.time_step);
@@ -469,12 +469,12 @@ impl Simulation {
         if let Some(inlet) = &mut self.model.inlet {
             inlet.carry(&mut self.grains, &mut self.ledger, &during);
         }
-        let parts = self.parts();
-        if parts > 1 {
+        let substeps = self.substeps();
+        if substeps > 1 {
             self.grains.ahead.resize(self.grains.len(), [Vec3::zeros(); 2]);
         }
         let (net, mut paces) =
-            sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, parts, &time);
+            sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, substeps, &time);
         self.gather_sums();
         let fastest_node = self.advance_barrier(net, &mut paces, &own, &time, account);
         if let Some(inlet) = &mut self.model.inlet {
@@ -495,15 +495,15 @@ impl Simulation {
         net: NetForces,
         paces: &mut [Pace],
         own: &LawConstants,
-        time: &Stretch,
+        time: &StepInterval,
         account: bool,
     ) -> f64 {
         let Some(barrier) = &mut self.model.barrier else { return 0.0 };
         let pressing = Pressing { grains: &mut self.grains, blocks: &mut self.neighbours.blocks, paces };
         let material = &self.model.material;
         let on_barrier = OnBarrier { law: *own, grain_modulus: material.modulus, grain_friction: material.friction };
-        let BarrierStep { net, in_parts, at_account, fastest } =
-            step_barrier(barrier, net, pressing, &on_barrier, time, self.barrier_parts, account);
+        let BarrierStep { net, in_substeps, at_account, fastest } =
+            step_barrier(barrier, net, pressing, &on_barrier, time, self.barrier_substeps, account);
         self.extremes.crossings += self.neighbours.blocks.iter().map(|block| block.ropes.crossings).sum::<u32>();
         self.extremes.overlap_ratio = self.extremes.overlap_ratio.max(at_account.overlap_ratio);
         let Accounted { motion, stored_barrier, stored_contacts, lost, lost_since, .. } = at_account;
@@ -517,7 +517,7 @@ impl Simulation {
         }
         self.lost_since = lost_since;
         self.barrier_motion = motion;
-        (self.sums.net, self.sums.in_parts) = (net, in_parts);
+        (self.sums.net, self.sums.in_substeps) = (net, in_substeps);
         fastest
     }
 
@@ -527,7 +527,7 @@ impl Simulation {
         let after = self.snapshot();
         let mut sums = MotionEnergy::default();
         let mut on_its_own = vec![true; after.len()];
-        for at_barrier in self.neighbours.blocks.iter().map(|block| &block.at_barrier).filter(|_| self.parts() > 1) {
+        for at_barrier in self.neighbours.blocks.iter().map(|block| &block.at_barrier).filter(|_| self.substeps() > 1) {
             sums.add(&at_barrier.motion, 1.0);
             at_barrier.rows().iter().for_each(|&row| on_its_own[row as usize] = false);
         }

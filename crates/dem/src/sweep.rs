@@ -13,7 +13,7 @@ use crate::contact::law::LawConstants;
 use crate::contact::ropes::{OnBarrier, RopeContext};
 use crate::contact::surfaces::{SurfaceContext, load_surfaces};
 use crate::model::Model;
-use crate::neighbours::blocks::{Block, Outbox};
+use crate::neighbours::blocks::{Block, OutgoingLoads};
 use crate::neighbours::renew::Neighbours;
 use crate::net::{NetForces, pull_all};
 use crate::simd::eight::LANES;
@@ -21,12 +21,12 @@ use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::{GrainRows, Prefetcher, RowsInMotion};
 use crate::tables::grain_table::{GrainLoad, GrainTable};
 use crate::tables::load_sheets::LoadSheets;
-use crate::time::at_barrier::{Moving, Parting};
-use crate::time::integrate::{Pace, Stretch};
+use crate::time::at_barrier::{Moving, Substepping};
+use crate::time::integrate::{Pace, StepInterval};
 use crate::workers;
 
 /// Loads all grains and moves them through one step of theirs, that of `law`; pulls at the barrier, which stays where it is,
-/// as at the start of its own step, of which it takes so many `parts` in one. Where they are several, the ropes load the grains at the barrier
+/// as at the start of its own step, of which it takes so many `substeps` in one. Where they are several, the ropes load the grains at the barrier
 /// for the first of these alone. Returns the forces within the barrier, without those of the grains, and the pace of each block.
 pub fn sweep(
     model: &Model,
@@ -34,12 +34,12 @@ pub fn sweep(
     sheets: &LoadSheets,
     neighbours: &mut Neighbours,
     law: LawConstants,
-    parts: u32,
-    time: &Stretch,
+    substeps: u32,
+    time: &StepInterval,
 ) -> (NetForces, Vec<Pace>) {
-    let Neighbours { blocks, outboxes, drift, .. } = neighbours;
-    let outboxes = &*outboxes;
-    let barrier_law = law.parted(parts);
+    let Neighbours { blocks, outgoing, drift, .. } = neighbours;
+    let outgoing = &*outgoing;
+    let barrier_law = law.of_substep(substeps);
     // No step changes it: it is read while rows are moved.
     let grip = std::mem::take(&mut grains.grip);
     let ahead = std::mem::take(&mut grains.ahead);
@@ -49,7 +49,7 @@ pub fn sweep(
         grains: rows.seen(),
         law,
         barrier_law,
-        parts,
+        substeps,
         moving: Moving { drift, ahead: &ahead },
         grip: &grip,
         workers: workers::count(),
@@ -67,15 +67,15 @@ pub fn sweep(
         |part| match part {
             Part::Elements(barrier, own, net) => **net = Some(pull_all(barrier, own)),
             Part::Block(turn) => {
-                let mut outbox = outboxes[turn.number].write().unwrap_or_else(PoisonError::into_inner);
+                let mut outgoing = outgoing[turn.number].write().unwrap_or_else(PoisonError::into_inner);
                 turn.loads = sheets.take(turn.block.grains.len());
                 turn.prefetcher = forces.prefetcher(turn.block);
-                forces.load_block(turn.block, &mut turn.loads, &mut outbox, &mut turn.prefetcher);
+                forces.load_block(turn.block, &mut turn.loads, &mut outgoing, &mut turn.prefetcher);
             }
         },
         |part| {
             if let Part::Block(turn) = part {
-                turn.take_post(outboxes);
+                turn.take_remote_loads(outgoing);
                 // SAFETY: this block and all before it are loaded. Later blocks read no rows but their own and those of
                 // blocks after them, and every block is moved once.
                 let moving = unsafe { rows.take(&turn.block.grains, &mut turn.loads) };
@@ -104,14 +104,14 @@ struct Turn<'a> {
 }
 
 impl Turn<'_> {
-    /// Adds what earlier blocks have posted for the grains of this one, in the order of the blocks.
-    fn take_post(&mut self, outboxes: &[RwLock<Outbox>]) {
+    /// Adds the loads that earlier blocks have for the grains of this one, in the order of the blocks.
+    fn take_remote_loads(&mut self, outgoing: &[RwLock<OutgoingLoads>]) {
         let start = self.block.grains.start;
-        for sender in &outboxes[..self.number] {
+        for sender in &outgoing[..self.number] {
             let sender = sender.read().unwrap_or_else(PoisonError::into_inner);
-            for letter in sender.for_block(self.number) {
-                let load = GrainLoad { force: letter.force, torque: letter.torque };
-                self.loads[letter.row as usize - start].join(&load);
+            for remote in sender.for_block(self.number) {
+                let load = GrainLoad { force: remote.force, torque: remote.torque };
+                self.loads[remote.row as usize - start].join(&load);
             }
         }
     }
@@ -123,7 +123,7 @@ struct BlockForces<'a> {
     grains: GrainRows<'a>,
     law: LawConstants,
     barrier_law: LawConstants,
-    parts: u32,
+    substeps: u32,
     moving: Moving<'a>,
     /// Share of the friction that acts on each grain; empty in a dry flow.
     grip: &'a [f64],
@@ -143,18 +143,18 @@ impl<'a> BlockForces<'a> {
         &self,
         block: &mut Block,
         loads: &mut [GrainLoad],
-        outbox: &mut Outbox,
+        outgoing: &mut OutgoingLoads,
         prefetcher: &mut Prefetcher<'a>,
     ) {
         let Self { model, grains, law, .. } = *self;
         let clocks = block.clocks;
         let material = &model.material;
-        outbox.clear();
+        outgoing.clear();
         let (modulus, friction) = (material.modulus, material.friction);
         let constants = PairConstants { law, modulus, friction, grip: self.grip };
         let pairs = |clock| PairContext { grains, constants, clock };
         let mut sums = load_inner(&mut block.inner, &pairs(clocks.inner), &block.grains, loads, prefetcher);
-        sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outbox));
+        sums.add(&load_border(&mut block.border, &pairs(clocks.border), &block.grains, loads, outgoing));
         let surfaces = SurfaceContext {
             grains,
             fixed: model.fixed(),
@@ -178,11 +178,11 @@ impl<'a> BlockForces<'a> {
                 },
                 clock: clocks.fixed,
             };
-            sums.add(&match self.parts {
+            sums.add(&match self.substeps {
                 1 => block.ropes.load(&context, &block.grains, loads),
-                parts => {
-                    let parting = Parting { step: law.time_step, parts };
-                    block.at_barrier.begin(&mut block.ropes, &context, &self.moving, &block.grains, &parting)
+                substeps => {
+                    let substepping = Substepping { step: law.time_step, substeps };
+                    block.at_barrier.begin(&mut block.ropes, &context, &self.moving, &block.grains, &substepping)
                 }
             });
         }

@@ -1,25 +1,25 @@
 //! The drag of a flow over the barrier is known where its friction and length are given; a drag that is not given is not zero.
 
-use super::known::Known;
+use super::context::CheckContext;
 use crate::checks::check_all;
-use crate::checks::outcome::{Opening, Outcome};
+use crate::checks::outcome::{OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::BarrierDesign;
 use crate::guideline::guideline_for;
 use crate::loads::cases::overtopped::DEFAULT_FRICTION;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let design = known.design;
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let design = context.design;
     if design.loads.overflow_drag.is_some() {
         return;
     }
     if design.loads.overflow_depth.is_none() {
-        leave_open_what_a_usual_drag_fails(known, outcomes);
+        leave_open_what_a_usual_drag_fails(context, outcomes);
         return;
     }
     for outcome in outcomes.iter_mut() {
         if outcome.holds() && outcome.rests_on_pressures && outcome.demand.guideline.is_some() {
-            outcome.leave_open(Opening::NotGiven(
+            outcome.leave_open(OpenReason::NotGiven(
                 "the drag of the flow over the full barrier is not in it (give loads.overflow_friction and loads.overflow_length)".into(),
             ));
         }
@@ -27,7 +27,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 }
 
 /// A barrier that fills is overtopped whether the design says so or not: with a usual drag no check may fail.
-fn leave_open_what_a_usual_drag_fails(Known { design, guideline, .. }: Known, outcomes: &mut [Outcome]) {
+fn leave_open_what_a_usual_drag_fails(CheckContext { design, guideline, .. }: CheckContext, outcomes: &mut [Outcome]) {
     if !guideline.input.fills() {
         return;
     }
@@ -42,7 +42,7 @@ fn leave_open_what_a_usual_drag_fails(Known { design, guideline, .. }: Known, ou
     let then = check_all(design, &Demands::by_equations(&with_drag, &design.factors));
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         if then.iter().any(|then| then.id == outcome.id && outcome.would_fail(then)) {
-            outcome.leave_open(Opening::NotGiven(
+            outcome.leave_open(OpenReason::NotGiven(
                 "with a usual drag of the flow over the full barrier the equations would fail it (give loads.overflow_friction and loads.overflow_length)".into(),
             ));
         }
@@ -102,7 +102,7 @@ mod tests {
         let net_tension = Demand { simulation: Some(1.0), ..Demand::default() };
         let demands = Demands::by_equations(&guideline, &design.factors).with(&other_ropes::NET, &[net_tension]);
         let mut outcomes = check_all(&design, &demands);
-        leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
+        leave_open(CheckContext { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
         let verdict = |id: &str| outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict;
         assert_eq!(verdict("net_tension"), CheckVerdict::Pass);
         assert_eq!(verdict("anchor_plateau"), CheckVerdict::Pass);

@@ -2,36 +2,36 @@
 //! tell how much more presses on it than the simulation shows. What would not hold that much more stays open, and so does what would hold
 //! it by less than the simulation may be off.
 
+use super::context::{CheckContext, FirstSurge};
 use super::harder_flow::largest_force;
-use super::known::{FirstSurge, Known};
-use crate::checks::outcome::{Kind, Opening, Outcome, Route};
+use crate::checks::outcome::{Kind, OpenReason, Outcome, Route};
 use crate::design::BarrierDesign;
 use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let Some(seen) = known.seen else { return };
-    let more = largest_force(known.design, known.guideline, &seen) / seen.largest_push;
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let Some(seen) = context.seen else { return };
+    let more = largest_force(context.design, context.guideline, &seen) / seen.largest_push;
     // What stands higher has a longer lever as well, about a base that may lie deeper than the foot of the face.
-    let deeper = match &known.design.barrier {
+    let deeper = match &context.design.barrier {
         BarrierDesign::RigidWall(wall) => wall.stability.map_or(0.0, |stability| stability.founding_depth),
         BarrierDesign::FlexibleNet(_) => 0.0,
     };
-    let about_the_base = |moment: f64, force: f64| moment + deeper * force / known.guideline.width;
-    let lever = about_the_base(known.guideline.face_moment, known.guideline.largest_force)
+    let about_the_base = |moment: f64, force: f64| moment + deeper * force / context.guideline.width;
+    let lever = about_the_base(context.guideline.face_moment, context.guideline.largest_force)
         / about_the_base(seen.moment, seen.largest_push);
     let more_moment = larger_or_nan(more, lever);
-    let (when, instead) = match known.design.loads.to_the_top {
+    let (when, instead) = match context.design.loads.to_the_top {
         true => ("the full barrier", "simulate a larger flow, or say loads.filling: one_event"),
         false => ("the barrier", "give it more resistance"),
     };
-    let simulated = match known.design.flow.surges() {
-        1 if known.design.flow.hydrograph.is_some() => "the hydrograph".to_string(),
+    let simulated = match context.design.flow.surges() {
+        1 if context.design.flow.hydrograph.is_some() => "the hydrograph".to_string(),
         1 => "the first surge".to_string(),
         several => format!("an event of {several} surges"),
     };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        let tips = outcome.unit == Unit::NewtonMetrePerMetre || outcome.kind == Kind::OnTheBase;
+        let tips = outcome.unit == Unit::NewtonMetrePerMetre || outcome.kind == Kind::BaseActions;
         let more = if tips { more_moment } else { more };
         if more <= 1.0 {
             continue;
@@ -56,10 +56,11 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         // Written so that a NaN counts as not within.
         let within = |used: f64| used <= 1.0;
         if !within(used) {
-            outcome
-                .leave_open(Opening::Contradicted(format!("{full}, and scaled up to that it would fail ({instead})")));
+            outcome.leave_open(OpenReason::Contradicted(format!(
+                "{full}, and scaled up to that it would fail ({instead})"
+            )));
         } else if !within(may_be) {
-            outcome.leave_open(Opening::TooClose(format!(
+            outcome.leave_open(OpenReason::TooClose(format!(
                 "{full}: scaled up it would pass, but by less than the error of the simulation ({})",
                 seen.known_better()
             )));
@@ -98,9 +99,9 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         | Kind::LateralRopes
         | Kind::NetRopes
         | Kind::Stroke
-        | Kind::OnTheBase => {}
+        | Kind::BaseActions => {}
     }
-    let known = known_by_equations(outcome);
+    let context = known_by_equations(outcome);
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
         let full = outcome.demand_under(Route::Simulation, more * (1.0 + band)).unwrap_or(f64::NAN);
@@ -109,7 +110,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
     };
     // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them, whichever run it is.
     let band = match outcome.kind {
-        _ if known => seen.one_run,
+        _ if context => seen.one_run,
         Kind::Stroke => seen.stroke_band,
         _ => seen.force_band,
     };
@@ -214,7 +215,7 @@ mod tests {
         let rope = capped.iter_mut().find(|outcome| outcome.id == "rope_3_tension").expect("a check");
         rope.demand.simulation = Some(tension);
         rope.demand.cap = Some(tension);
-        leave_open(Known { design: &design, guideline: &guideline, seen: Some(pushing(first)) }, &mut capped);
+        leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(pushing(first)) }, &mut capped);
         let verdict = capped.iter().find(|outcome| outcome.id == "rope_3_tension").map(|outcome| outcome.verdict);
         // It holds, with less than a tenth to spare.
         assert_eq!(verdict, Some(CheckVerdict::Warn));
@@ -236,7 +237,7 @@ mod tests {
             outcome.demand.guideline = Some(share * capacity);
             outcome.demand.simulation = Some(simulated * capacity);
             outcome.verdict = CheckVerdict::Pass;
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == id).expect("it").verdict
         };
         assert_eq!(after("rope_3_tension", 0.8, 0.5), CheckVerdict::Pass);
@@ -258,7 +259,10 @@ mod tests {
                 crate::demand::Demand { simulation: Some(0.9 * net_holds(&design)), ..Default::default() };
             let demands = Demands::by_equations(&guideline, &design.factors).with(&other_ropes::NET, &[net_tension]);
             let mut outcomes = check_all(&design, &demands);
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(pushing(push)) }, &mut outcomes);
+            leave_open(
+                CheckContext { design: &design, guideline: &guideline, seen: Some(pushing(push)) },
+                &mut outcomes,
+            );
             let net = outcomes.into_iter().find(|outcome| outcome.id == "net_tension").expect("a check");
             net.open.expect("a reason").words().to_string()
         };
@@ -270,19 +274,19 @@ mod tests {
     /// equations where they tell more.
     #[test]
     fn what_is_there_without_the_flow_does_not_grow_with_it() {
-        use crate::checks::outcome::{CheckName, Growth, Resistance};
+        use crate::checks::outcome::{CheckName, LoadScaling, Resistance};
         use crate::demand::Demand;
         let used = |fixed: f64, kind: Kind, guideline: f64| {
             let demand = Demand { guideline: Some(guideline), simulation: Some(0.5), ..Demand::default() };
             let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
             let outcome =
                 Outcome::at_most(CheckName::new("x", "x", Unit::NewtonPerMetre, "x"), demand, resistance, 1.0);
-            let outcome = Outcome { growth: Growth::InProportion { fixed }, kind, ..outcome };
+            let outcome = Outcome { growth: LoadScaling::InProportion { fixed }, kind, ..outcome };
             used_under_more(&outcome, 2.0, FirstSurge::default()).map(|[used, _]| used)
         };
         assert_eq!(used(0.3, Kind::Any, 0.0), Some(0.7));
         assert_eq!(used(0.0, Kind::Any, 0.0), Some(1.0));
-        assert_eq!(used(0.0, Kind::OnTheBase, 0.6), Some(1.0));
-        assert_eq!(used(0.0, Kind::OnTheBase, 0.4), Some(1.0));
+        assert_eq!(used(0.0, Kind::BaseActions, 0.6), Some(1.0));
+        assert_eq!(used(0.0, Kind::BaseActions, 0.4), Some(1.0));
     }
 }

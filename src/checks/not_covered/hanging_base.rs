@@ -1,14 +1,14 @@
 //! The base of a wall that is less steep than the bed comes out of the ground downstream, unless it is founded deep enough below the face: what
 //! stands in the air bears nothing.
 
-use super::known::Known;
-use crate::checks::outcome::{Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{OpenReason, Outcome};
 use crate::design::BarrierDesign;
 
 /// How far the edge of a base may stand above the bed, over its width.
 const LEVELLED: f64 = 0.01;
 
-pub fn leave_open(Known { design, .. }: Known, outcomes: &mut [Outcome]) {
+pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return };
     let Some((stability, base_slope)) = wall.stability.and_then(|stability| Some((stability, stability.base_slope?)))
     else {
@@ -23,7 +23,7 @@ pub fn leave_open(Known { design, .. }: Known, outcomes: &mut [Outcome]) {
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         if matches!(outcome.id.as_str(), "wall_sliding" | "wall_overturning" | "wall_bearing" | "wall_eccentricity") {
-            outcome.leave_open(Opening::NotGiven(format!(
+            outcome.leave_open(OpenReason::NotGiven(format!(
                 "the base is less steep than the bed, and its downstream edge would stand {:.2} m above the ground (give barrier.rigid_wall.stability.founding_depth, {needed:.2} m or more, or a base as steep as the bed)",
                 needed - stability.founding_depth
             )));
@@ -51,7 +51,7 @@ mod tests {
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
             let outcome = outcomes.iter_mut().find(|outcome| outcome.id == "wall_sliding").expect("a check");
             (outcome.verdict, outcome.open) = (CheckVerdict::Pass, None);
-            leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "wall_sliding").expect("it").verdict
         };
         assert_eq!((verdict(1.68), verdict(1.67)), (CheckVerdict::Pass, CheckVerdict::Open));

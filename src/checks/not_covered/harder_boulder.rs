@@ -1,14 +1,14 @@
 //! A boulder in the simulation may hit a wall harder than the point load that the equations hold it against. The simulated demands share the hit
 //! over the whole wall, so it is asked again of the metres, or of the block, that take it.
 
-use super::known::Known;
+use super::context::CheckContext;
 use crate::checks::check_all;
-use crate::checks::outcome::{Opening, Outcome};
+use crate::checks::outcome::{OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::BarrierDesign;
 use crate::guideline::{guideline_for, point_load};
 
-pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outcome]) {
+pub fn leave_open(CheckContext { design, guideline, seen }: CheckContext, outcomes: &mut [Outcome]) {
     let (Some(seen), BarrierDesign::RigidWall(_)) = (seen, &design.barrier) else { return };
     let Some((force, height)) = point_load(design) else { return };
     // Asked so that what is not a number goes on.
@@ -22,7 +22,7 @@ pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outc
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let fails = then.iter().any(|then| then.id == outcome.id && outcome.would_fail(then));
         if fails || seen.boulder.is_nan() {
-            outcome.leave_open(Opening::Contradicted(format!(
+            outcome.leave_open(OpenReason::Contradicted(format!(
                 "in the simulation a boulder hits the wall with {:.0} kN, more than the point load of {:.0} kN, and under that it would fail (give loads.point_load, or more resistance)",
                 seen.boulder / 1e3,
                 force / 1e3
@@ -34,7 +34,7 @@ pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outc
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::not_covered::tests::verdict_after;
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;

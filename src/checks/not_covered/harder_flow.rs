@@ -2,11 +2,11 @@
 //! given: its velocity and depth, the K of its deposit, and the λ with which they push as hard as it does. Surges over a deposit, and the
 //! full barrier, are in the equations alone: with a λ that is too low for the first surge they are too low as well.
 
-use super::known::{FirstSurge, Known};
+use super::context::{CheckContext, FirstSurge};
 use crate::checks::check_all;
 use crate::checks::freeboard;
 use crate::checks::height::left_by_sag;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::Design;
@@ -14,8 +14,8 @@ use crate::guideline::{Guideline, earth_pressure_by_weight, filled, guideline_fo
 use crate::larger::larger_or_nan;
 use crate::loads::input::GuidelineInput;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let Known { design, guideline, seen } = known;
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let CheckContext { design, guideline, seen } = context;
     let harder = match seen {
         Some(seen) => inputs(design, guideline, &seen),
         None => without_a_simulation(design, guideline),
@@ -100,7 +100,7 @@ fn leave_open_with(design: &Design, guideline: &Guideline, harder: GuidelineInpu
         } else {
             continue;
         };
-        outcome.leave_open(Opening::Contradicted(format!("the flow {found}; with that, {why}")));
+        outcome.leave_open(OpenReason::Contradicted(format!("the flow {found}; with that, {why}")));
     }
 }
 
@@ -138,7 +138,7 @@ fn in_words(given: GuidelineInput, harder: GuidelineInput) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::not_covered::tests::small_net;
     use crate::checks::outcome::CheckVerdict;
     use crate::design::{BarrierDesign, Design};
@@ -163,7 +163,7 @@ mod tests {
         let verdict = |velocity: f64| {
             let mut outcomes = check_all(&design, &demands);
             let seen = FirstSurge { velocity, ..FirstSurge::default() };
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             let outcome = outcomes.into_iter().find(|outcome| outcome.kind == Kind::Level).expect("a check");
             assert_eq!(outcome.demand, demands.one(&run_up::LEVEL));
             outcome.verdict
@@ -179,7 +179,7 @@ mod tests {
         let at = |velocity: f64, earth_pressure: Option<f64>| {
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
             let seen = FirstSurge { velocity, earth_pressure, ..FirstSurge::default() };
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Open).count()
         };
         let given = guideline.input.velocity;
@@ -205,7 +205,7 @@ mod tests {
         let verdict = |times: f64| {
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
             let seen = FirstSurge { hardest_push: times * guideline.first_surge(), ..FirstSurge::default() };
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             let rope = outcomes.into_iter().find(|outcome| outcome.id == "rope_3_tension").expect("a check");
             (rope.verdict, rope.open.map_or(String::new(), |open| open.words().to_string()))
         };
@@ -229,7 +229,7 @@ mod tests {
         let told = |velocity: f64, earth_pressure: Option<f64>| {
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
             let seen = FirstSurge { velocity, earth_pressure, ..FirstSurge::default() };
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             let opened = outcomes.into_iter().filter_map(|outcome| outcome.open);
             opened.map(|open| open.words().to_string()).find(|words| words.contains("the flow "))
         };
@@ -245,7 +245,7 @@ mod tests {
         let deep = {
             let seen = FirstSurge { depth: 5.0 * given.depth, ..FirstSurge::default() };
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             let opened = outcomes.into_iter().filter_map(|outcome| outcome.open);
             opened.map(|open| open.words().to_string()).find(|words| words.contains("arrives")).expect("words")
         };
@@ -271,7 +271,7 @@ mod tests {
             let more = 1.1 * rope.demand.guideline.expect("a demand");
             rope.demand = Demand { simulation: Some(more), ..rope.demand };
             let seen = FirstSurge { velocity: 12.0, ..FirstSurge::default() };
-            leave_open(Known { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "rope_3_tension").expect("it").verdict
         };
         assert_eq!(verdict(&design), CheckVerdict::Open);
@@ -296,7 +296,7 @@ mod tests {
         let verdict = |depth: f64| {
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
             let seen = FirstSurge { depth, ..FirstSurge::default() };
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "total_force").expect("a check").verdict
         };
         assert_eq!(verdict(guideline.input.depth), CheckVerdict::Pass);

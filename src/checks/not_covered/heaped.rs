@@ -1,12 +1,12 @@
 //! How high the later surges of an event heap up against the barrier follows from how fast they come: what the simulation shows to be faster
 //! than the design says may go over it.
 
+use super::context::CheckContext;
 use super::harder_flow::arriving;
-use super::known::Known;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::guideline::{event_fill, height_over_bed};
 
-pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outcome]) {
+pub fn leave_open(CheckContext { design, guideline, seen }: CheckContext, outcomes: &mut [Outcome]) {
     let Some(seen) = seen.filter(|_| design.flow.is_part_of_its_event()) else { return };
     let faster = arriving(guideline.input, &seen);
     let heaped = event_fill(design, &faster).reach();
@@ -16,7 +16,7 @@ pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outc
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::MassHeld && outcome.holds()) {
-        outcome.leave_open(Opening::Contradicted(format!(
+        outcome.leave_open(OpenReason::Contradicted(format!(
             "the simulated flow arrives with {:.2} m/s (given: {:.2} m/s), and with that the last surge of the event may run up to {heaped:.1} m, from what the others leave, over the barrier's {:.1} m, so that what of the later surges is held is not known",
             faster.velocity,
             guideline.input.velocity,
@@ -29,7 +29,7 @@ pub fn leave_open(Known { design, guideline, seen }: Known, outcomes: &mut [Outc
 mod tests {
     use super::*;
     use crate::checks::check_all;
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::{Demand, Demands};
     use crate::design::read::read_design;
@@ -59,7 +59,7 @@ mod tests {
             let outcome = outcomes.iter_mut().find(|outcome| outcome.kind == Kind::MassHeld).expect("a check");
             (outcome.verdict, outcome.open) = (CheckVerdict::Pass, None);
             let seen = FirstSurge { velocity, ..FirstSurge::default() };
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.kind == Kind::MassHeld).expect("it").verdict
         };
         let given = guideline.input.velocity;

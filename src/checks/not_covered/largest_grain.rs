@@ -4,9 +4,9 @@
 //! described, by a block of one metre. A point load that the design gives stands for the stone if it is no smaller than that reduced hit; where
 //! the grains are not given, nobody can say whether it is.
 
-use super::known::Known;
+use super::context::CheckContext;
 use crate::checks::check_all;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
 use crate::guideline::{guideline_for, height_over_bed, hit_of_the_largest};
@@ -15,8 +15,8 @@ use crate::larger::larger_or_nan;
 /// Length of the block (m) that stands for one that nobody described: joints are no closer.
 const SHORTEST_BLOCK: f64 = 1.0;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let design = known.design;
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let design = context.design;
     if !matches!(design.barrier, BarrierDesign::RigidWall(_)) {
         return;
     }
@@ -28,14 +28,14 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
     let strength = match given {
         Some(_) => on_the_base,
         // The law of contacts with a soft modulus hits more gently than stone does.
-        None => larger_or_nan(hit(design, known.guideline.input.velocity), on_the_base),
+        None => larger_or_nan(hit(design, context.guideline.input.velocity), on_the_base),
     };
     let more_than_given =
         given.map_or(String::new(), |given| format!(", more than loads.point_load of {:.1} kN", given / 1e3));
-    let then = struck(known, strength);
+    let then = struck(context, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
-            outcome.leave_open(Opening::NotGiven(match strength.is_nan() {
+            outcome.leave_open(OpenReason::NotGiven(match strength.is_nan() {
                 true => unknown("break the metre of the wall that it hits", given),
                 false => format!(
                     "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN{more_than_given}, and that metre would not hold it ({}, or more resistance)",
@@ -49,13 +49,13 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         // They are the point load of the base already.
         return;
     }
-    let then = struck(known, on_the_base);
+    let then = struck(context, on_the_base);
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_the_base(outcome) && outcome.holds()) {
         let holds = then.iter().any(|then| then.id == outcome.id && !outcome.would_fail(then));
         if on_the_base.is_nan() {
-            outcome.leave_open(Opening::NotGiven(unknown("move the block of the wall that it hits", given)));
+            outcome.leave_open(OpenReason::NotGiven(unknown("move the block of the wall that it hits", given)));
         } else if !holds {
-            outcome.leave_open(Opening::NotGiven(format!(
+            outcome.leave_open(OpenReason::NotGiven(format!(
                 "the largest stone of the flow may hit the wall with {:.0} kN{more_than_given}, and {} would not hold it ({}, and barrier.rigid_wall.stability.block_length)",
                 on_the_base / 1e3,
                 if block_is_given(design) { "its block" } else { "a block of one metre" },
@@ -85,7 +85,7 @@ fn block_is_given(design: &Design) -> bool {
 }
 
 /// The checks of the wall where a stone hits it with a force (N) at the surface of the flow.
-fn struck(Known { design, guideline, .. }: Known, force: f64) -> Vec<Outcome> {
+fn struck(CheckContext { design, guideline, .. }: CheckContext, force: f64) -> Vec<Outcome> {
     let mut struck = design.clone();
     struck.loads.point_load = Some((force, guideline.input.depth.min(height_over_bed(design))));
     if let BarrierDesign::RigidWall(wall) = &mut struck.barrier
@@ -106,7 +106,7 @@ fn hit(design: &Design, velocity: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
@@ -135,7 +135,7 @@ mod tests {
             let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
             let outcome = outcomes.iter_mut().find(|outcome| outcome.id == "total_force").expect("a check");
             (outcome.verdict, outcome.open) = (CheckVerdict::Pass, None);
-            leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "total_force").expect("it").verdict
         };
         let strength = |design: &mut Design, factor: f64| {

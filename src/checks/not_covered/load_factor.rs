@@ -1,15 +1,15 @@
 //! A partial factor on loads that is not given is not 1.
 
-use super::known::Known;
-use crate::checks::outcome::{Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{OpenReason, Outcome};
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    if known.design.factors.load_given {
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    if context.design.factors.load_given {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.resistance.is_some() && outcome.utilisation.is_some()) {
         if outcome.holds() {
-            outcome.leave_open(Opening::NotGiven(
+            outcome.leave_open(OpenReason::NotGiven(
                 "no partial factor on loads is given (give factors.set, or factors.load: 1 if the design flow is a design value itself)".into(),
             ));
         }

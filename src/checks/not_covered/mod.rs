@@ -1,13 +1,13 @@
 //! Loads and courses of the event that neither the equations nor the simulation cover, one file each: checks that
 //! would pass without them stay open, whatever `limits.outside_range` says, because that lets formulas stand, not gaps.
 
+pub(crate) mod context;
 pub(crate) mod drag;
 pub(crate) mod full_barrier;
 pub(crate) mod hanging_base;
 pub(crate) mod harder_boulder;
 pub(crate) mod harder_flow;
 pub(crate) mod heaped;
-pub(crate) mod known;
 pub(crate) mod largest_grain;
 pub(crate) mod load_factor;
 pub(crate) mod not_simulated;
@@ -18,11 +18,11 @@ pub(crate) mod side_strips;
 pub(crate) mod soft_contacts;
 pub(crate) mod thinner_flow;
 
-use self::known::Known;
+use self::context::CheckContext;
 use crate::checks::outcome::Outcome;
 
 /// All rules. Of several that leave a check open the first one tells why.
-const RULES: &[fn(Known, &mut [Outcome])] = &[
+const RULES: &[fn(CheckContext, &mut [Outcome])] = &[
     full_barrier::leave_open,
     harder_flow::leave_open,
     harder_boulder::leave_open,
@@ -41,15 +41,15 @@ const RULES: &[fn(Known, &mut [Outcome])] = &[
 ];
 
 /// Leaves open what would hold only because something is not covered.
-pub fn leave_open_not_covered(known: Known, outcomes: &mut [Outcome]) {
-    RULES.iter().for_each(|rule| rule(known, outcomes));
+pub fn leave_open_not_covered(context: CheckContext, outcomes: &mut [Outcome]) {
+    RULES.iter().for_each(|rule| rule(context, outcomes));
 }
 
 #[cfg(test)]
 pub mod tests {
     use super::*;
     use crate::checks::check_all;
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::{Demands, Seen};
     use crate::design::Design;
@@ -81,10 +81,15 @@ pub mod tests {
     }
 
     /// The same after one rule alone.
-    pub fn verdict_after(rule: fn(Known, &mut [Outcome]), design: &Design, id: &str, seen: FirstSurge) -> CheckVerdict {
+    pub fn verdict_after(
+        rule: fn(CheckContext, &mut [Outcome]),
+        design: &Design,
+        id: &str,
+        seen: FirstSurge,
+    ) -> CheckVerdict {
         let guideline = guideline(design);
         let mut outcomes = check_all(design, &Demands::by_equations(&guideline, &design.factors));
-        rule(Known { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+        rule(CheckContext { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict
     }
 
@@ -93,7 +98,7 @@ pub mod tests {
     fn every_rule_of_this_folder_is_in_the_list() {
         let (source, _) = include_str!("mod.rs").split_once("#[cfg(test)]").expect("tests");
         let modules = source.lines().filter_map(|line| line.strip_prefix("pub(crate) mod ")?.strip_suffix(';'));
-        for module in modules.filter(|module| *module != "known") {
+        for module in modules.filter(|module| *module != "context") {
             assert!(source.contains(&format!("    {module}::leave_open,")), "{module}");
         }
     }
@@ -103,7 +108,7 @@ pub mod tests {
         let guideline = guideline(design);
         let packings = Seen { characteristic: vec![observed], ..Seen::default() };
         let mut outcomes = check_all(design, &Demands::meet(&guideline, &packings, &design.factors));
-        leave_open_not_covered(Known { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+        leave_open_not_covered(CheckContext { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict
     }
 

@@ -1,14 +1,14 @@
 //! What the simulation alone judges, or judges more severely than the equations, where the design asks for loads that it does not hold:
 //! later surges of a larger event, a boulder, wood, snow, a flow over the full barrier.
 
-use super::known::Known;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let (flow, loads) = (&known.design.flow, &known.design.loads);
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let (flow, loads) = (&context.design.flow, &context.design.loads);
     let several = flow.is_part_of_its_event().then_some("the later surges of the event");
     let weight = loads.self_weight.map(|_| "the weight of the net as given");
-    let of_cases = known.guideline.cases.iter().filter_map(|case| case.not_simulated);
+    let of_cases = context.guideline.cases.iter().filter_map(|case| case.not_simulated);
     let wood = loads.wood_factor.filter(|factor| *factor > 1.0).map(|_| "the wood in the flow");
     let missing: Vec<&str> = several.into_iter().chain(of_cases).chain(weight).chain(wood).collect();
     if missing.is_empty() {
@@ -21,7 +21,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
             && !outcome.governed_by_equations()
             && outcome.kind != Kind::MassHeld
         {
-            outcome.leave_open(Opening::NotGiven(format!(
+            outcome.leave_open(OpenReason::NotGiven(format!(
                 "the simulation governs it and covers {}; it does not contain {}",
                 match flow.surges() {
                     1 => "one surge on the empty barrier".to_string(),
@@ -84,7 +84,7 @@ mod tests {
             .with(&dissipator::TENSION, &[simulated(1.0)]);
         let before = check_all(&design, &demands);
         let mut after = before.clone();
-        leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut after);
+        leave_open(CheckContext { design: &design, guideline: &guideline, seen: None }, &mut after);
         let changed: Vec<&str> = before
             .iter()
             .zip(&after)
@@ -95,7 +95,7 @@ mod tests {
         // A tenth of a percent is rounding.
         design.flow.event_volume = 1.0005 * design.flow.volume();
         let mut same = before.clone();
-        leave_open(Known { design: &design, guideline: &guideline, seen: None }, &mut same);
+        leave_open(CheckContext { design: &design, guideline: &guideline, seen: None }, &mut same);
         assert_eq!(same, before);
     }
 }

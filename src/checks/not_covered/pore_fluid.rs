@@ -1,10 +1,10 @@
 //! A fluid in all pores presses with at least the share ρ_f/ρ of the whole once it is at rest. A flow that is said to have less has pores that
 //! are not full, or that widen as it moves, neither of which is simulated: its friction may be too high.
 
-use super::known::Known;
-use crate::checks::outcome::{Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{OpenReason, Outcome};
 
-pub fn leave_open(Known { design, seen, .. }: Known, outcomes: &mut [Outcome]) {
+pub fn leave_open(CheckContext { design, seen, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let Some(fluid) = design.flow.pore_fluid.filter(|_| seen.is_some()) else { return };
     let at_rest = fluid.density / design.flow.bulk_density;
     // Asked as "full", so that what is not a number is not; with room for the rounding of a ratio that is typed.
@@ -13,7 +13,7 @@ pub fn leave_open(Known { design, seen, .. }: Known, outcomes: &mut [Outcome]) {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.demand.simulation.is_some() && outcome.holds()) {
-        outcome.leave_open(Opening::Contradicted(format!(
+        outcome.leave_open(OpenReason::Contradicted(format!(
             "flow.pore_fluid.pressure_ratio is {:.2}, and a fluid that fills the pores has {at_rest:.2} at rest already, its density over that of the flow: the simulated flow has too much friction (give at least that ratio)",
             fluid.pressure_ratio
         )));
@@ -27,7 +27,7 @@ const ROUNDED: f64 = 0.0051;
 mod tests {
     use super::leave_open;
     use crate::checks::check_all;
-    use crate::checks::not_covered::known::Known;
+    use crate::checks::not_covered::context::CheckContext;
     use crate::checks::not_covered::tests::{net_holds, pushing, small_net};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::{Demand, Demands};
@@ -52,7 +52,7 @@ mod tests {
             let demands = Demands::default().with(&other_ropes::NET, &[pulled]);
             let mut outcomes = check_all(&design, &demands);
             let seen = Some(pushing(guideline.largest_force));
-            leave_open(Known { design: &design, guideline: &guideline, seen }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "net_tension").expect("a check").verdict
         };
         assert_eq!(verdict(None), CheckVerdict::Pass);

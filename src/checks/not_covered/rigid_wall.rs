@@ -1,7 +1,7 @@
 //! The guideline's pressures were measured on flexible barriers: alone, without a simulation, they say little of a rigid wall.
 
-use super::known::Known;
-use crate::checks::outcome::{Opening, Outcome, Route};
+use super::context::CheckContext;
+use crate::checks::outcome::{OpenReason, Outcome, Route};
 use crate::design::flow::RUN_IN;
 use crate::design::resolve::granular_front;
 use crate::design::{Arrival, BarrierDesign, Design};
@@ -19,12 +19,12 @@ fn hits_as_a_block(design: &Design) -> bool {
 /// rung of the equations in the ladder of models goes by it as well.
 pub const SIMULATIONS_REACH: f64 = 5.0;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    if known.seen.is_some() || !matches!(known.design.barrier, BarrierDesign::RigidWall(_)) {
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    if context.seen.is_some() || !matches!(context.design.barrier, BarrierDesign::RigidWall(_)) {
         return;
     }
     // Under a front that is made steeper than one of grains, or has no way to take shape, there is no such bound.
-    let bounded = !hits_as_a_block(known.design);
+    let bounded = !hits_as_a_block(context.design);
     let close = |outcome: &&mut Outcome| {
         // Asked as "enough to spare", so that what is not a number has none.
         let reached = outcome.demand_under(Route::Guideline, SIMULATIONS_REACH).zip(outcome.capacity);
@@ -32,7 +32,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         outcome.holds() && outcome.resistance.is_some() && outcome.rests_on_pressures && !spare
     };
     for outcome in outcomes.iter_mut().filter(close) {
-        outcome.leave_open(Opening::NeedsSimulation(format!(
+        outcome.leave_open(OpenReason::NeedsSimulation(format!(
             "the guideline's pressures were measured on flexible barriers, and a simulation may show up to {SIMULATIONS_REACH} times as much on a rigid wall (run the simulation)"
         )));
     }
@@ -56,7 +56,10 @@ mod tests {
         let outcome = outcomes.iter_mut().find(|outcome| outcome.id == id).expect("a check");
         outcome.demand.guideline = outcome.capacity.map(|capacity| used * capacity);
         (outcome.utilisation, outcome.verdict) = (Some(used), CheckVerdict::Pass);
-        leave_open(Known { design, guideline: &guideline, seen: simulated.then(|| pushing(1.0)) }, &mut outcomes);
+        leave_open(
+            CheckContext { design, guideline: &guideline, seen: simulated.then(|| pushing(1.0)) },
+            &mut outcomes,
+        );
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict
     }
 

@@ -1,12 +1,12 @@
 //! Short peaks of the force on a wall, and of its moment. What is judged is a mean over a window; a boulder that hits is shorter than that.
 //! Whether a wall follows so short a force is not known here: it holds it, or the check is open.
 
-use super::known::Known;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::quantities::quantity::Unit;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let Some(seen) = known.seen else { return };
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let Some(seen) = context.seen else { return };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
         let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
         let over =
@@ -15,13 +15,13 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         // Written so that a NaN counts as not within.
         let within = |value: f64| value <= capacity;
         if within(at_most) && !within(at_most * (1.0 + seen.force_band)) {
-            outcome.leave_open(Opening::TooClose(format!(
+            outcome.leave_open(OpenReason::TooClose(format!(
                 "the largest single sample is {:.0} % of what the wall holds, and other runs may show larger ones ({})",
                 100.0 * at_most / capacity,
                 seen.known_better()
             )));
         } else if !within(at_most) {
-            outcome.leave_open(Opening::NotGiven(format!(
+            outcome.leave_open(OpenReason::NotGiven(format!(
                 "what is judged is a mean over a short time, and the largest single sample is {:.0} % of what the wall holds (give it more resistance)",
                 100.0 * at_most / capacity
             )));
@@ -31,7 +31,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
 
 #[cfg(test)]
 mod tests {
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::not_covered::tests::{pushing, simulated_verdict};
     use crate::checks::outcome::CheckVerdict;
     use crate::design::BarrierDesign;

@@ -1,18 +1,18 @@
 //! Strips of net along the side walls change what is held and what is loaded, by a force that wall and deposit hold them with: what the
 //! simulation shows with a default that nobody vouches for is open.
 
-use super::known::Known;
-use crate::checks::outcome::{Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{OpenReason, Outcome};
 use crate::design::BarrierDesign;
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let BarrierDesign::FlexibleNet(net) = &known.design.barrier else { return };
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let BarrierDesign::FlexibleNet(net) = &context.design.barrier else { return };
     if net.side_extension.is_none_or(|extension| extension.holding_force_given) {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.demand.simulation.is_some()) {
         if outcome.holds() {
-            outcome.leave_open(Opening::NotGiven(
+            outcome.leave_open(OpenReason::NotGiven(
                 "the simulation holds the strips along the side walls with a force that the design does not give (barrier.flexible_net.side_extension.holding_force)".into(),
             ));
         }

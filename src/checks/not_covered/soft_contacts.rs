@@ -4,14 +4,14 @@
 //! ropes and anchors 0.8 to 1.1 times (95 % fractiles over four packings each). That is at most the fourth root of the ratio of the moduli, 2.1, which is asked
 //! for here; of an elastic hit on something that does not give it would be the square root.
 
-use super::known::Known;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use super::context::CheckContext;
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::design::BarrierDesign;
 
 /// Contact modulus (Pa) from which harder grains are not asked for: beyond it the net gives, not the grain.
 const STIFF: f64 = 1e9;
 
-pub fn leave_open(Known { design, .. }: Known, outcomes: &mut [Outcome]) {
+pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let BarrierDesign::FlexibleNet(_) = &design.barrier else { return };
     let softer = STIFF / design.flow.modulus;
     // Asked so that what is not a number goes on.
@@ -27,7 +27,7 @@ pub fn leave_open(Known { design, .. }: Known, outcomes: &mut [Outcome]) {
         // Asked so that what is not a number is not within.
         let within = simulated * harder <= capacity;
         if !within {
-            outcome.leave_open(Opening::Contradicted(format!(
+            outcome.leave_open(OpenReason::Contradicted(format!(
                 "the grains are softer than stone, and harder ones may load it {harder:.2} times as much, which it would not hold (give flow.contact_modulus: 1 GPa, or more resistance)"
             )));
         }

@@ -1,12 +1,12 @@
 //! A simulated surge that arrives with less momentum than the design says, as one does that draws out on its way: what the simulation governs
 //! must hold in proportion to the momentum that was asked for, and the mass held by its square.
 
+use super::context::CheckContext;
 use super::full_barrier::used_under_more;
-use super::known::Known;
-use crate::checks::outcome::{Kind, Opening, Outcome};
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
 
-pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
-    let Some(seen) = known.seen else { return };
+pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
+    let Some(seen) = context.seen else { return };
     let more = 1.0 / seen.flux_share;
     if more <= 1.0 {
         return;
@@ -20,7 +20,7 @@ pub fn leave_open(known: Known, outcomes: &mut [Outcome]) {
         // Written so that a NaN counts as not within.
         let within = used <= 1.0;
         if !within {
-            outcome.leave_open(Opening::Contradicted(format!(
+            outcome.leave_open(OpenReason::Contradicted(format!(
                 "the simulated flow arrives with {:.0} % of the momentum flux h v² that the design gives it, and with the whole of it this would not hold (release it so that it arrives as it should: a shorter flow.arrival.surge.run_in, a larger depth)",
                 100.0 * seen.flux_share
             )));
@@ -40,7 +40,7 @@ fn lost_of_what_may_be(outcome: &Outcome, more: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::checks::check_all;
-    use crate::checks::not_covered::known::FirstSurge;
+    use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::not_covered::tests::{net_holds, pushing, small_net};
     use crate::checks::outcome::CheckVerdict;
     use crate::demand::{Demand, Demands};
@@ -57,7 +57,7 @@ mod tests {
         let verdict = |flux_share: f64| {
             let seen = FirstSurge { flux_share, ..pushing(guideline.largest_force) };
             let mut outcomes = check_all(&design, &demands);
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "net_tension").expect("a check").verdict
         };
         assert_eq!(verdict(1.0), CheckVerdict::Pass);
@@ -78,7 +78,7 @@ mod tests {
         let verdict = |flux_share: f64| {
             let seen = FirstSurge { flux_share, ..pushing(guideline.largest_force) };
             let mut outcomes = check_all(&design, &demands);
-            leave_open(Known { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
             outcomes.iter().find(|outcome| outcome.id == "retained_mass").expect("a check").verdict
         };
         assert_eq!((verdict(0.95), verdict(0.85)), (CheckVerdict::Pass, CheckVerdict::Open));

@@ -2,13 +2,13 @@
 //! and read their reports.
 
 mod answer;
-mod chosen;
+mod design_folder;
 mod guard;
-mod look;
 mod page;
+mod preview;
 mod requests;
 mod runs;
-mod served;
+mod state;
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -27,10 +27,10 @@ use crate::commands::signals::{listen, stop};
 use crate::commands::{ExitCode, Failure};
 use crate::terminal;
 
-use self::chosen::Chosen;
+use self::design_folder::Chosen;
 use self::guard::Guard;
 use self::runs::Runs;
-use self::served::Served;
+use self::state::Served;
 
 /// How the page is served.
 #[derive(Clone, Debug)]
@@ -92,17 +92,17 @@ fn run(options: &Options) -> Result<(), Failure> {
             terminal::warn("note: no browser could be opened: open the address above");
         }
         let runs = Runs::new(chosen.root());
-        let served = Arc::new(Served { chosen, runs });
+        let state = Arc::new(Served { chosen, runs });
         let asked_to_end = async {
             while !stop().load(Ordering::Relaxed) {
                 tokio::time::sleep(LOOK_EVERY).await;
             }
         };
         tokio::select! {
-            served = serve_router(listener, router(Arc::clone(&served), guard)).into_future() => served?,
+            state = serve_router(listener, router(Arc::clone(&state), guard)).into_future() => state?,
             () = asked_to_end => {}
         }
-        served.runs.stop_all(LAST_WAIT);
+        state.runs.stop_all(LAST_WAIT);
         Ok(())
     })
 }
@@ -115,7 +115,7 @@ fn opened(folder: &Path, address: &str) -> bool {
     std::fs::write(&page, leads).is_ok() && open::that_detached(&page).is_ok()
 }
 
-fn router(served: Arc<Served>, guard: Guard) -> Router {
+fn router(state: Arc<Served>, guard: Guard) -> Router {
     let router = Router::new()
         .route("/", get(page::index))
         .route("/page/{name}", get(page::asset))
@@ -134,5 +134,5 @@ fn router(served: Arc<Served>, guard: Guard) -> Router {
         .layer(DefaultBodyLimit::max(2 * LONGEST_TEXT as usize))
         .layer(from_fn_with_state(Arc::new(guard), guard::admit))
         .layer(from_fn(guard::harden))
-        .with_state(served)
+        .with_state(state)
 }

@@ -13,11 +13,11 @@ use serde_json::{Value, json};
 use tokio::task::spawn_blocking;
 
 use super::answer::Refused;
-use super::chosen::Written;
+use super::design_folder::Written;
 use super::guard::REPORT_POLICY;
-use super::look::{Look, look as look_at};
+use super::preview::{Look, look as look_at};
 use super::runs::How;
-use super::served::Served;
+use super::state::Served;
 use crate::commands::check::MOST_STARTS;
 use crate::commands::schema::SchemaOf;
 use crate::explain;

@@ -1,10 +1,10 @@
 //! The full barrier once its deposit has drained: a smaller K and density, both given by the designer.
 
 use crate::loads::cases::full;
-use crate::loads::cases::load_case::{Certainty, Extras, LoadCase};
+use crate::loads::cases::load_case::{AdditionalActions, Certainty, LoadCase};
 use crate::loads::input::GuidelineInput;
 
-pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
+pub fn case(input: &GuidelineInput, extras: &AdditionalActions) -> Option<LoadCase> {
     let [earth_pressure, density] = extras.drained?;
     let drained = full::case(&GuidelineInput { earth_pressure, density, ..*input });
     Some(LoadCase {

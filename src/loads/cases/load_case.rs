@@ -71,7 +71,7 @@ pub struct LoadCase {
 /// What a wall that stands by its weight takes, per width: the load along the bed that it must not slide under and the one that pushes and
 /// presses it (N/m), and the moment about the foot of its face (N m/m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct OnTheBase {
+pub struct BaseActions {
     pub slides: f64,
     pub pushes: f64,
     pub tips: f64,
@@ -146,14 +146,14 @@ impl LoadCase {
     /// end: with the resistance r of each metre and what else pushes it, q, upper-bound analysis gives
     /// P x = (r − q) x²/2 + (r + q) (L − x)²/2, which is no less than (r − q) (x² + (L − x)²)/2. That is least for P at x = L/√2, where
     /// r = q + P/((√2 − 1) L).
-    pub fn on_the_base(&self, block: Option<f64>, width: f64, height: f64, lean: f64) -> OnTheBase {
+    pub fn on_the_base(&self, block: Option<f64>, width: f64, height: f64, lean: f64) -> BaseActions {
         let Some(block) = block else {
             let force = self.metre_force(width, height);
-            return OnTheBase { slides: force, pushes: force, tips: self.foot_moment(width, lean) };
+            return BaseActions { slides: force, pushes: force, tips: self.foot_moment(width, lean) };
         };
         let length = block.min(width);
         let shared = |length: f64| self.force_per_width() + self.point.map_or(0.0, |point| point.force / length);
-        OnTheBase {
+        BaseActions {
             slides: shared((std::f64::consts::SQRT_2 - 1.0) * length),
             pushes: shared(length),
             tips: self.face_moment(length, lean),
@@ -173,7 +173,7 @@ impl LoadCase {
 
 /// What the designer gives beside the flow; every part is left out unless it is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Extras {
+pub struct AdditionalActions {
     /// Depth of the flow over the full barrier h_o (m); that of the surge unless given.
     pub overflow_depth: Option<f64>,
     /// tan φ of the drag on the barrier's top, and the length on which it acts (m).

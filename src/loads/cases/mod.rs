@@ -12,14 +12,14 @@ pub(crate) mod point_load;
 pub(crate) mod snow;
 pub(crate) mod working;
 
-use self::load_case::{Extras, LoadCase};
+use self::load_case::{AdditionalActions, LoadCase};
 use crate::loads::input::GuidelineInput;
 
 /// Depths of deposit tried between the empty and the full barrier.
 const STAGES: usize = 50;
 
 /// The cases that the report tells: empty, last surge, full, and what else the design asks for.
-pub fn all(input: &GuidelineInput, extras: &Extras) -> Vec<LoadCase> {
+pub fn all(input: &GuidelineInput, extras: &AdditionalActions) -> Vec<LoadCase> {
     let mut cases = vec![first_surge::case(input), later_surge::last(input), full::case(input)];
     cases.extend(overtopped::case(input, extras));
     cases.extend(drained::case(input, extras));
@@ -30,7 +30,7 @@ pub fn all(input: &GuidelineInput, extras: &Extras) -> Vec<LoadCase> {
 
 /// Those cases, and the surge over every depth of deposit between: the envelope that each component is held against. A point
 /// load comes with every surge.
-pub fn envelope(input: &GuidelineInput, extras: &Extras) -> Vec<LoadCase> {
+pub fn envelope(input: &GuidelineInput, extras: &AdditionalActions) -> Vec<LoadCase> {
     let room = input.fill_height - input.moving_depth();
     let stages = (1..STAGES).map(|stage| later_surge::case(input, room * stage as f64 / STAGES as f64));
     let cases = all(input, extras).into_iter().chain(stages).filter(|case| case.certainty.decides());
@@ -81,21 +81,21 @@ pub mod tests {
     fn the_envelope_reaches_every_strip_with_the_moving_flow() {
         // In the middle of a barrier 4 m high a flow 1 m deep gives at least λρv² over a strip of 1 m.
         let largest = |low, high| {
-            let stages = envelope(&input(), &Extras::default());
+            let stages = envelope(&input(), &AdditionalActions::default());
             stages.iter().map(|case| case.strip_force(low, high)).fold(0.0, f64::max)
         };
         assert!(largest(1.5, 2.5) > input().impact_pressure());
-        for case in all(&input(), &Extras::default()) {
+        for case in all(&input(), &AdditionalActions::default()) {
             assert!(largest(1.0, 2.0) >= case.strip_force(1.0, 2.0));
         }
     }
 
     #[test]
     fn what_is_known_from_memory_alone_never_enters_a_resultant() {
-        let case = overtopped::case(&input(), &Extras::default()).unwrap();
+        let case = overtopped::case(&input(), &AdditionalActions::default()).unwrap();
         assert!(case.shear > 0.0);
         assert_relative_eq!(case.force_per_width(), case.diagram.force(0.0, 4.0));
-        let given = Extras { overflow_drag: Some([0.5, 2.0]), ..Extras::default() };
+        let given = AdditionalActions { overflow_drag: Some([0.5, 2.0]), ..AdditionalActions::default() };
         let case = overtopped::case(&input(), &given).unwrap();
         assert_relative_eq!(case.force_per_width(), case.diagram.force(0.0, 4.0) + case.shear);
     }
@@ -112,7 +112,7 @@ pub mod tests {
     #[test]
     fn a_boulder_comes_with_every_surge() {
         let point = PointLoad { force: 1e5, height: 2.0 };
-        let extras = Extras { point: Some(point), ..Extras::default() };
+        let extras = AdditionalActions { point: Some(point), ..AdditionalActions::default() };
         for case in envelope(&input(), &extras) {
             assert_eq!(case.point.is_some(), case.moving > 0.0, "{}", case.id);
         }
@@ -137,7 +137,7 @@ pub mod tests {
         fn more_flow_never_loads_less(depth in 0.1..3.0_f64, velocity in 0.1..12.0_f64, density in 1000.0..2400.0_f64, more in 1.0..1.5_f64) {
             let small = GuidelineInput { depth, velocity, density, ..input() };
             let largest = |input: &GuidelineInput| {
-                envelope(input, &Extras::default()).iter().map(LoadCase::force_per_width).fold(0.0, f64::max)
+                envelope(input, &AdditionalActions::default()).iter().map(LoadCase::force_per_width).fold(0.0, f64::max)
             };
             for grown in [
                 GuidelineInput { velocity: velocity * more, ..small },
@@ -153,7 +153,7 @@ pub mod tests {
     #[test]
     fn a_case_tells_its_pressure_at_the_bed_and_the_moment_of_its_drag() {
         assert_relative_eq!(later_surge::last(&input()).pressure_static(), 73.747e3, max_relative = 1e-4);
-        let given = Extras { overflow_drag: Some([0.5, 2.0]), ..Extras::default() };
+        let given = AdditionalActions { overflow_drag: Some([0.5, 2.0]), ..AdditionalActions::default() };
         let case = overtopped::case(&input(), &given).unwrap();
         assert!(case.shear > 0.0);
         let moment = case.diagram.moment(0.0, 4.0) + 4.0 * case.shear;

@@ -4,7 +4,7 @@
 //! usual friction and the depth h_o as length show its size.
 
 use crate::loads::cases::full;
-use crate::loads::cases::load_case::{Certainty, Extras, LoadCase};
+use crate::loads::cases::load_case::{AdditionalActions, Certainty, LoadCase};
 use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
@@ -13,7 +13,7 @@ use crate::loads::pressure::Diagram;
 pub const DEFAULT_FRICTION: f64 = 0.4663;
 
 /// Nothing where the design flow does not fill the barrier.
-pub fn case(input: &GuidelineInput, extras: &Extras) -> Option<LoadCase> {
+pub fn case(input: &GuidelineInput, extras: &AdditionalActions) -> Option<LoadCase> {
     let height = input.barrier_height;
     let depth = extras.overflow_depth.unwrap_or(input.depth);
     let weight = input.density * input.gravity_normal * depth;
@@ -45,9 +45,9 @@ mod tests {
 
     #[test]
     fn the_overflow_adds_its_depth_all_the_way_down() {
-        let case = case(&input(), &Extras::default()).unwrap();
+        let case = case(&input(), &AdditionalActions::default()).unwrap();
         let expected = 0.5 * input().unit_pressure() * (16.0 + 2.0 * 4.0 * 1.0);
         assert_relative_eq!(case.force_per_width(), expected, max_relative = 1e-12);
-        assert!(super::case(&GuidelineInput { fill_height: 3.0, ..input() }, &Extras::default()).is_none());
+        assert!(super::case(&GuidelineInput { fill_height: 3.0, ..input() }, &AdditionalActions::default()).is_none());
     }
 }

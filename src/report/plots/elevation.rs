@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use dem::Vec3;
 use dem::elements::segment::SegmentKind;
-use dem::recorders::snapshots::{Snapshot, Strand};
+use dem::recorders::snapshots::{AxialMember, Snapshot};
 
 const WIDTH: f64 = 720.0;
 const MARGIN: f64 = 8.0;
@@ -18,22 +18,22 @@ pub const CLASSES: [f64; 6] = [0.05, 0.25, 0.5, 0.75, 1.0, f64::INFINITY];
 
 /// SVG of the barrier, which hangs from one place across the channel to another (m); `resistance` gives the design resistance of a part (N).
 pub fn elevation(snapshot: &Snapshot, [from, to]: [f64; 2], resistance: impl Fn(SegmentKind) -> f64) -> String {
-    let points = || snapshot.strands.iter().flat_map(|strand| strand.ends);
+    let points = || snapshot.axial_members.iter().flat_map(|member| member.ends);
     let highest = points().map(|place| place.z).fold(0.0, f64::max);
     let lowest = points().map(|place| place.z).fold(0.0, f64::min);
     let scale = (WIDTH - 2.0 * MARGIN) / (to - from);
     let height = (highest - lowest) * scale + 2.0 * MARGIN + FOOT;
     let screen = |place: &Vec3| (MARGIN + (to - place.y) * scale, MARGIN + (highest - place.z) * scale);
-    let class = |strand: &Strand| {
+    let class = |member: &AxialMember| {
         // A post is pressed.
-        let used = strand.tension.abs() / resistance(strand.kind);
+        let used = member.tension.abs() / resistance(member.kind);
         CLASSES.iter().position(|limit| used <= *limit).unwrap_or(CLASSES.len() - 1)
     };
     let mut paths = vec![[String::new(), String::new()]; CLASSES.len()];
-    for strand in &snapshot.strands {
-        let [(x1, y1), (x2, y2)] = [screen(&strand.ends[0]), screen(&strand.ends[1])];
-        let thick = usize::from(!matches!(strand.kind, SegmentKind::Net | SegmentKind::Ring));
-        let _ = write!(paths[class(strand)][thick], "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
+    for member in &snapshot.axial_members {
+        let [(x1, y1), (x2, y2)] = [screen(&member.ends[0]), screen(&member.ends[1])];
+        let thick = usize::from(!matches!(member.kind, SegmentKind::Net | SegmentKind::Ring));
+        let _ = write!(paths[class(member)][thick], "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
     }
     let mut svg = format!(
         "<svg viewBox=\"0 0 {WIDTH} {height:.0}\" role=\"img\" aria-label=\"barrier from upstream, coloured by utilisation\">"
@@ -58,9 +58,9 @@ pub fn elevation(snapshot: &Snapshot, [from, to]: [f64; 2], resistance: impl Fn(
 /// The left end of each main rope, where its number is written.
 fn rope_ends(snapshot: &Snapshot) -> BTreeMap<u16, Vec3> {
     let mut ends: BTreeMap<u16, Vec3> = BTreeMap::new();
-    for strand in &snapshot.strands {
-        if let SegmentKind::Main(rope) = strand.kind {
-            let outer = strand.ends.into_iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap_or(strand.ends[0]);
+    for member in &snapshot.axial_members {
+        if let SegmentKind::Main(rope) = member.kind {
+            let outer = member.ends.into_iter().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap_or(member.ends[0]);
             let known = ends.entry(rope).or_insert(outer);
             if outer.y > known.y {
                 *known = outer;

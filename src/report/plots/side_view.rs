@@ -81,10 +81,10 @@ pub fn side_view(snapshot: &Snapshot, setting: &Setting) -> String {
     for (class, group) in groups.iter().enumerate() {
         let _ = write!(svg, "<g class=\"v{class}\">{group}</g>");
     }
-    let near = |strand: &&dem::recorders::snapshots::Strand| within(&strand.ends[0], 2.0 * SLICE);
+    let near = |member: &&dem::recorders::snapshots::AxialMember| within(&member.ends[0], 2.0 * SLICE);
     let mut path = String::new();
-    for strand in snapshot.strands.iter().filter(near) {
-        let [(x1, y1), (x2, y2)] = [screen(&strand.ends[0]), screen(&strand.ends[1])];
+    for member in snapshot.axial_members.iter().filter(near) {
+        let [(x1, y1), (x2, y2)] = [screen(&member.ends[0]), screen(&member.ends[1])];
         let _ = write!(path, "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
     }
     let _ = write!(

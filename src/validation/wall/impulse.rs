@@ -1,6 +1,6 @@
 //! C1, C2 and C13: what the forces on a wall must add up to.
 
-use crate::loads::cases::load_case::Extras;
+use crate::loads::cases::load_case::AdditionalActions;
 use crate::loads::cases::{all, split};
 use crate::loads::input::GuidelineInput;
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
@@ -129,7 +129,7 @@ fn identity() -> Result<Vec<Finding>, Broken> {
             fill_height: 4.0,
             barrier_height: 4.2,
         };
-        for case in all(&input, &Extras::default()) {
+        for case in all(&input, &AdditionalActions::default()) {
             let (first, second) = split(&input, &case);
             worst = worst.max((first + second - case.force_per_width()).abs() / case.force_per_width());
         }

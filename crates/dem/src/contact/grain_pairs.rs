@@ -1,7 +1,7 @@
 //! Contacts between grains: gather, apply the law to a batch, scatter.
 //!
 //! A block of grains owns the pairs whose first member it holds. Pairs inside the block load both grains; for pairs
-//! across its border the load of the other grain goes to an outbox, which the other block empties in a fixed order. So no
+//! across its border the load of the other grain is left with the loads that this block has for others, which the other block takes in a fixed order. So no
 //! two blocks ever write the same row and the result does not depend on how many threads run.
 
 use std::ops::Range;
@@ -11,7 +11,7 @@ use crate::contact::lane_sums::LaneSums;
 use crate::contact::law::{Response, respond};
 use crate::contact::pair_list::{EightPairs, PairList, Separation};
 use crate::ledger::ContactSums;
-use crate::neighbours::blocks::{Letter, Outbox};
+use crate::neighbours::blocks::{OutgoingLoads, RemoteLoad};
 use crate::neighbours::clocks::Clock;
 use crate::simd::eight::{Eight, Row, each_lane};
 use crate::simd::real::{add_scaled, dot, minus};
@@ -40,15 +40,15 @@ pub fn load_inner<'b>(
     load(list, context, loads, range.start, prefetcher, Here(range.start))
 }
 
-/// Loads the first grain of every touching pair across the block's border, and posts the load of the second.
+/// Loads the first grain of every touching pair across the block's border, and leaves the load of the second to its own block.
 pub fn load_border(
     list: &mut PairList,
     context: &PairContext,
     range: &Range<usize>,
     loads: &mut [GrainLoad],
-    outbox: &mut Outbox,
+    outgoing: &mut OutgoingLoads,
 ) -> ContactSums {
-    load(list, context, loads, range.start, &mut Prefetcher::none(context.grains), outbox)
+    load(list, context, loads, range.start, &mut Prefetcher::none(context.grains), outgoing)
 }
 
 fn load<'b>(
@@ -80,13 +80,13 @@ impl Target for Here {
     }
 }
 
-impl Target for &mut Outbox {
+impl Target for &mut OutgoingLoads {
     #[inline(always)]
     fn take<R: Row>(&mut self, _: &mut [GrainLoad], row: usize, force: R, torque: R) {
-        let mut letter = Letter { row: row as u32, ..Letter::default() };
-        force.store(&mut letter.force);
-        torque.store(&mut letter.torque);
-        self.post(letter);
+        let mut load = RemoteLoad { row: row as u32, ..RemoteLoad::default() };
+        force.store(&mut load.force);
+        torque.store(&mut load.torque);
+        self.push(load);
     }
 }
 

@@ -142,7 +142,7 @@ impl LawConstants {
     }
 
     /// The law in each of so many parts of a step.
-    pub fn parted(self, parts: u32) -> Self {
+    pub fn of_substep(self, parts: u32) -> Self {
         Self { time_step: self.time_step / f64::from(parts), ..self }
     }
 

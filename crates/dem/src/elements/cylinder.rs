@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use crate::Vec3;
+use crate::elements::segment::AxialMember;
 use crate::elements::segment::SegmentKind;
-use crate::elements::segment::Strand;
 use crate::elements::strength::Strength;
 use crate::simd::eight::{Eight, LANES, Row, each_lane, joined, parted};
 use crate::simd::quad::Quad;
@@ -84,8 +84,8 @@ pub struct Strain<R = f64> {
 }
 
 impl Cylinder {
-    pub fn strand(&self) -> Strand {
-        Strand { nodes: self.nodes, kind: self.kind, rest_length: Some(self.rest_length) }
+    pub fn member(&self) -> AxialMember {
+        AxialMember { nodes: self.nodes, kind: self.kind, rest_length: Some(self.rest_length) }
     }
 
     /// A cylinder that is at rest as its nodes lie and are turned now.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
 use crate::elements::segment::SegmentKind;
-use crate::elements::segment::{Strand, Taut};
+use crate::elements::segment::{AxialMember, SpringLink};
 use crate::elements::yield_curve::YieldCurve;
 use crate::tables::nodes::Node;
 
@@ -49,12 +49,12 @@ pub struct Pull {
 }
 
 impl Dissipator {
-    pub fn strand(&self) -> Strand {
-        Strand { nodes: self.nodes, kind: self.kind, rest_length: None }
+    pub fn member(&self) -> AxialMember {
+        AxialMember { nodes: self.nodes, kind: self.kind, rest_length: None }
     }
 
-    pub fn taut(&self) -> Taut {
-        Taut { nodes: self.nodes, stiffness: self.stiffness, damping: 0.0, slack: self.rest_length + self.used }
+    pub fn taut(&self) -> SpringLink {
+        SpringLink { nodes: self.nodes, stiffness: self.stiffness, damping: 0.0, slack: self.rest_length + self.used }
     }
 
     /// Stretches the dissipator to the present place of its nodes.

@@ -16,7 +16,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::elements::segment::{SegmentKind, Strand, Taut};
+use crate::elements::segment::{AxialMember, SegmentKind, SpringLink};
 use crate::tables::nodes::Node;
 
 /// Most contacts of a ring, with those along an edge to which it was cut.
@@ -101,8 +101,8 @@ impl NetRing {
         (0..count).map(move |contact| [self.nodes[contact], self.nodes[contact + count]])
     }
 
-    pub fn strands(&self) -> impl Iterator<Item = Strand> {
-        self.sides().map(|nodes| Strand { nodes, kind: SegmentKind::Net, rest_length: None })
+    pub fn axial_members(&self) -> impl Iterator<Item = AxialMember> {
+        self.sides().map(|nodes| AxialMember { nodes, kind: SegmentKind::Net, rest_length: None })
     }
 
     /// Way round all contacts (m).
@@ -112,8 +112,8 @@ impl NetRing {
     }
 
     /// Springs of bending, between opposite contacts.
-    pub fn springs(&self) -> impl Iterator<Item = Taut> + '_ {
-        self.diagonals().map(|nodes| Taut { nodes, stiffness: self.bending, damping: 0.0, slack: self.diameter })
+    pub fn springs(&self) -> impl Iterator<Item = SpringLink> + '_ {
+        self.diagonals().map(|nodes| SpringLink { nodes, stiffness: self.bending, damping: 0.0, slack: self.diameter })
     }
 
     /// The one spring of a taut ring, by which the way round it grows; nothing where it is slack.

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
-use crate::elements::segment::{SegmentKind, Strand, Taut};
+use crate::elements::segment::{AxialMember, SegmentKind, SpringLink};
 use crate::tables::nodes::Node;
 
 /// Share of a post's mass that is put on its head, and share whose weight pulls there besides.
@@ -49,14 +49,14 @@ pub struct Push {
 }
 
 impl Post {
-    pub fn strand(&self) -> Strand {
-        Strand { nodes: self.nodes, kind: SegmentKind::Post(self.number), rest_length: Some(self.rest_length) }
+    pub fn member(&self) -> AxialMember {
+        AxialMember { nodes: self.nodes, kind: SegmentKind::Post(self.number), rest_length: Some(self.rest_length) }
     }
 
     /// As a spring that never goes slack.
-    pub fn taut(&self, nodes: &[Node]) -> Taut {
+    pub fn taut(&self, nodes: &[Node]) -> SpringLink {
         let [foot, head] = self.nodes.map(|node| nodes[node as usize].position);
-        Taut { nodes: self.nodes, stiffness: self.stiffness, damping: self.damping, slack: (head - foot).norm() }
+        SpringLink { nodes: self.nodes, stiffness: self.stiffness, damping: self.damping, slack: (head - foot).norm() }
     }
 
     /// What the post does after a step of length `step` (s).

@@ -28,12 +28,12 @@ impl Segment {
         self.rest_length = rest_length;
     }
 
-    pub fn strand(&self) -> Strand {
-        Strand { nodes: self.nodes, kind: self.kind, rest_length: Some(self.rest_length) }
+    pub fn member(&self) -> AxialMember {
+        AxialMember { nodes: self.nodes, kind: self.kind, rest_length: Some(self.rest_length) }
     }
 
-    pub fn taut(&self) -> Taut {
-        Taut { nodes: self.nodes, stiffness: self.stiffness, damping: self.damping, slack: self.rest_length }
+    pub fn taut(&self) -> SpringLink {
+        SpringLink { nodes: self.nodes, stiffness: self.stiffness, damping: self.damping, slack: self.rest_length }
     }
 
     /// Lets the segment break: it pulls no more.
@@ -59,7 +59,7 @@ pub enum SegmentKind {
 
 /// What pulls on two nodes, as it is recorded and shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Strand {
+pub struct AxialMember {
     pub nodes: [u32; 2],
     pub kind: SegmentKind,
     /// Unloaded length of a piece of rope or a post (m); nothing for a dissipator, which is no part of its rope.
@@ -68,7 +68,7 @@ pub struct Strand {
 
 /// A spring between two nodes, and the length up to which it is slack, as the stable step depends on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taut {
+pub struct SpringLink {
     pub nodes: [u32; 2],
     /// N/m
     pub stiffness: f64,

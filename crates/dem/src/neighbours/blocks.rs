@@ -42,7 +42,7 @@ pub struct Block {
 
 /// A load for a grain of another block.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Letter {
+pub struct RemoteLoad {
     /// Row of the grain.
     pub row: u32,
     /// N
@@ -53,9 +53,9 @@ pub struct Letter {
 
 /// Loads that one block has for grains of others, by block.
 #[derive(Debug, Default)]
-pub struct Outbox {
+pub struct OutgoingLoads {
     block_size: usize,
-    post: Vec<Vec<Letter>>,
+    by_block: Vec<Vec<RemoteLoad>>,
 }
 
 impl Block {
@@ -69,19 +69,19 @@ impl Block {
     }
 }
 
-impl Outbox {
+impl OutgoingLoads {
     #[inline(always)]
-    pub fn post(&mut self, letter: Letter) {
-        self.post[letter.row as usize / self.block_size].push(letter);
+    pub fn push(&mut self, load: RemoteLoad) {
+        self.by_block[load.row as usize / self.block_size].push(load);
     }
 
     pub fn clear(&mut self) {
-        self.post.iter_mut().for_each(Vec::clear);
+        self.by_block.iter_mut().for_each(Vec::clear);
     }
 
     /// What is there for the block of the given number.
-    pub fn for_block(&self, number: usize) -> &[Letter] {
-        &self.post[number]
+    pub fn for_block(&self, number: usize) -> &[RemoteLoad] {
+        &self.by_block[number]
     }
 }
 
@@ -98,10 +98,10 @@ fn grains_per_block(grains: usize, shape: GrainShape) -> usize {
     grains.div_ceil(2 * pairs_of_blocks)
 }
 
-/// Empty outboxes for the given blocks.
-pub fn make_outboxes(blocks: &[Block]) -> Vec<RwLock<Outbox>> {
+/// Room for the loads that the given blocks have for each other.
+pub fn make_outgoing(blocks: &[Block]) -> Vec<RwLock<OutgoingLoads>> {
     let block_size = blocks.first().map_or(1, |block| block.grains.len().max(1));
-    blocks.iter().map(|_| RwLock::new(Outbox { block_size, post: vec![Vec::new(); blocks.len()] })).collect()
+    blocks.iter().map(|_| RwLock::new(OutgoingLoads { block_size, by_block: vec![Vec::new(); blocks.len()] })).collect()
 }
 
 /// Empty blocks over `grains` grains.

@@ -5,7 +5,7 @@ use std::sync::RwLock;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::contact::surfaces::OnFixed;
-use crate::neighbours::blocks::{Block, Outbox, make_blocks, make_outboxes};
+use crate::neighbours::blocks::{Block, OutgoingLoads, make_blocks, make_outgoing};
 use crate::neighbours::broad_phase::{Box3, BoxTree};
 use crate::neighbours::candidates::{
     Sought, find_border_pairs, find_fixed_pairs, find_inner_pairs, find_rope_pairs, grain_box, line_boxes,
@@ -45,7 +45,7 @@ const WIDEST_SKIN: f64 = 1.5;
 pub struct Neighbours {
     pub blocks: Vec<Block>,
     /// What each block has for others; locked because blocks are worked on at the same time.
-    pub outboxes: Vec<RwLock<Outbox>>,
+    pub outgoing: Vec<RwLock<OutgoingLoads>>,
     /// Extra reach of the lists (m): wider where they soon expire, down to the given one where they last.
     pub skin: f64,
     least_skin: f64,
@@ -90,7 +90,7 @@ impl Neighbours {
     pub fn new(skin: f64) -> Self {
         Self {
             blocks: Vec::new(),
-            outboxes: Vec::new(),
+            outgoing: Vec::new(),
             skin,
             least_skin: skin,
             node_way: 0.0,
@@ -284,9 +284,9 @@ impl Neighbours {
         let Reaches { largest, fixed, .. } = self.bounds;
         let sought = Sought { grains, members: &self.references, reaches: &self.reaches };
         let covered = self.blocks.last().map_or(0, |block| block.grains.end);
-        if covered != bodies.grains.len() || self.outboxes.len() != self.blocks.len() {
+        if covered != bodies.grains.len() || self.outgoing.len() != self.blocks.len() {
             self.blocks = make_blocks(bodies.grains.len(), grains.shape);
-            self.outboxes = make_outboxes(&self.blocks);
+            self.outgoing = make_outgoing(&self.blocks);
         }
         if self.trees.len() != self.blocks.len() {
             self.trees.clear();

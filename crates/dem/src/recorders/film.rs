@@ -120,8 +120,8 @@ impl Film {
 
     fn introduce(&mut self, simulation: &Simulation, grains: &[Grain]) {
         self.introduce_grains(grains);
-        let strands = simulation.model.barrier.iter().flat_map(Barrier::strands);
-        self.ropes = strands.map(|strand| (strand.nodes, strand.kind)).collect();
+        let axial_members = simulation.model.barrier.iter().flat_map(Barrier::axial_members);
+        self.ropes = axial_members.map(|member| (member.nodes, member.kind)).collect();
     }
 
     /// Grains with higher numbers than those known so far have come in; in earlier frames they are not there.
@@ -158,7 +158,7 @@ impl Film {
         let nodes = barrier.into_iter().flat_map(|barrier| &barrier.nodes);
         let mut tensions = Vec::new();
         if let Some(barrier) = barrier {
-            net.each_strand(barrier, |_, tension| tensions.push(tension as f32));
+            net.each_axial_member(barrier, |_, tension| tensions.push(tension as f32));
         }
         Frame {
             time: simulation.time,

@@ -39,9 +39,9 @@ impl BodyRecorder for OfAnchors {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
         let (Some(barrier), forces) = (&simulation.model.barrier, &simulation.sums.net.forces) else { return };
         self.bed += bed_force(barrier, forces, &setup.net_rows);
-        let parts = simulation.sums.net_in_parts();
-        for net in parts {
-            add_shares(&mut self.load, &anchor_loads(barrier, &net.forces, setup.ropes), parts.len());
+        let substeps = simulation.sums.net_in_substeps();
+        for net in substeps {
+            add_shares(&mut self.load, &anchor_loads(barrier, &net.forces, setup.ropes), substeps.len());
         }
         self.each.resize(barrier.anchors.len(), Vec3::zeros());
         for (sum, anchor) in self.each.iter_mut().zip(&barrier.anchors) {

@@ -89,15 +89,15 @@ fn net_round(simulation: &Simulation, setup: &RecorderSetup, force: &[Vec3]) -> 
         near.iter().any(|(centre, reach)| (place - centre).norm() < *reach)
     };
     let near: Vec<bool> = (0..barrier.nodes.len()).map(|node| is_near(node as u32)).collect();
-    let parts = simulation.sums.net_in_parts();
-    let largest = parts.iter().map(|net| {
+    let substeps = simulation.sums.net_in_substeps();
+    let largest = substeps.iter().map(|net| {
         let mut largest = 0.0;
-        net.each_strand(barrier, |strand, tension| {
-            if strand.kind == SegmentKind::Net && strand.nodes.iter().any(|node| near[*node as usize]) {
+        net.each_axial_member(barrier, |member, tension| {
+            if member.kind == SegmentKind::Net && member.nodes.iter().any(|node| near[*node as usize]) {
                 largest = larger_or_nan(largest, tension);
             }
         });
         largest
     });
-    largest.sum::<f64>() / parts.len() as f64
+    largest.sum::<f64>() / substeps.len() as f64
 }

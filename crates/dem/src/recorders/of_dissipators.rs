@@ -24,15 +24,15 @@ pub struct OfDissipators {
 impl BodyRecorder for OfDissipators {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
         let Some(barrier) = &simulation.model.barrier else { return };
-        let parts = simulation.sums.net_in_parts();
-        for net in parts {
+        let substeps = simulation.sums.net_in_substeps();
+        for net in substeps {
             let mut tensions = vec![0.0_f64; setup.ropes];
             for (dissipator, &tension) in barrier.dissipators.iter().zip(&net.dissipators) {
                 let SegmentKind::Main(rope) = dissipator.kind else { continue };
                 let of_rope = &mut tensions[usize::from(rope)];
                 *of_rope = larger_or_nan(*of_rope, tension / barrier.sharing(dissipator.kind));
             }
-            add_shares(&mut self.tension, &tensions, parts.len());
+            add_shares(&mut self.tension, &tensions, substeps.len());
         }
     }
 

@@ -49,16 +49,16 @@ impl BodyRecorder for OfPosts {
         for (sum, post) in self.feet.iter_mut().zip(&barrier.posts) {
             *sum += net.forces[post.nodes[0] as usize];
         }
-        let parts = simulation.sums.net_in_parts();
-        for net in parts {
+        let substeps = simulation.sums.net_in_substeps();
+        for net in substeps {
             let mut largest = vec![0.0_f64; barrier.posts.len()];
-            net.each_strand(barrier, |strand, tension| {
-                if let SegmentKind::Retaining(post) = strand.kind {
+            net.each_axial_member(barrier, |member, tension| {
+                if let SegmentKind::Retaining(post) = member.kind {
                     let of_post = &mut largest[usize::from(post)];
                     *of_post = larger_or_nan(*of_post, tension);
                 }
             });
-            add_shares(&mut self.retaining, &largest, parts.len());
+            add_shares(&mut self.retaining, &largest, substeps.len());
         }
     }
 

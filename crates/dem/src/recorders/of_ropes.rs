@@ -39,8 +39,8 @@ pub struct OfRopes {
 impl BodyRecorder for OfRopes {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
         let Some(barrier) = &simulation.model.barrier else { return };
-        let parts = simulation.sums.net_in_parts();
-        parts.iter().for_each(|net| self.add_part(net, barrier, setup, parts.len()));
+        let substeps = simulation.sums.net_in_substeps();
+        substeps.iter().for_each(|net| self.add_substep(net, barrier, setup, substeps.len()));
     }
 
     fn sample(&mut self, simulation: &Simulation, setup: &RecorderSetup, steps: u32, channels: &mut Channels) {
@@ -67,12 +67,12 @@ impl BodyRecorder for OfRopes {
 
 impl OfRopes {
     /// Takes in one of so many parts of a step.
-    fn add_part(&mut self, net: &NetForces, barrier: &Barrier, setup: &RecorderSetup, parts: usize) {
+    fn add_substep(&mut self, net: &NetForces, barrier: &Barrier, setup: &RecorderSetup, substeps: usize) {
         let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
         let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
-        net.each_strand(barrier, |strand, tension| match strand.kind {
+        net.each_axial_member(barrier, |member, tension| match member.kind {
             SegmentKind::Main(rope) => {
-                if let Some(rest_length) = strand.rest_length {
+                if let Some(rest_length) = member.rest_length {
                     let [weighted, length] = &mut mean[rope as usize];
                     *weighted += tension * rest_length;
                     *length += rest_length;
@@ -84,10 +84,10 @@ impl OfRopes {
             SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
         });
         let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
-        add_shares(&mut self.mean, &mean, parts);
-        add_shares(&mut self.largest, &largest, parts);
-        self.net += net_largest / parts as f64;
-        self.lateral += lateral / parts as f64;
+        add_shares(&mut self.mean, &mean, substeps);
+        add_shares(&mut self.largest, &largest, substeps);
+        self.net += net_largest / substeps as f64;
+        self.lateral += lateral / substeps as f64;
     }
 }
 

@@ -26,7 +26,7 @@ pub struct Snapshot {
     /// s
     pub time: f64,
     pub balls: Vec<Ball>,
-    pub strands: Vec<Strand>,
+    pub axial_members: Vec<AxialMember>,
     /// Where grains touch the barrier: height above the bed (m), and force along the channel (N).
     pub touches: Vec<[f64; 2]>,
 }
@@ -43,7 +43,7 @@ pub struct Ball {
 
 /// A segment or cylinder of the barrier.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Strand {
+pub struct AxialMember {
     pub ends: [Vec3; 2],
     pub kind: SegmentKind,
     /// N
@@ -66,7 +66,7 @@ impl Snapshot {
             moment,
             time: simulation.time,
             balls: balls.collect(),
-            strands: barrier.map_or_else(Vec::new, strands),
+            axial_members: barrier.map_or_else(Vec::new, axial_members),
             touches: touches(simulation),
         }
     }
@@ -84,11 +84,11 @@ fn touches(simulation: &Simulation) -> Vec<[f64; 2]> {
     on_wall.chain(on_net).collect()
 }
 
-fn strands((barrier, net): (&Barrier, &NetForces)) -> Vec<Strand> {
-    let mut strands = Vec::new();
-    net.each_strand(barrier, |strand, tension| {
-        let ends = strand.nodes.map(|node| barrier.nodes[node as usize].position);
-        strands.push(Strand { ends, kind: strand.kind, tension });
+fn axial_members((barrier, net): (&Barrier, &NetForces)) -> Vec<AxialMember> {
+    let mut axial_members = Vec::new();
+    net.each_axial_member(barrier, |member, tension| {
+        let ends = member.nodes.map(|node| barrier.nodes[node as usize].position);
+        axial_members.push(AxialMember { ends, kind: member.kind, tension });
     });
-    strands
+    axial_members
 }

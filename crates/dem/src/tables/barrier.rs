@@ -8,8 +8,8 @@ use crate::elements::ground::{Footing, Ground};
 use crate::elements::net_ring::NetRing;
 use crate::elements::post::Post;
 use crate::elements::ring::RingSide;
+use crate::elements::segment::{AxialMember, SpringLink};
 use crate::elements::segment::{Segment, SegmentKind};
-use crate::elements::segment::{Strand, Taut};
 use crate::elements::sliding::Chain;
 use crate::elements::strength::Strength;
 use crate::tables::nodes::{Frame, Node};
@@ -69,14 +69,14 @@ pub struct Barrier {
 }
 
 impl Barrier {
-    /// All that pulls or pushes along a line, in the order of [`NetForces::each_strand`](crate::net::NetForces::each_strand). A new element is listed here.
-    pub fn strands(&self) -> impl Iterator<Item = Strand> {
-        let segments = self.segments.iter().map(Segment::strand);
+    /// All that pulls or pushes along a line, in the order of [`NetForces::each_axial_member`](crate::net::NetForces::each_strand). A new element is listed here.
+    pub fn axial_members(&self) -> impl Iterator<Item = AxialMember> {
+        let segments = self.segments.iter().map(Segment::member);
         segments
-            .chain(self.cylinders.iter().map(Cylinder::strand))
-            .chain(self.net_rings.iter().flat_map(NetRing::strands))
-            .chain(self.dissipators.iter().map(Dissipator::strand))
-            .chain(self.posts.iter().map(Post::strand))
+            .chain(self.cylinders.iter().map(Cylinder::member))
+            .chain(self.net_rings.iter().flat_map(NetRing::axial_members))
+            .chain(self.dissipators.iter().map(Dissipator::member))
+            .chain(self.posts.iter().map(Post::member))
     }
 
     /// Ropes that share what an element of this kind bears.
@@ -92,7 +92,7 @@ impl Barrier {
     }
 
     /// All springs between two nodes, in a fixed order: ropes and rings go slack, posts do not. The tension of rings is none of them.
-    pub fn springs(&self) -> impl Iterator<Item = Taut> {
+    pub fn springs(&self) -> impl Iterator<Item = SpringLink> {
         let segments = self.segments.iter().map(Segment::taut);
         let rings = self.net_rings.iter().flat_map(NetRing::springs);
         let posts = self.posts.iter().map(|post| post.taut(&self.nodes));

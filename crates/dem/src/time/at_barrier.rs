@@ -1,10 +1,10 @@
 //! The grains of a block that touch the barrier, or could within a step of theirs.
 //!
 //! Where the barrier takes several steps in one of the grains', m of δ = Δt/m, these grains take them as well, so that the stiff contacts with
-//! light pieces of rope are followed as finely as what holds the ropes together. The parts of the step that takes t to t + Δt stand at
+//! light pieces of rope are followed as finely as what holds the ropes together. The substeps of the step that takes t to t + Δt stand at
 //! t − c to t + c with c = (Δt − δ)/2. In all of them neighbours, ground and gravity push with the same force, that of the place x(t) =
-//! x(t−c) + c v, to which the grain goes on from the first part at the velocity v that it has then: the extrapolation of the slow forces to the
-//! middle (Barth & Schlick 1998). So a grain at rest between its neighbours and a rope is at rest in every part, and one that no rope
+//! x(t−c) + c v, to which the grain goes on from the first substep at the velocity v that it has then: the extrapolation of the slow forces to the
+//! middle (Barth & Schlick 1998). So a grain at rest between its neighbours and a rope is at rest in every substep, and one that no rope
 //! touches moves as by the leapfrog. The table of all grains holds x(t).
 //!
 //! Neighbours and the ground feel the mean velocity of such a grain, v̄ = (x(t) − x(t−Δt))/Δt, as they do of any other, so that the way a contact
@@ -22,7 +22,7 @@ use crate::tables::grain_rows::{GrainRows, Prefetcher};
 use crate::tables::grain_table::{GrainLoad, GrainTable};
 use crate::tables::grains::GrainShape;
 use crate::tables::moving_rows::{Drifting, MovingRows};
-use crate::time::integrate::{Pace, Stretch, turn_axes};
+use crate::time::integrate::{Pace, StepInterval, turn_axes};
 
 /// What is known of the motion of each grain, besides its row.
 #[derive(Clone, Copy)]
@@ -39,25 +39,25 @@ pub struct AtBarrier {
     rows: Vec<u32>,
     table: GrainTable,
     loads: Vec<GrainLoad>,
-    /// What neighbours, ground and gravity do to each, the same in all parts.
+    /// What neighbours, ground and gravity do to each, the same in all substeps.
     steady: Vec<GrainLoad>,
     drift: Vec<Drifting>,
     /// The pairs of the list of the ropes, with the members numbered as in `table`.
     pairs: Vec<[u32; 2]>,
     /// Whether each may touch a rope in this step; the others did so in the last.
     pressed: Vec<bool>,
-    /// Forces on the nodes in the part at hand, and their means over the parts for each pair.
+    /// Forces on the nodes in the substep at hand, and their means over the substeps for each pair.
     pub pushes: Vec<Push>,
     mean_pushes: Vec<Push>,
-    /// One part of the step.
-    part: f64,
-    /// What the contacts store and lose in the part at hand, and their largest overlap.
+    /// Share of one substep in the step.
+    share_of_step: f64,
+    /// What the contacts store and lose in the substep at hand, and their largest overlap.
     pub sums: ContactSums,
     /// Where they were when the step began, and by how much they have turned since (rad).
     before: Vec<Quad>,
     turned: Vec<Vec3>,
     pace: Pace,
-    /// Their energies of motion and place in the middle of the parts, where the account is kept.
+    /// Their energies of motion and place in the middle of the substeps, where the account is kept.
     pub motion: MotionEnergy,
 }
 
@@ -73,7 +73,7 @@ impl Default for AtBarrier {
             pressed: Vec::new(),
             pushes: Vec::new(),
             mean_pushes: Vec::new(),
-            part: 1.0,
+            share_of_step: 1.0,
             sums: ContactSums::default(),
             before: Vec::new(),
             turned: Vec::new(),
@@ -84,7 +84,7 @@ impl Default for AtBarrier {
 }
 
 impl AtBarrier {
-    /// Begins a step of the grains of a block: finds out which they are, and loads them for the first part. The grains are still where they
+    /// Begins a step of the grains of a block: finds out which they are, and loads them for the first substep. The grains are still where they
     /// were.
     pub fn begin(
         &mut self,
@@ -92,18 +92,18 @@ impl AtBarrier {
         context: &RopeContext,
         moving: &Moving,
         block: &Range<usize>,
-        parting: &Parting,
+        substepping: &Substepping,
     ) -> ContactSums {
-        ropes.wake(context, parting.step, parting.to_middle());
+        ropes.wake(context, substepping.step, substepping.to_middle());
         let per_grain = context.grains.shape.members() as u32;
         self.rows.clear();
         self.rows.extend(ropes.list.touching.iter().map(|[member, _]| member / per_grain));
-        // Whose last step had parts moves otherwise than its row says.
+        // Whose last step had substeps moves otherwise than its row says.
         let ahead = block.clone().filter(|&row| moving.ahead[row] != [Vec3::zeros(); 2]);
         self.rows.extend(ahead.map(|row| row as u32));
         self.rows.sort_unstable();
         self.rows.dedup();
-        self.copy(context.grains, moving, parting);
+        self.copy(context.grains, moving, substepping);
         let rows = &self.rows;
         let number = |member: u32| {
             let place = rows.binary_search(&(member / per_grain)).unwrap_or_default();
@@ -119,13 +119,13 @@ impl AtBarrier {
         let nothing = Push { row: 0, pair: 0, nodes: [0; 2], share: 0.0, force: Vec3::zeros() };
         self.mean_pushes.clear();
         self.mean_pushes.resize(self.pairs.len(), nothing);
-        self.part = 1.0 / f64::from(parting.parts);
+        self.share_of_step = 1.0 / f64::from(substepping.substeps);
         self.press(ropes, context.barrier, &context.constants);
         // What is stored is told where the account is kept.
         ContactSums { stored: 0.0, ..self.sums }
     }
 
-    fn copy(&mut self, grains: GrainRows, moving: &Moving, parting: &Parting) {
+    fn copy(&mut self, grains: GrainRows, moving: &Moving, substepping: &Substepping) {
         let Self { rows, table, .. } = self;
         fn take<T>(to: &mut Vec<T>, rows: &[u32], from: impl Fn(usize) -> T) {
             to.clear();
@@ -141,11 +141,11 @@ impl AtBarrier {
         }
         table.speed_up(rows, moving.ahead);
         self.before.clone_from(&table.place);
-        self.go_on_freely(-parting.to_middle());
+        self.go_on_freely(-substepping.to_middle());
         take(&mut self.drift, &self.rows, |row| moving.drift[row]);
         self.motion = MotionEnergy::default();
         self.turned.clear();
-        self.turned.extend(self.table.spin.iter().map(|spin| spin.vector() * -parting.to_middle()));
+        self.turned.extend(self.table.spin.iter().map(|spin| spin.vector() * -substepping.to_middle()));
         self.loads.clear();
         self.loads.resize(self.rows.len(), GrainLoad::default());
     }
@@ -167,7 +167,7 @@ impl AtBarrier {
         self.sums = ropes.press(pairs, &context, loads, 0, |row| rows[row], pushes);
         for push in pushes.iter() {
             let mean = &mut self.mean_pushes[push.pair as usize];
-            *mean = Push { force: mean.force + push.force * self.part, ..*push };
+            *mean = Push { force: mean.force + push.force * self.share_of_step, ..*push };
         }
     }
 
@@ -196,21 +196,21 @@ impl AtBarrier {
         }
     }
 
-    /// Moves them through a part of the step under the loads at hand; `weight` is that of the part in the account, where it has some.
-    pub fn go(&mut self, part: &Stretch, weight: Option<f64>) {
+    /// Moves them through a substep of the step under the loads at hand; `weight` is that of the substep in the account, where it has some.
+    pub fn go(&mut self, substep: &StepInterval, weight: Option<f64>) {
         let before = weight.map(|weight| (weight, self.table.grains()));
         if let Some(weight) = weight {
-            self.account(&part.gravity, weight);
+            self.account(&substep.gravity, weight);
         }
         self.loads.iter_mut().zip(&self.steady).for_each(|(load, steady)| load.join(steady));
         let nothing = GrainTable::of(self.table.shape, &[]);
         let GrainTable { place, motion, spin, axis, momentum, .. } = &mut self.table;
         let moving = MovingRows { place, motion, spin, axis, momentum, loads: &mut self.loads, drift: &self.drift };
-        // They are in what is the same in all parts.
-        let part = Stretch { drag: 0.0, gravity: Vec3::zeros(), ..*part };
-        let pace = moving.advance(&part, &mut Prefetcher::none(nothing.rows()));
+        // They are in what is the same in all substeps.
+        let substep = StepInterval { drag: 0.0, gravity: Vec3::zeros(), ..*substep };
+        let pace = moving.advance(&substep, &mut Prefetcher::none(nothing.rows()));
         self.pace.stray = self.pace.stray.max(pace.stray);
-        self.turned.iter_mut().zip(&self.table.spin).for_each(|(angle, spin)| *angle += spin.vector() * part.step);
+        self.turned.iter_mut().zip(&self.table.spin).for_each(|(angle, spin)| *angle += spin.vector() * substep.step);
         if let Some((weight, before)) = before {
             self.motion.add(&MotionEnergy::between(before.iter().zip(&self.table.grains()), &Vec3::zeros()), weight);
         }
@@ -221,8 +221,8 @@ impl AtBarrier {
         &self.rows
     }
 
-    /// Takes the grains into the account at a part of the given weight. Their energies of place are where they stand for their neighbours,
-    /// x(t). The forces F that are the same in all parts have done their work for neighbours up to x(t), and for the grain up to where the part
+    /// Takes the grains into the account at a substep of the given weight. Their energies of place are where they stand for their neighbours,
+    /// x(t). The forces F that are the same in all substeps have done their work for neighbours up to x(t), and for the grain up to where the substep
     /// has it, x: F·(x − x(t)) more, which is left out of its energy of motion.
     fn account(&mut self, gravity: &Vec3, weight: f64) {
         let Self { table, steady, before, turned, motion, .. } = self;
@@ -236,11 +236,11 @@ impl AtBarrier {
     }
 
     /// Puts the grains back after a step, and lets go of the pairs that no longer touch. Returns how fast they went.
-    pub fn finish(&mut self, ropes: &mut RopeContacts, grains: &mut GrainTable, parting: &Parting) -> Pace {
+    pub fn finish(&mut self, ropes: &mut RopeContacts, grains: &mut GrainTable, substepping: &Substepping) -> Pace {
         ropes.list.end_contacts();
         ropes.pushes.clear();
         ropes.pushes.extend(self.mean_pushes.iter().filter(|push| push.force != Vec3::zeros()));
-        self.go_on_freely(parting.to_middle());
+        self.go_on_freely(substepping.to_middle());
         let Self { rows, table, .. } = self;
         for (place, &row) in rows.iter().enumerate() {
             let row = row as usize;
@@ -249,11 +249,11 @@ impl AtBarrier {
             let mean = match self.pressed[place] {
                 true => {
                     let way = table.place[place].vector() - self.before[place].vector();
-                    [way / parting.step, (self.turned[place] + spin * parting.to_middle()) / parting.step]
+                    [way / substepping.step, (self.turned[place] + spin * substepping.to_middle()) / substepping.step]
                 }
                 false => [velocity, spin],
             };
-            // The way from x(t) to x(t + Δt) may be longer than that in the parts, which begin and end elsewhere.
+            // The way from x(t) to x(t + Δt) may be longer than that in the substeps, which begin and end elsewhere.
             let [x, y, z, _] = self.drift[place].map(f64::from);
             let turning = match table.shape {
                 GrainShape::Sphere => 0.0,
@@ -273,17 +273,17 @@ impl AtBarrier {
     }
 }
 
-/// How a step of the grains is parted for the barrier.
+/// How a step of the grains is divided for the barrier.
 #[derive(Clone, Copy, Debug)]
-pub struct Parting {
+pub struct Substepping {
     /// The whole step (s).
     pub step: f64,
-    pub parts: u32,
+    pub substeps: u32,
 }
 
-impl Parting {
-    /// From the first part to the middle of all, c = (Δt − Δt/m)/2 (s).
+impl Substepping {
+    /// From the first substep to the middle of all, c = (Δt − Δt/m)/2 (s).
     fn to_middle(self) -> f64 {
-        0.5 * (self.step - self.step / f64::from(self.parts))
+        0.5 * (self.step - self.step / f64::from(self.substeps))
     }
 }

@@ -18,7 +18,7 @@ use crate::{Vec3, larger_or_nan};
 
 /// The stretch of time a step covers, with what acts on all grains alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch {
+pub struct StepInterval {
     /// s
     pub step: f64,
     /// Viscous slowing (1/s); zero but in preparation.
@@ -36,7 +36,7 @@ pub struct Pace {
 
 impl MovingRows<'_> {
     /// Moves all grains through one step. Meanwhile goes on with `prefetcher`.
-    pub fn advance(self, time: &Stretch, prefetcher: &mut Prefetcher) -> Pace {
+    pub fn advance(self, time: &StepInterval, prefetcher: &mut Prefetcher) -> Pace {
         with_widest(Advance { rows: self, time, prefetcher })
     }
 
@@ -67,7 +67,7 @@ impl MovingRows<'_> {
 /// The rows of a block, to be moved with any vectors.
 struct Advance<'a, 'b, 'c> {
     rows: MovingRows<'a>,
-    time: &'b Stretch,
+    time: &'b StepInterval,
     prefetcher: &'b mut Prefetcher<'c>,
 }
 
@@ -176,7 +176,7 @@ struct Steps {
 }
 
 impl Steps {
-    fn of(time: &Stretch) -> Self {
+    fn of(time: &StepInterval) -> Self {
         let keep = (1.0 - time.drag * time.step).max(0.0);
         Self {
             time: Quad(joined([time.step; 3], 0.0)),

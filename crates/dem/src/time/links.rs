@@ -7,7 +7,7 @@ use crate::contact::ropes::{OnBarrier, OnRopes, RopeContext, touch as touch_rope
 use crate::elements::cylinder::Cylinder;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingSide};
-use crate::elements::segment::Taut;
+use crate::elements::segment::SpringLink;
 use crate::neighbours::blocks::Block;
 use crate::neighbours::clocks::Clock;
 use crate::tables::barrier::Barrier;
@@ -330,7 +330,7 @@ impl Linked<'_> {
     }
 
     fn elements(&self, barrier: &Barrier) -> Vec<Link> {
-        let taut = barrier.springs().filter_map(|Taut { nodes, stiffness, damping, slack }| {
+        let taut = barrier.springs().filter_map(|SpringLink { nodes, stiffness, damping, slack }| {
             let [a, b] = nodes.map(|node| &barrier.nodes[node as usize]);
             let line = b.position - a.position;
             let length = line.norm();

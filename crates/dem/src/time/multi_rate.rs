@@ -1,11 +1,11 @@
 //! Several steps of the barrier within one step of the grains.
 //!
 //! The stiff, light parts of a barrier (ropes, rings, short cylinders), and the grains that press on them, need shorter steps than grains
-//! among themselves do. So forces are parted: what acts on grains but the barrier is found once in a step Δt and stays the same in its m parts;
+//! among themselves do. So forces are split: what acts on grains but the barrier is found once in a step Δt and stays the same in its m substeps;
 //! what holds the barrier together, and what grains and barrier do to each other, is found anew in each. The grains at the barrier take these
-//! parts with it ([`crate::time::at_barrier`]). For m = 1 this is the leapfrog itself.
+//! substeps with it ([`crate::time::at_barrier`]). For m = 1 this is the leapfrog itself.
 //!
-//! Found at the middle of the parts, slow forces are right to the second order in Δt. They feed a mode that swings at ω under the fast ones by a
+//! Found at the middle of the substeps, slow forces are right to the second order in Δt. They feed a mode that swings at ω under the fast ones by a
 //! share of about (ω_s Δt)² (ω Δt)²/48 of its amplitude in a step, with ω_s that of the slow forces alone and both of the grain, not of the light
 //! knots that swing with it: far less than what contacts and ropes damp, unless both steps are long for it. That is what the audit of the time step
 //! looks for; the energy account would notice it as well. Slow forces that act at once as impulses F Δt (r-RESPA)
@@ -20,46 +20,46 @@ use crate::net::{NetForces, pull_all, slide_all};
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::nodes::{Frame, Node};
-use crate::time::at_barrier::Parting;
-use crate::time::integrate::{Pace, Stretch, move_nodes, turn_frames};
+use crate::time::at_barrier::Substepping;
+use crate::time::integrate::{Pace, StepInterval, move_nodes, turn_frames};
 use crate::workers;
 use crate::{Vec3, larger_or_nan};
 
 /// What a step of the grains made of the barrier.
 #[derive(Clone, Debug, Default)]
 pub struct BarrierStep {
-    /// Forces and tensions, mean over the step, and in each part if they are several.
+    /// Forces and tensions, mean over the step, and in each substep if they are several.
     pub net: NetForces,
-    pub in_parts: Vec<NetForces>,
+    pub in_substeps: Vec<NetForces>,
     pub at_account: Accounted,
     /// Largest mean speed of a node (m/s).
     pub fastest: f64,
 }
 
-/// Energies at the instant of a step that the account is kept at, the middle of its parts.
+/// Energies at the instant of a step that the account is kept at, the middle of its substeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Accounted {
     /// Motion of the barrier, where it was asked for.
     pub motion: MotionEnergy,
-    /// In the barrier, and in the contacts of grains with it if the step has several parts (J).
+    /// In the barrier, and in the contacts of grains with it if the step has several substeps (J).
     pub stored_barrier: f64,
     pub stored_contacts: f64,
-    /// Lost since the first part, and since the account; the first part's contacts book their own.
+    /// Lost since the first substep, and since the account; the first substep's contacts book their own.
     pub lost: Lost,
     pub lost_since: Lost,
-    /// Largest overlap over the smaller radius in the parts after the first.
+    /// Largest overlap over the smaller radius in the substeps after the first.
     pub overlap_ratio: f64,
 }
 
-/// As many parts of a step as keep each within a longest one, or hardly above it.
-pub fn parts(step: f64, longest: f64) -> u32 {
+/// As many substeps of a step as keep each within a longest one, or hardly above it.
+pub fn substeps(step: f64, longest: f64) -> u32 {
     ((step / longest - HARDLY).ceil() as u32).max(1)
 }
 
-/// Share of a step by which it may be too long before it is parted.
+/// Share of a step by which it may be too long before it is divided.
 const HARDLY: f64 = 0.1;
 
-/// Losses in some of the parts of a step (J).
+/// Losses in some of the substeps of a step (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Lost {
     /// In ropes, by rings, in dissipators.
@@ -84,7 +84,7 @@ impl Lost {
     }
 }
 
-/// The middle of the parts of a step: one part, or two that count half each.
+/// The middle of the substeps of a step: one substep, or two that count half each.
 #[derive(Clone, Copy)]
 struct Middle {
     first: u32,
@@ -92,18 +92,18 @@ struct Middle {
 }
 
 impl Middle {
-    fn of(parts: u32) -> Self {
-        Self { first: (parts - 1) / 2, last: parts / 2 }
+    fn of(substeps: u32) -> Self {
+        Self { first: (substeps - 1) / 2, last: substeps / 2 }
     }
 
-    /// Share of a part in the middle.
-    fn weight(self, part: u32) -> f64 {
-        if part < self.first || part > self.last { 0.0 } else { 1.0 / f64::from(self.last - self.first + 1) }
+    /// Share of a substep in the middle.
+    fn weight(self, substep: u32) -> f64 {
+        if substep < self.first || substep > self.last { 0.0 } else { 1.0 / f64::from(self.last - self.first + 1) }
     }
 
-    /// Share of what is lost up to a part, since the one before, that is lost before the middle.
-    fn before(self, part: u32) -> f64 {
-        if part <= self.first { 1.0 } else { self.weight(part) }
+    /// Share of what is lost up to a substep, since the one before, that is lost before the middle.
+    fn before(self, substep: u32) -> f64 {
+        if substep <= self.first { 1.0 } else { self.weight(substep) }
     }
 }
 
@@ -115,57 +115,57 @@ pub struct Pressing<'a> {
     pub paces: &'a mut [Pace],
 }
 
-/// Moves the barrier through one step of the grains, in `parts` steps of its own, and if they are several the grains at it. `net` holds the
+/// Moves the barrier through one step of the grains, in `substeps` steps of its own, and if they are several the grains at it. `net` holds the
 /// forces at the start; `account` asks for the energy of the barrier's motion.
 pub fn step_barrier(
     barrier: &mut Barrier,
     mut net: NetForces,
     pressing: Pressing,
     on_barrier: &OnBarrier,
-    time: &Stretch,
-    parts: u32,
+    time: &StepInterval,
+    substeps: u32,
     account: bool,
 ) -> BarrierStep {
     let Pressing { grains, blocks, paces } = pressing;
     let before: Vec<Vec3> = barrier.nodes.iter().map(|node| node.position).collect();
     for block in &*blocks {
-        let pushes = if parts > 1 { &block.at_barrier.pushes } else { &block.ropes.pushes };
+        let pushes = if substeps > 1 { &block.at_barrier.pushes } else { &block.ropes.pushes };
         pushes.iter().for_each(|push| net.push(push));
     }
-    let own = Stretch { step: time.step / f64::from(parts), ..*time };
-    let mut course = Course { own, middle: Middle::of(parts), account, accounted: Accounted::default() };
+    let own = StepInterval { step: time.step / f64::from(substeps), ..*time };
+    let mut course = Course { own, middle: Middle::of(substeps), account, accounted: Accounted::default() };
     course.move_barrier(0, Lost::default(), &net, barrier);
-    let mut in_parts = Vec::new();
-    if parts > 1 {
-        let parting = Parting { step: time.step, parts };
+    let mut in_substeps = Vec::new();
+    if substeps > 1 {
+        let substepping = Substepping { step: time.step, substeps };
         course.see_blocks(0, blocks);
         workers::for_each(blocks.iter_mut(), |_, Block { at_barrier, .. }| {
             at_barrier.hold(grains, time.step);
             at_barrier.go(&own, course.noted(0));
         });
-        in_parts.push(net);
-        for part in 1..parts {
+        in_substeps.push(net);
+        for substep in 1..substeps {
             let mut lost = Lost::default();
             lost.barrier[1] += slide_all(barrier, own.step);
-            let net = pull_and_press(barrier, blocks, on_barrier, &course, part);
-            course.see_blocks(part, blocks);
+            let net = pull_and_press(barrier, blocks, on_barrier, &course, substep);
+            course.see_blocks(substep, blocks);
             blocks.iter().for_each(|block| lost.in_contacts(&block.at_barrier.sums));
-            course.move_barrier(part, lost, &net, barrier);
-            in_parts.push(net);
+            course.move_barrier(substep, lost, &net, barrier);
+            in_substeps.push(net);
         }
-        net = NetForces::mean(&in_parts);
+        net = NetForces::mean(&in_substeps);
         for (block, pace) in blocks.iter_mut().zip(paces) {
-            let own = block.at_barrier.finish(&mut block.ropes, grains, &parting);
+            let own = block.at_barrier.finish(&mut block.ropes, grains, &substepping);
             pace.stray = pace.stray.max(own.stray);
         }
     }
     let fastest = fastest_on_the_way(barrier, &before, time.step);
-    BarrierStep { net, in_parts, at_account: course.accounted, fastest }
+    BarrierStep { net, in_substeps, at_account: course.accounted, fastest }
 }
 
-/// The parts of a step, one after the other.
+/// The substeps of a step, one after the other.
 struct Course {
-    own: Stretch,
+    own: StepInterval,
     middle: Middle,
     /// Whether the energy of motion is asked for.
     account: bool,
@@ -173,37 +173,37 @@ struct Course {
 }
 
 impl Course {
-    /// Weight of a part in the account, where it has some and there is one.
-    fn noted(&self, part: u32) -> Option<f64> {
-        let weight = self.middle.weight(part);
+    /// Weight of a substep in the account, where it has some and there is one.
+    fn noted(&self, substep: u32) -> Option<f64> {
+        let weight = self.middle.weight(substep);
         (self.account && weight > 0.0).then_some(weight)
     }
 
-    /// Takes in what the contacts of grains with the barrier store in a part.
-    fn see_blocks(&mut self, part: u32, blocks: &[Block]) {
+    /// Takes in what the contacts of grains with the barrier store in a substep.
+    fn see_blocks(&mut self, substep: u32, blocks: &[Block]) {
         for sums in blocks.iter().map(|block| &block.at_barrier.sums) {
-            self.accounted.stored_contacts += self.middle.weight(part) * sums.stored;
+            self.accounted.stored_contacts += self.middle.weight(substep) * sums.stored;
             self.accounted.overlap_ratio = self.accounted.overlap_ratio.max(sums.overlap_ratio);
         }
     }
 
-    /// Moves the barrier through a part, and books it; `lost` is what has been lost since the part before, besides what `net` tells.
-    fn move_barrier(&mut self, part: u32, mut lost: Lost, net: &NetForces, barrier: &mut Barrier) {
+    /// Moves the barrier through a substep, and books it; `lost` is what has been lost since the substep before, besides what `net` tells.
+    fn move_barrier(&mut self, substep: u32, mut lost: Lost, net: &NetForces, barrier: &mut Barrier) {
         let Self { middle, accounted, .. } = self;
         lost.in_barrier(net);
-        accounted.lost.add(&lost, middle.before(part));
-        accounted.lost_since.add(&lost, 1.0 - middle.before(part));
-        accounted.stored_barrier += middle.weight(part) * net.stored;
+        accounted.lost.add(&lost, middle.before(substep));
+        accounted.lost_since.add(&lost, 1.0 - middle.before(substep));
+        accounted.stored_barrier += middle.weight(substep) * net.stored;
         net.take_over(barrier);
-        let Some(weight) = self.noted(part) else { return go(barrier, net, &self.own) };
+        let Some(weight) = self.noted(substep) else { return go(barrier, net, &self.own) };
         let (nodes, frames) = (barrier.nodes.clone(), barrier.frames.clone());
         go(barrier, net, &self.own);
         self.accounted.motion.add(&motion_since(&nodes, &frames, barrier, &self.own.gravity), weight);
     }
 }
 
-/// A part of the work of a step of the barrier.
-enum Part<'a> {
+/// A share of the work of a substep.
+enum Work<'a> {
     Elements(&'a mut Option<NetForces>),
     Block(&'a mut Block),
 }
@@ -215,15 +215,15 @@ fn pull_and_press(
     blocks: &mut [Block],
     on_barrier: &OnBarrier,
     course: &Course,
-    part: u32,
+    substep: u32,
 ) -> NetForces {
     let mut net = None;
-    let work = std::iter::once(Part::Elements(&mut net)).chain(blocks.iter_mut().map(Part::Block));
+    let work = std::iter::once(Work::Elements(&mut net)).chain(blocks.iter_mut().map(Work::Block));
     workers::for_each(work, |_, work| match work {
-        Part::Elements(net) => *net = Some(pull_all(barrier, &on_barrier.law)),
-        Part::Block(Block { at_barrier, ropes, .. }) => {
+        Work::Elements(net) => *net = Some(pull_all(barrier, &on_barrier.law)),
+        Work::Block(Block { at_barrier, ropes, .. }) => {
             at_barrier.press(ropes, barrier, on_barrier);
-            at_barrier.go(&course.own, course.noted(part));
+            at_barrier.go(&course.own, course.noted(substep));
         }
     });
     let mut net = net.unwrap_or_default();
@@ -232,7 +232,7 @@ fn pull_and_press(
 }
 
 /// Moves nodes and frames through one step.
-fn go(barrier: &mut Barrier, net: &NetForces, own: &Stretch) {
+fn go(barrier: &mut Barrier, net: &NetForces, own: &StepInterval) {
     move_nodes(&mut barrier.nodes, &net.forces, &own.gravity, own.step);
     turn_frames(&mut barrier.frames, &net.torques, own.step);
 }

@@ -1,9 +1,9 @@
 //! Ropes that break or draw out in the simulation, where the design lets them.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Opening, Outcome};
+use crate::checks::outcome::{CheckName, CheckVerdict, OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, Rope};
-use crate::quantities::wear;
+use crate::quantities::rope_damage;
 use crate::sources::{NO_LIMIT, NOTHING_BREAKS};
 
 fn any_rope(design: &Design, allows: impl Fn(&Rope) -> bool) -> bool {
@@ -16,10 +16,10 @@ pub fn check_broken(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if !any_rope(design, |rope| rope.breaks) {
         return Vec::new();
     }
-    let name = CheckName::of(&wear::BROKEN, 0, "broken_pieces", NOTHING_BREAKS);
-    let mut outcome = Outcome::informative(name, demands.one(&wear::BROKEN));
+    let name = CheckName::of(&rope_damage::BROKEN, 0, "broken_pieces", NOTHING_BREAKS);
+    let mut outcome = Outcome::informative(name, demands.one(&rope_damage::BROKEN));
     match outcome.demand.simulation {
-        None => outcome.leave_open(Opening::NeedsSimulation(
+        None => outcome.leave_open(OpenReason::NeedsSimulation(
             "whether ropes break is seen in the simulation alone (run it)".into(),
         )),
         Some(0.0) => outcome.verdict = CheckVerdict::Pass,
@@ -37,17 +37,17 @@ pub fn tell_drawn_out(design: &Design, demands: &Demands) -> Vec<Outcome> {
     if !any_rope(design, |rope| rope.elastic_limit.is_some()) {
         return Vec::new();
     }
-    let name = CheckName::of(&wear::DRAWN_OUT, 0, "drawn_out", NO_LIMIT);
-    let mut outcome = Outcome::informative(name, demands.one(&wear::DRAWN_OUT));
+    let name = CheckName::of(&rope_damage::DRAWN_OUT, 0, "drawn_out", NO_LIMIT);
+    let mut outcome = Outcome::informative(name, demands.one(&rope_damage::DRAWN_OUT));
     match outcome.demand.simulation {
-        None => outcome.leave_open(Opening::NeedsSimulation(
+        None => outcome.leave_open(OpenReason::NeedsSimulation(
             "whether ropes draw out is seen in the simulation alone (run it)".into(),
         )),
         Some(elongation) => {
             // Asked as "within", so that what is not a number is not.
             let within = elongation <= DRAWN_OUT;
             if !within {
-                outcome.leave_open(Opening::NotGiven(format!(
+                outcome.leave_open(OpenReason::NotGiven(format!(
                     "ropes draw out by up to {:.1} % at their elastic limit, which cuts off the tension that is checked, and the design gives no allowable elongation (without elastic_limit the check uses the tension instead)",
                     100.0 * elongation
                 )));
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
     use crate::demand::Demand;
     use crate::design::read::read_design;
-    use crate::quantities::wear;
+    use crate::quantities::rope_damage;
 
     /// The net of the example, whose net ropes break or draw out.
     fn design(breaks: bool, elastic_limit: Option<f64>) -> Design {
@@ -74,7 +74,7 @@ mod tests {
 
     fn demands(broken: Option<f64>, drawn_out: Option<f64>) -> Demands {
         let seen = |simulation| Demand { simulation, ..Demand::default() };
-        Demands::default().with(&wear::BROKEN, &[seen(broken)]).with(&wear::DRAWN_OUT, &[seen(drawn_out)])
+        Demands::default().with(&rope_damage::BROKEN, &[seen(broken)]).with(&rope_damage::DRAWN_OUT, &[seen(drawn_out)])
     }
 
     #[test]
@@ -111,7 +111,7 @@ mod tests {
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.net_rope.breaks = true;
         let broken_pieces = crate::demand::Demand { simulation: Some(3.0), ..Default::default() };
-        let outcomes = check_broken(&design, &Demands::default().with(&wear::BROKEN, &[broken_pieces]));
+        let outcomes = check_broken(&design, &Demands::default().with(&rope_damage::BROKEN, &[broken_pieces]));
         assert_eq!(outcomes[0].utilisation, Some(4.0));
     }
 }

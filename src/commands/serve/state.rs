@@ -1,6 +1,6 @@
 //! What the answers to requests are made from.
 
-use super::chosen::Chosen;
+use super::design_folder::Chosen;
 use super::runs::Runs;
 
 /// The folder that is served, and the runs in it.

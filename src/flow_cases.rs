@@ -14,7 +14,7 @@ use crate::design::{BarrierDesign, Design, Factors, FlexibleNet, RigidWall};
 
 /// Which flow a simulation lets go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LoadCase {
+pub enum FlowCase {
     /// As the design describes it.
     Characteristic,
     /// With the partial factor on loads on its weight.
@@ -24,10 +24,10 @@ pub enum LoadCase {
 }
 
 /// The cases to be simulated, each with the design that makes it.
-pub fn cases(design: &Design) -> Vec<(LoadCase, Design)> {
-    let factored = factored(design).map(|design| (LoadCase::Factored, design));
-    let weak = weak(design).map(|design| (LoadCase::WeakDissipators, design));
-    [(LoadCase::Characteristic, design.clone())].into_iter().chain(factored).chain(weak).collect()
+pub fn cases(design: &Design) -> Vec<(FlowCase, Design)> {
+    let factored = factored(design).map(|design| (FlowCase::Factored, design));
+    let weak = weak(design).map(|design| (FlowCase::WeakDissipators, design));
+    [(FlowCase::Characteristic, design.clone())].into_iter().chain(factored).chain(weak).collect()
 }
 
 /// The design under the factored flow; nothing where that would tell nothing new: without a factor, and for a rigid wall.

@@ -48,7 +48,7 @@ impl FirstSurge {
 
 /// What a rule goes by.
 #[derive(Clone, Copy)]
-pub struct Known<'a> {
+pub struct CheckContext<'a> {
     pub design: &'a Design,
     pub guideline: &'a Guideline,
     /// Nothing where nothing was simulated.

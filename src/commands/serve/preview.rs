@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 use serde::Serialize;
 
 use super::answer::Refused;
-use super::chosen::Chosen;
-use crate::commands::told::ProblemPart;
+use super::design_folder::Chosen;
+use crate::commands::messages::ProblemPart;
 use crate::fidelity::choose;
 use crate::pipeline::by_equations;
 use crate::report::chart::Chart;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Which of them are asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Extras {
+pub struct Exports {
     /// The course of the event for ParaView.
     pub vtk: bool,
     /// Checks, load cases and time series for a spreadsheet program.

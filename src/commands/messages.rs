@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::commands::printed;
 use crate::design::read::stem;
-use crate::extras::Extras;
+use crate::exports::Exports;
 use crate::pipeline::Run;
 use crate::problem::{Problem, Problems};
 use crate::report::view::View;
@@ -30,7 +30,7 @@ pub enum Format {
 
 /// The document that `--format json` prints.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct ToldFile {
+pub struct MessagesFile {
     schema_version: u32,
     /// Name of the design: of its file, without folder and extension; `stdin` for standard input.
     design: String,
@@ -85,7 +85,7 @@ impl From<&Problem> for ProblemPart {
     }
 }
 
-impl ToldFile {
+impl MessagesFile {
     fn of(design: impl Into<String>) -> Self {
         Self {
             schema_version: SCHEMA_VERSION,
@@ -113,19 +113,19 @@ impl Format {
             }
             Self::Json => {
                 let list = problems.list.iter().map(ProblemPart::from).collect();
-                ToldFile { problems: list, ..ToldFile::of(stem(&problems.file)) }.say();
+                MessagesFile { problems: list, ..MessagesFile::of(stem(&problems.file)) }.say();
             }
         }
     }
 
     /// How a run ended, whose report was written into `folder`.
-    pub fn tell_verdict(self, run: &Run, view: &View, folder: &Path, extras: Extras) {
+    pub fn tell_verdict(self, run: &Run, view: &View, folder: &Path, exports: Exports) {
         match self {
-            Self::Text => summarise(view, folder, extras),
-            Self::Json => ToldFile {
+            Self::Text => summarise(view, folder, exports),
+            Self::Json => MessagesFile {
                 verdict: Some(run.verdict.word().to_string()),
                 report: Some(folder.display().to_string()),
-                ..ToldFile::of(run.file.name.as_str())
+                ..MessagesFile::of(run.file.name.as_str())
             }
             .say(),
         }
@@ -142,12 +142,12 @@ impl Format {
             time_s: seconds * simulations as f64,
             memory_mb: estimate.bytes / 1e6,
         };
-        ToldFile { estimate: Some(part), ..ToldFile::of(design) }.say();
+        MessagesFile { estimate: Some(part), ..MessagesFile::of(design) }.say();
     }
 }
 
 /// Verdict and checks for the terminal.
-fn summarise(view: &View, folder: &Path, extras: Extras) {
+fn summarise(view: &View, folder: &Path, exports: Exports) {
     let say = |line: String| {
         let _ = terminal::say(line);
     };
@@ -170,10 +170,10 @@ fn summarise(view: &View, folder: &Path, extras: Extras) {
         say(format!("  open, because {}: {}", reason.why, reason.checks));
     }
     for (asked, name, file) in [
-        (extras.vtk, "paraview", vtk::FOLDER),
-        (extras.xlsx, "tables", workbook::FILE),
-        (extras.dxf, "drawing", drawing::FILE),
-        (extras.pdf, "pdf", printed::FILE),
+        (exports.vtk, "paraview", vtk::FOLDER),
+        (exports.xlsx, "tables", workbook::FILE),
+        (exports.dxf, "drawing", drawing::FILE),
+        (exports.pdf, "pdf", printed::FILE),
     ] {
         if asked {
             say(format!("{name}: {}", folder.join(file).display()));
