@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use barrier_check::design::read::{DesignFile, read_design};
 use barrier_check::fidelity::choose;
-use barrier_check::guideline::point_load;
+use barrier_check::guideline::{input, point_load};
 use barrier_check::pipeline::{Run, by_equations, run};
 use barrier_check::quantities::{boulder, other_ropes};
 use barrier_check::scene::build::build;
@@ -110,7 +110,9 @@ fn on_a_wall_the_equations_add_the_largest_boulder() {
     let mass = 2650.0 * std::f64::consts::PI / 6.0 * 0.6_f64.powi(3);
     let stiffness = 4.0 / 3.0 * 19.5e9 * 0.3_f64.sqrt();
     let by_hand = 0.1 * libm::pow(stiffness, 0.4) * libm::pow(1.25 * mass * velocity * velocity, 0.6);
-    let (force, _) = point_load(&file.design).expect("a point load");
+    let hit = point_load(&file.design, &input(&file.design)).expect("a point load");
+    assert!(hit.height.is_none(), "it comes at the surface of the flow");
+    let force = hit.force;
     assert!((force / by_hand - 1.0).abs() < 1e-9, "{force} {by_hand}");
     let with_boulders = by_equations(file);
     let without = by_equations(read_design("x.yaml", WALL.as_bytes()).expect("a design"));

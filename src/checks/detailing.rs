@@ -281,7 +281,7 @@ fn of_sag(guideline: &Guideline) -> Option<Rule> {
 }
 
 fn of_point_load(design: &Design, net: &FlexibleNet) -> Option<Rule> {
-    let (_, height) = design.loads.point_load?;
+    let height = design.loads.point_load?.1?;
     let second = net.main_ropes.levels.get(1)?.height * libm::cos(design.channel.slope + net.tilt);
     (net.bottom == Bottom::Fixed).then(|| {
         least(

@@ -1,6 +1,6 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Kind, LoadScaling, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Kind, LoadScaling, OpenReason, Outcome, Resistance};
 use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{CAP_TOLERANCE, Demand, Demands, USED_UP};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
@@ -30,9 +30,20 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let idle = growth_of(given, demand, &tension).filter(|_| net.runs_over_posts(index));
             let growth = idle.unwrap_or(outcome.growth);
             let outcome = Outcome { kind: Kind::Stroke, growth, ..outcome.of_rope(index) };
-            if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome }
+            let outcome = if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome };
+            open_without_least_force(given, outcome, "barrier.flexible_net.dissipators.lower_bound")
         })
         .collect()
+}
+
+/// Leaves the stroke of dissipators open where nobody says how small their force may be: the smaller it is the further they pay out.
+pub fn open_without_least_force(given: &DissipatorDesign, mut outcome: Outcome, key: &str) -> Outcome {
+    if given.lower_bound.is_none() && outcome.holds() {
+        outcome.leave_open(OpenReason::NotGiven(format!(
+            "how far below its plateau or curve a dissipator may pull is not given (give {key} from its tests; 1 if what is given is the lower bound)"
+        )));
+    }
+    outcome
 }
 
 /// How the stroke of dissipators grows with the load where the equations see none: nothing where they do.

@@ -1,7 +1,7 @@
 //! Posts: compression with bending, the foundations of their feet, the ropes that retain them with their dissipators and anchors.
 
 use crate::checks::anchors::open_without_overstrength;
-use crate::checks::dissipators::growth_of;
+use crate::checks::dissipators::{growth_of, open_without_least_force};
 use crate::checks::outcome::{CheckName, Kind, LoadScaling, OpenReason, Outcome, PostInteraction, Resistance};
 use crate::checks::ropes;
 use crate::demand::{Demand, Demands};
@@ -41,7 +41,8 @@ pub fn strut(design: &Design, given: &Posts, number: usize) -> Option<Strut> {
     match given.strength {
         PostStrength::Unknown => None,
         PostStrength::Given { compression, bending } => {
-            Some(Strut { compression: compression / factor, bending: bending / factor, critical: f64::INFINITY })
+            // A post buckles under no less than it resists with: that bounds the load N_cr by which compression makes a moment larger.
+            Some(Strut { compression: compression / factor, bending: bending / factor, critical: compression })
         }
         PostStrength::Section(section) => {
             let column = Column {
@@ -49,7 +50,7 @@ pub fn strut(design: &Design, given: &Posts, number: usize) -> Option<Strut> {
                 area: given.area,
                 modulus: given.modulus,
                 radius_of_gyration: section.radius_of_gyration,
-                section_modulus: section.section_modulus,
+                section_modulus: section.lateral_torsional.unwrap_or(1.0) * section.section_modulus,
                 yield_strength: section.yield_strength,
                 imperfection: section.imperfection,
             };
@@ -87,6 +88,12 @@ fn compressed(design: &Design, given: &Posts, number: usize, demands: &Demands) 
     if given.retaining.count() == 1 && outcome.holds() {
         outcome.leave_open(OpenReason::NotGiven(
             "nothing but friction of the rope holds the head of a post with a single retaining rope across the channel (give posts.retaining_ropes.spread)".into(),
+        ));
+    }
+    let of_an_open_section = matches!(given.strength, PostStrength::Section(section) if section.lateral_torsional.is_none());
+    if of_an_open_section && outcome.holds() {
+        outcome.leave_open(OpenReason::NotGiven(
+            "a post of an open section may buckle sideways under bending before it yields (give posts.lateral_torsional_factor, 1 for a hollow section)".into(),
         ));
     }
     let growth =
@@ -158,7 +165,8 @@ fn stroke(design: &Design, given: &Posts, number: usize, demands: &Demands) -> O
     let outcome = Outcome::at_most(name, demand, stroke, design.limits.dissipator_utilisation);
     let outcome = outcome.only_by_simulation(NOT_BY_EQUATIONS);
     let growth = growth_of(dissipators, &demand, &tension).unwrap_or(outcome.growth);
-    Some(Outcome { kind: Kind::Stroke, growth, ..outcome })
+    let outcome = Outcome { kind: Kind::Stroke, growth, ..outcome };
+    Some(open_without_least_force(dissipators, outcome, "posts.retaining_ropes.dissipators.lower_bound"))
 }
 
 /// An anchor bears its one rope.

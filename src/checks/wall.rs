@@ -206,7 +206,7 @@ fn leave_open_untold(stability: &Stability, outcomes: &mut [Outcome]) {
 
 /// A point load spreads no further than to the next joint of the wall, and a short block slides and turns under it where a long one stands.
 fn leave_open_where_joints_are_unknown(design: &Design, stability: &Stability, outcomes: &mut [Outcome]) {
-    if stability.block_length.is_some() || point_load(design).is_none_or(|(force, _)| force == 0.0) {
+    if stability.block_length.is_some() || point_load(design, &input(design)).is_none_or(|hit| hit.force == 0.0) {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
@@ -356,7 +356,7 @@ mod tests {
     fn a_block_carries_a_point_load_as_one() {
         let demands = |force: f64| {
             let mut design = read_design("x", include_bytes!("../../designs/gravity_wall.yaml")).unwrap().design;
-            design.loads.point_load = Some((force, 1.5));
+            design.loads.point_load = Some((force, Some(1.5)));
             let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
             wall.stability.as_mut().expect("stability").block_length = Some(8.0);
             let demands = Demands::by_equations(&guideline(&design), &design.factors);
@@ -373,7 +373,7 @@ mod tests {
     fn a_point_load_on_a_wall_of_unknown_joints_is_open() {
         let verdicts = |block_length: Option<f64>, force: f64| {
             let mut design = with_stability();
-            design.loads.point_load = Some((force, 1.0));
+            design.loads.point_load = Some((force, Some(1.0)));
             let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
             let stability = wall.stability.as_mut().expect("stability");
             (stability.thickness, stability.base_width, stability.bearing_resistance) = (40.0, 40.0, Some(1e6));

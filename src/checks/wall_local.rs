@@ -3,7 +3,7 @@
 use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::point_load;
+use crate::guideline::{input, point_load};
 use crate::quantities::quantity::Unit;
 use crate::quantities::total_force;
 use crate::sources::DESIGN_LIMIT;
@@ -12,7 +12,7 @@ const OF_A_BOULDER: &str = "limit of the design file; the load is the elastic fo
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
-    let (Some(characteristic), Some(_)) = (wall.resistance, point_load(design)) else { return Vec::new() };
+    let (Some(characteristic), Some(_)) = (wall.resistance, point_load(design, &input(design))) else { return Vec::new() };
     let name = CheckName::new(
         "wall_local_force",
         "Force on the metre of the wall that the point load hits, per width",
@@ -42,10 +42,10 @@ mod tests {
             check(design, &Demands::by_equations(&guideline(design), &design.factors)).into_iter().next()
         };
         assert_eq!(told(&design), None);
-        design.loads.point_load = Some((3e6, 1.0));
+        design.loads.point_load = Some((3e6, Some(1.0)));
         let without = {
             let mut without = design.clone();
-            without.loads.point_load = Some((0.0, 1.0));
+            without.loads.point_load = Some((0.0, Some(1.0)));
             told(&without).expect("a check").demand.guideline.expect("a force")
         };
         let outcome = told(&design).expect("a check");

@@ -70,6 +70,9 @@ fn read_section(entries: &mut Entries, open: Open) -> Read {
     }))
 }
 
+/// By how much a slope that is given may differ from that of the raster (rad): 3 degrees.
+const MOST_OFF: f64 = 0.0524;
+
 fn read_terrain(entries: &mut Entries, open: Open) -> Read {
     let key = |name: &str| format!("channel.terrain.{name}");
     let wanted = "a raster of the ground beside the design file";
@@ -94,6 +97,17 @@ fn read_terrain(entries: &mut Entries, open: Open) -> Read {
         })?;
         let file = key("file");
         let typed = format!("{} points across {name}", terrain.section.len());
+        if let Some(given) = entries.number("channel.slope")
+            && (given - terrain.slope).abs() > MOST_OFF
+        {
+            let [given, found] = [given, terrain.slope].map(f64::to_degrees);
+            return Err(Problem::new(
+                "channel.slope",
+                format!("{given:.1} deg, where the lowest line in {name} falls by {found:.1} deg at the barrier"),
+                format!("a slope within {:.0} deg of that of the raster", MOST_OFF.to_degrees()),
+            )
+            .hint("leave `slope` out: the terrain tells it"));
+        }
         put(entries, &file, SECTION[1], Value::Points(terrain.section), typed);
         if !entries.mentions("channel.slope") {
             let typed = format!("{:.2} deg, the mean of the lowest line in {name}", terrain.slope.to_degrees());

@@ -24,7 +24,7 @@ const WAYS: &[&[&[&str]]] = &[
     &[&["bed_resistance"], &["bed_bolt_resistance"]],
     &[
         &["resistance", "bending_resistance"],
-        &["radius_of_gyration", "section_modulus", "yield_strength", "buckling_curve"],
+        &["radius_of_gyration", "section_modulus", "yield_strength", "buckling_curve", "lateral_torsional_factor"],
     ],
     &[&["fixed"], &["opening"]],
 ];

@@ -147,6 +147,17 @@ impl Channel {
         datum - right
     }
 
+    /// Height of the bed over the foot of the barrier, plumb, at a level distance downstream of it (m).
+    pub fn elevation(&self, downstream: f64) -> f64 {
+        self.profile.as_ref().map_or(-downstream * libm::tan(self.slope), |profile| profile.elevation(downstream))
+    }
+
+    /// Level distances at which the bed breaks within a stretch downstream of the barrier, with both ends of it (m).
+    pub fn breaks(&self, [from, to]: [f64; 2]) -> Vec<f64> {
+        let corners = self.profile.iter().flat_map(Profile::corners).map(|corner| corner[0]);
+        std::iter::once(from).chain(corners.filter(|&x| from < x && x < to)).chain([to]).collect()
+    }
+
     /// Place of the bed at a distance along it from the barrier, downstream positive: down the bed at the barrier, and out of it (m).
     pub fn bed(&self, along: f64) -> [f64; 2] {
         let Some(profile) = &self.profile else { return [along, 0.0] };
@@ -492,13 +503,13 @@ pub struct OtherLoads {
     /// K and density (kg/m³) of the drained deposit.
     pub drained: Option<(f64, f64)>,
     /// Force (N) and height above the bed (m) of a boulder or log.
-    pub point_load: Option<(f64, f64)>,
+    pub point_load: Option<(f64, Option<f64>)>,
     /// Pa
     pub snow_pressure: Option<f64>,
     /// On the dynamic pressure, for wood in the flow.
     pub wood_factor: Option<f64>,
     /// Share of the elastic force with which a boulder hits a rigid wall.
-    pub impact_reduction: f64,
+    pub impact_reduction: Option<f64>,
     /// Weight of the net per area (N/m²).
     pub self_weight: Option<f64>,
     /// Height of the filled barrier over its first.

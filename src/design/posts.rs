@@ -57,8 +57,9 @@ pub enum PostStrength {
 pub struct SteelSection {
     /// √(I/A) about the weaker axis (m).
     pub radius_of_gyration: f64,
-    /// Elastic section modulus W against bending down the channel (m³).
+    /// Elastic section modulus W against bending down the channel (m³), and the share χ_LT of it that lateral-torsional buckling leaves, if known.
     pub section_modulus: f64,
+    pub lateral_torsional: Option<f64>,
     /// Pa
     pub yield_strength: f64,
     /// Imperfection factor α of its buckling curve.
@@ -137,6 +138,7 @@ fn strength(e: &Entries) -> PostStrength {
     let of_section = || {
         Some(SteelSection {
             radius_of_gyration: value(OF_A_SECTION[0])?,
+            lateral_torsional: value("lateral_torsional_factor"),
             section_modulus: value(OF_A_SECTION[1])?,
             yield_strength: value(OF_A_SECTION[2])?,
             imperfection: IMPERFECTIONS[curve?],

@@ -576,6 +576,11 @@ const POSTS: &[Key] = &[
         "elastic section modulus against bending down the channel",
     ),
     Key::optional("yield_strength", quantity(D::Pressure, 1e8, 1.5e9), "yield strength of the steel"),
+    Key::optional(
+        "lateral_torsional_factor",
+        Kind::Number { low: 0.05, high: 1.0 },
+        "share of the bending resistance of the section that lateral-torsional buckling leaves, chi_LT of EN 1993-1-1, 6.3.2; 1 for a hollow section; without it the checks of a section stay open",
+    ),
     Key::default("buckling_curve", Kind::Choice(&posts::CURVES), "c", "buckling curve of the section by EN 1993-1-1"),
     Key::optional(
         "resistance",
@@ -1007,11 +1012,10 @@ const LOADS: &[Key] = &[
         Kind::Number { low: 1.0, high: 5.0 },
         "factor on the dynamic pressure for wood in the flow; 1.2 to 1.5 at the same depth in 40 tests with logs against a bridge deck (Friedl et al. 2025)",
     ),
-    Key::default(
+    Key::optional(
         "impact_reduction",
         Kind::Number { low: 0.01, high: 1.0 },
-        "0.1",
-        "share of the elastic force (Hertz) with which a boulder of flow.boulders hits a rigid wall, where no point_load is given; a tenth in the practice of Hong Kong (from memory, uncertain)",
+        "share of the elastic force (Hertz) with which a boulder of flow.boulders hits a rigid wall, where no point_load is given; a tenth in the practice of Hong Kong (from memory, uncertain), which the loads take unless it is given: checks that pass by it alone then stay open",
     ),
     Key::optional("self_weight", quantity(D::Pressure, 0.1, 1e5), "weight of the net per area, hung on the top rope"),
     Key::default(

@@ -8,7 +8,7 @@ use crate::guideline::posts;
 use crate::guideline::rope_load::RopeLoad;
 use crate::larger::larger_or_nan;
 use crate::loads::cases::later_surge;
-use crate::loads::cases::load_case::{LoadCase, PointLoad};
+use crate::loads::cases::load_case::{AdditionalActions, LoadCase};
 use crate::loads::input::GuidelineInput;
 use crate::loads::rope::{RopeInput, RopeState, Yielding};
 use crate::section::{Section, Survey};
@@ -18,7 +18,8 @@ use crate::section::{Section, Survey};
 pub struct Cases<'a> {
     pub flows: &'a [GuidelineInput],
     pub stages: &'a [LoadCase],
-    pub point: Option<PointLoad>,
+    /// What acts beside each flow.
+    pub extras: &'a dyn Fn(&GuidelineInput) -> AdditionalActions,
 }
 
 /// The dissipators of the main ropes, if there are any.
@@ -142,7 +143,9 @@ impl<'a> Strip<'a> {
     fn between_stages(&self, cases: &Cases) -> Vec<LoadCase> {
         let surge = |flow: &GuidelineInput, deposit: f64| {
             let room = (flow.fill_height - flow.moving_depth()).max(0.0);
-            LoadCase { point: cases.point, ..later_surge::case(flow, deposit.clamp(0.0, room)) }
+            let case = later_surge::case(flow, deposit.clamp(0.0, room));
+            let hit = (cases.extras)(flow).point.map(|hit| hit.over(case.deposit, flow.barrier_height));
+            LoadCase { point: hit, ..case }
         };
         let upper = self.high.min(height_over_bed(self.design));
         let of = |flow: &GuidelineInput| [self.low, upper - flow.depth].map(|deposit| surge(flow, deposit));
@@ -310,12 +313,13 @@ fn point_on_rope(case: &LoadCase, heights: &[f64], index: usize, span: f64) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::loads::cases::load_case::Hit;
     use crate::guideline::guideline;
     use approx::assert_relative_eq;
 
     #[test]
     fn a_point_load_is_shared_by_the_ropes_beside_it() {
-        let point = PointLoad { force: 100.0, height: 1.25 };
+        let point = Hit { force: 100.0, height: Some(1.25), over_deposit: 0.0 };
         let input = crate::loads::cases::tests::input();
         let case = crate::loads::cases::point_load::case(&input, point);
         let heights = [0.0, 1.0, 2.0];
@@ -325,7 +329,7 @@ mod tests {
         assert_relative_eq!(shares[2], 5.0);
         // Three quarters on the rope at 1 m, a quarter on the one at 3 m; what hits the top rope is all its own.
         let uneven = |height: f64| {
-            let case = crate::loads::cases::point_load::case(&input, PointLoad { force: 100.0, height });
+            let case = crate::loads::cases::point_load::case(&input, Hit { force: 100.0, height: Some(height), over_deposit: 0.0 });
             [0, 1, 2].map(|rope| point_on_rope(&case, &[0.0, 1.0, 3.0], rope, 10.0))
         };
         assert_eq!(uneven(1.5), [0.0, 15.0, 5.0]);

@@ -255,13 +255,15 @@ impl Reservoir {
 
     /// Height at the barrier, normal to the bed, of a deposit of a volume over the width (m²) whose surface falls upstream at an angle ψ below
     /// the horizontal. ψ = 0 is the level surface of a fluid; a granular flow that is stopped while it runs up leaves a heap against the
-    /// barrier, and ψ may be as much as its angle of repose. Infinite where surface and barrier do not meet the bed.
+    /// barrier, and ψ may be as much as its angle of repose. Infinite where the surface does not meet the bed.
     pub fn height(&self, per_width: f64, falls: f64) -> f64 {
         let spread = libm::tan(self.slope + falls).recip() + libm::tan(self.lean);
         if self.profile.is_some() {
             return self.height_once(per_width * self.width, Surface::Plane(-falls));
         }
-        if !(spread > 0.0 && self.slope + falls < std::f64::consts::FRAC_PI_2 + self.lean) {
+        // On a level bed a level surface holds any volume at no height, but no channel is level for ever: how high it stands is not known.
+        let meets = spread > 0.0 && self.slope + falls > 0.0;
+        if !(meets && self.slope + falls < std::f64::consts::FRAC_PI_2 + self.lean) {
             return f64::INFINITY;
         }
         match &self.section {
@@ -312,8 +314,8 @@ impl Reservoir {
                     high = known;
                     break;
                 }
-                // A surface that never meets the bed holds any volume: no deposit is higher than that.
-                None => break,
+                // The last reach goes on for ever, so that such a surface would hold any volume; but no channel does.
+                None => return f64::INFINITY,
                 Some(held) if held >= volume => break,
                 Some(_) => (low, high) = (high, 2.0 * high),
             }

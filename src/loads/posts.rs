@@ -182,7 +182,7 @@ impl Column {
 
 impl Strut {
     /// Compression that uses up as much of the post as a compression with a moment does (N): N + k N_b M/M_R with k = 1/(1 − N/N_cr), by which
-    /// the compression makes the moment larger (linear interaction, on the safe side of EN 1993-1-1, 6.3.3).
+    /// the compression makes the moment larger (linear interaction in the manner of EN 1993-1-1, 6.3.3; M_R is that with lateral-torsional buckling).
     pub fn with_moment(&self, compression: f64, moment: f64) -> f64 {
         let grows = (1.0 - compression.max(0.0) / self.critical).recip();
         // Asked so that what is not a number stays so.

@@ -120,10 +120,17 @@ fn strength(run: &Run, posts: &Posts, number: usize) -> String {
         PostStrength::Section(_) => {
             format!("N_b = χ A f_y/γ = {:.0} kN (N_cr = {:.0} kN)", strut.compression / 1e3, strut.critical / 1e3)
         }
-        _ => format!("N_b = {:.0} kN", strut.compression / 1e3),
+        _ => format!("N_b = {:.0} kN (N_cr is taken to be no more)", strut.compression / 1e3),
+    };
+    let bending = match posts.strength {
+        PostStrength::Section(section) => match section.lateral_torsional {
+            Some(share) => format!("M_R = χ_LT W f_y/γ with χ_LT = {share:.2}"),
+            None => "M_R = W f_y/γ".to_string(),
+        },
+        _ => "M_R".to_string(),
     };
     format!(
-        "Resistance: {critical}, M_R = {:.1} kN m; together N + N_b M/(M_R (1 − N/N_cr)) ≤ N_b.",
+        "Resistance: {critical}, {bending} = {:.1} kN m; together N + N_b M/(M_R (1 − N/N_cr)) ≤ N_b.",
         strut.bending / 1e3
     )
 }

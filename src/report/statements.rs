@@ -231,7 +231,7 @@ fn of_the_equations(design: &Design) -> Vec<Statement> {
         ),
         (
             matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.block_length.is_some()))
-                && crate::guideline::point_load(design).is_some(),
+                && crate::guideline::point_load(design, &crate::guideline::input(design)).is_some(),
             "Each block of the wall between its joints (stability.block_length) is taken as rigid, without help from its neighbours and the banks. It carries a point load as one piece: shared over its length for overturning and the pressure under it, over 0.41 of it for sliding, which is the least that friction holds of a push at the end of a block of even weight. That the block itself bears the load, in bending and shear along the wall and where it is hit, is not checked.",
             UNSAFE,
         ),

@@ -101,7 +101,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         | Kind::Stroke
         | Kind::BaseActions => {}
     }
-    let context = known_by_equations(outcome);
+    let known = known_by_equations(outcome);
     let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| cap.max(demand));
     let used = |band: f64| {
         let full = outcome.demand_under(Route::Simulation, more * (1.0 + band)).unwrap_or(f64::NAN);
@@ -110,7 +110,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
     };
     // Where the equations, which know the full barrier, tell more, the simulation need only not contradict them, whichever run it is.
     let band = match outcome.kind {
-        _ if context => seen.one_run,
+        _ if known => seen.one_run,
         Kind::Stroke => seen.stroke_band,
         _ => seen.force_band,
     };

@@ -10,13 +10,14 @@ use crate::guideline::{guideline_for, point_load};
 
 pub fn leave_open(CheckContext { design, guideline, seen }: CheckContext, outcomes: &mut [Outcome]) {
     let (Some(seen), BarrierDesign::RigidWall(_)) = (seen, &design.barrier) else { return };
-    let Some((force, height)) = point_load(design) else { return };
+    let Some(hit) = point_load(design, &guideline.input) else { return };
+    let force = hit.force;
     // Asked so that what is not a number goes on.
     if seen.boulder <= force {
         return;
     }
     let mut struck = design.clone();
-    struck.loads.point_load = Some((seen.boulder, height));
+    struck.loads.point_load = Some((seen.boulder, hit.height));
     let asked = guideline_for(&struck, guideline.input);
     let then = check_all(&struck, &Demands::by_equations(&asked, &design.factors));
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {

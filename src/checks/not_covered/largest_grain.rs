@@ -9,59 +9,81 @@ use crate::checks::check_all;
 use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{guideline_for, height_over_bed, hit_of_the_largest};
+use crate::guideline::{elastic_hit, flows, guideline_for, height_over_bed};
 use crate::larger::larger_or_nan;
 
 /// Length of the block (m) that stands for one that nobody described: joints are no closer.
 const SHORTEST_BLOCK: f64 = 1.0;
 
 pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
-    let design = context.design;
+    let CheckContext { design, guideline, seen } = context;
     if !matches!(design.barrier, BarrierDesign::RigidWall(_)) {
         return;
     }
-    let on_the_base = hit_of_the_largest(design);
-    let given = design.loads.point_load.map(|(force, _)| force);
-    if given.is_some_and(|given| on_the_base <= given) {
+    // As fast as any surge of the design, and as the flow is seen to come.
+    let given = flows(design, guideline.input).iter().map(|flow| flow.velocity).fold(0.0, larger_or_nan);
+    let velocity = larger_or_nan(seen.map_or(0.0, |seen| seen.velocity), given);
+    let on_the_base = design.loads.impact_reduction.unwrap_or(1.0) * elastic_hit(design, velocity);
+    let given = design.loads.point_load;
+    if given.is_some_and(|(force, height)| stands_for(context, force, height, on_the_base)) {
         return;
     }
     let strength = match given {
         Some(_) => on_the_base,
         // The law of contacts with a soft modulus hits more gently than stone does.
-        None => larger_or_nan(hit(design, context.guideline.input.velocity), on_the_base),
+        None => larger_or_nan(hit(design, velocity), on_the_base),
     };
-    let more_than_given =
-        given.map_or(String::new(), |given| format!(", more than loads.point_load of {:.1} kN", given / 1e3));
+    let told = Told { given: given.map(|(force, _)| force), velocity, unreduced: design.loads.impact_reduction.is_none() };
     let then = struck(context, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
             outcome.leave_open(OpenReason::NotGiven(match strength.is_nan() {
-                true => unknown("break the metre of the wall that it hits", given),
-                false => format!(
-                    "the largest stone of the flow may hit a metre of the wall with up to {:.0} kN{more_than_given}, and that metre would not hold it ({}, or more resistance)",
-                    strength / 1e3,
-                    if given.is_some() { "give as much, or loads.impact_reduction" } else { "give loads.point_load" }
-                ),
+                true => unknown("break the metre of the wall that it hits", told.given),
+                false => told.reason("a metre of the wall", strength, "that metre", "more resistance"),
             }));
         }
-    }
-    if given.is_none() && !design.flow.boulders.is_empty() {
-        // They are the point load of the base already.
-        return;
     }
     let then = struck(context, on_the_base);
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_the_base(outcome) && outcome.holds()) {
         let holds = then.iter().any(|then| then.id == outcome.id && !outcome.would_fail(then));
         if on_the_base.is_nan() {
-            outcome.leave_open(OpenReason::NotGiven(unknown("move the block of the wall that it hits", given)));
+            outcome.leave_open(OpenReason::NotGiven(unknown("move the block of the wall that it hits", told.given)));
         } else if !holds {
-            outcome.leave_open(OpenReason::NotGiven(format!(
-                "the largest stone of the flow may hit the wall with {:.0} kN{more_than_given}, and {} would not hold it ({}, and barrier.rigid_wall.stability.block_length)",
-                on_the_base / 1e3,
-                if block_is_given(design) { "its block" } else { "a block of one metre" },
-                if given.is_some() { "give as much, or loads.impact_reduction" } else { "give loads.point_load or flow.boulders" }
+            let block = if block_is_given(design) { "its block" } else { "a block of one metre" };
+            outcome.leave_open(OpenReason::NotGiven(told.reason(
+                "the wall",
+                on_the_base,
+                block,
+                "barrier.rigid_wall.stability.block_length",
             )));
         }
+    }
+}
+
+/// Whether a point load that the design gives stands for the stone: it is no smaller, and acts no lower than the surface of the flow.
+fn stands_for(CheckContext { design, guideline, .. }: CheckContext, force: f64, height: Option<f64>, stone: f64) -> bool {
+    let surface = guideline.input.depth.min(height_over_bed(design));
+    force >= stone && height.is_none_or(|height| force * height >= stone * surface)
+}
+
+/// What the words of a reason depend on.
+struct Told {
+    given: Option<f64>,
+    velocity: f64,
+    /// Whether the whole elastic force is asked with, as the design gives no share of it.
+    unreduced: bool,
+}
+
+impl Told {
+    fn reason(&self, place: &str, force: f64, part: &str, or: &str) -> String {
+        let more = self.given.map_or(String::new(), |given| format!(", where loads.point_load is {:.1} kN", given / 1e3));
+        let by = if self.unreduced { "its whole elastic force, as loads.impact_reduction is not given" } else { "reduced by loads.impact_reduction" };
+        let give = if self.given.is_some() { "give as much at the surface of the flow" } else { "give loads.point_load" };
+        format!(
+            "the largest stone of the flow may hit {place} with up to {:.0} kN at {:.1} m/s ({by}){more}, and {part} would not hold it ({give}, loads.impact_reduction with its source, or {or})",
+            force / 1e3,
+            self.velocity
+        )
     }
 }
 
@@ -84,10 +106,10 @@ fn block_is_given(design: &Design) -> bool {
     matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.stability.is_some_and(|it| it.block_length.is_some()))
 }
 
-/// The checks of the wall where a stone hits it with a force (N) at the surface of the flow.
+/// The checks of the wall where a stone hits it with a force (N) at the surface of each surge.
 fn struck(CheckContext { design, guideline, .. }: CheckContext, force: f64) -> Vec<Outcome> {
     let mut struck = design.clone();
-    struck.loads.point_load = Some((force, guideline.input.depth.min(height_over_bed(design))));
+    struck.loads.point_load = Some((force, None));
     if let BarrierDesign::RigidWall(wall) = &mut struck.barrier
         && let Some(stability) = &mut wall.stability
     {
@@ -154,8 +176,8 @@ mod tests {
             verdict(&|design| {
                 strength(design, 3.0);
                 design.flow.modulus = 1e11;
-                design.loads.impact_reduction = 1.0;
-                design.loads.point_load = Some((force, 1.0));
+                design.loads.impact_reduction = Some(1.0);
+                design.loads.point_load = Some((force, Some(1.0)));
             })
         };
         assert_eq!([1.0, 1e9].map(named), [CheckVerdict::Open, CheckVerdict::Pass]);
@@ -174,7 +196,7 @@ mod tests {
             verdict(&|design| {
                 strength(design, 100.0);
                 design.flow.sizes = crate::design::sizes::SizeCurve::Unknown;
-                design.loads.point_load = force.map(|force| (force, 1.0));
+                design.loads.point_load = force.map(|force| (force, Some(1.0)));
             })
         };
         assert_eq!([None, Some(1.0), Some(1e5)].map(unknown), [CheckVerdict::Open; 3]);

@@ -48,7 +48,7 @@ mod tests {
         let asked: [Ask; 6] = [
             |design| design.loads.overflow_depth = Some(0.05),
             |design| design.flow.event_volume = 2.0 * design.flow.volume(),
-            |design| design.loads.point_load = Some((1e3, 1.0)),
+            |design| design.loads.point_load = Some((1e3, Some(1.0))),
             |design| design.loads.snow_pressure = Some(1e3),
             |design| design.loads.drained = Some((0.5, 1800.0)),
             |design| design.loads.self_weight = Some(50.0),

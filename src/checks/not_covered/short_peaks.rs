@@ -70,7 +70,7 @@ mod tests {
         let seen = FirstSurge { force_band: 0.2, ..seen };
         assert_eq!(simulated_verdict(&design, "total_force", &observed, seen), Pass);
         // A boulder that is named is no excuse: the equations may have it smaller than what was seen.
-        design.loads.point_load = Some((1.0, 0.1));
+        design.loads.point_load = Some((1.0, Some(0.1)));
         assert_eq!(verdicts(&design, 2.6, 2.4)[0], Open);
     }
 }

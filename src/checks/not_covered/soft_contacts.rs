@@ -2,7 +2,7 @@
 //! single grains do, to the net, its edges and the rope and bolts at the bed, does: with 1 GPa in place of 0.05 GPa the simulated loads of two rope
 //! nets were 1.0 to 1.5 (lateral ropes), 1.2 to 1.8 (bolts), 1.25 to 1.9 (the rope between them) and 1.5 to 1.9 times as large, and those of main
 //! ropes and anchors 0.8 to 1.1 times (95 % fractiles over four packings each). That is at most the fourth root of the ratio of the moduli, 2.1, which is asked
-//! for here; of an elastic hit on something that does not give it would be the square root.
+//! for here, on top of what the full barrier adds; of an elastic hit on something that does not give it would be the square root.
 
 use super::context::CheckContext;
 use crate::checks::outcome::{Kind, OpenReason, Outcome};
@@ -24,11 +24,13 @@ pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Out
     };
     for outcome in outcomes.iter_mut().filter(|outcome| of_single_grains(outcome) && outcome.holds()) {
         let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
+        let scaled = outcome.scaled.map_or(0.0, |scaled| scaled.used);
         // Asked so that what is not a number is not within.
-        let within = simulated * harder <= capacity;
+        let within = simulated * harder <= capacity && scaled * harder <= 1.0;
         if !within {
+            let full = if scaled * capacity > simulated { ", scaled up to the load by the guideline as well," } else { "" };
             outcome.leave_open(OpenReason::Contradicted(format!(
-                "the grains are softer than stone, and harder ones may load it {harder:.2} times as much, which it would not hold (give flow.contact_modulus: 1 GPa, or more resistance)"
+                "the grains are softer than stone, and harder ones may load it {harder:.2} times as much, which{full} it would not hold (give flow.contact_modulus: 1 GPa, or more resistance)"
             )));
         }
     }
@@ -52,5 +54,15 @@ mod tests {
         assert_eq!(verdict(5e7, 0.48), CheckVerdict::Open);
         assert_eq!(verdict(1e9, 0.85), CheckVerdict::Pass);
         assert_eq!(verdict(f64::NAN, 0.1), CheckVerdict::Open);
+    }
+
+    /// Twice the load on the full barrier, and grains of 0.05 GPa: 2 · 2.115 times 0.23 is within, times 0.24 it is not.
+    #[test]
+    fn hardness_counts_on_top_of_the_full_barrier() {
+        let mut design = small_net();
+        design.flow.modulus = 5e7;
+        let (holds, first) = (net_holds(&design), crate::guideline::guideline(&design).largest_force / 2.0);
+        let verdict = |share: f64| net_verdict(&design, share * holds, first);
+        assert_eq!((verdict(0.235), verdict(0.238)), (CheckVerdict::Pass, CheckVerdict::Open));
     }
 }

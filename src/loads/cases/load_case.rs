@@ -42,6 +42,24 @@ pub struct PointLoad {
     pub height: f64,
 }
 
+/// What hits the barrier at one place: a force (N), and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    pub force: f64,
+    /// Above the bed (m), where it is given; else at the surface of the flow that brings it.
+    pub height: Option<f64>,
+    /// Of that surface over the deposit that the flow comes over, or of the boulder's centre if that is higher (m).
+    pub over_deposit: f64,
+}
+
+impl Hit {
+    /// Where it hits a barrier of a height over a deposit (m).
+    pub fn over(self, deposit: f64, barrier_height: f64) -> PointLoad {
+        let height = self.height.unwrap_or(deposit + self.over_deposit);
+        PointLoad { force: self.force, height: height.min(barrier_height) }
+    }
+}
+
 /// One stage: its pressures, and what acts beside them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadCase {
@@ -180,7 +198,7 @@ pub struct AdditionalActions {
     pub overflow_drag: Option<[f64; 2]>,
     /// K and density (kg/m³) of the drained deposit.
     pub drained: Option<[f64; 2]>,
-    pub point: Option<PointLoad>,
+    pub point: Option<Hit>,
     /// Uniform pressure of snow (Pa).
     pub snow: Option<f64>,
 }

@@ -23,18 +23,19 @@ pub fn all(input: &GuidelineInput, extras: &AdditionalActions) -> Vec<LoadCase> 
     let mut cases = vec![first_surge::case(input), later_surge::last(input), full::case(input)];
     cases.extend(overtopped::case(input, extras));
     cases.extend(drained::case(input, extras));
-    cases.extend(extras.point.map(|point| point_load::case(input, point)));
+    cases.extend(extras.point.map(|hit| point_load::case(input, hit)));
     cases.extend(extras.snow.map(|snow| snow::case(input, snow)));
     cases
 }
 
 /// Those cases, and the surge over every depth of deposit between: the envelope that each component is held against. A point
-/// load comes with every surge.
+/// load comes with every surge, where its flow carries it unless its height is given.
 pub fn envelope(input: &GuidelineInput, extras: &AdditionalActions) -> Vec<LoadCase> {
     let room = input.fill_height - input.moving_depth();
     let stages = (1..STAGES).map(|stage| later_surge::case(input, room * stage as f64 / STAGES as f64));
     let cases = all(input, extras).into_iter().chain(stages).filter(|case| case.certainty.decides());
-    cases.map(|case| LoadCase { point: extras.point.filter(|_| case.moving > 0.0), ..case }).collect()
+    let hit = |case: &LoadCase| extras.point.filter(|_| case.moving > 0.0).map(|hit| hit.over(case.deposit, input.barrier_height));
+    cases.map(|case| LoadCase { point: hit(&case), ..case }).collect()
 }
 
 /// The part of a stage's resultant that the guideline books to the deposit, F₁ = K ρ g' H_d (H_d/2 + h), and to the
@@ -48,7 +49,7 @@ pub fn split(input: &GuidelineInput, case: &LoadCase) -> (f64, f64) {
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use crate::loads::cases::load_case::PointLoad;
+    use crate::loads::cases::load_case::{Hit, PointLoad};
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
@@ -111,11 +112,23 @@ pub mod tests {
 
     #[test]
     fn a_boulder_comes_with_every_surge() {
-        let point = PointLoad { force: 1e5, height: 2.0 };
+        let point = Hit { force: 1e5, height: Some(2.0), over_deposit: 1.0 };
         let extras = AdditionalActions { point: Some(point), ..AdditionalActions::default() };
         for case in envelope(&input(), &extras) {
             assert_eq!(case.point.is_some(), case.moving > 0.0, "{}", case.id);
         }
+    }
+
+    /// Without a height of its own it hits at the surface of the flow: 1 m up on the empty barrier, at the top of 4 m over a deposit of 3 m.
+    #[test]
+    fn a_boulder_rides_on_the_flow() {
+        let point = Hit { force: 1e5, height: None, over_deposit: 1.0 };
+        let extras = AdditionalActions { point: Some(point), ..AdditionalActions::default() };
+        let stages = envelope(&input(), &extras);
+        let hits: Vec<f64> = stages.iter().filter_map(|case| Some(case.point?.height - case.deposit)).collect();
+        assert!(hits.len() > 50 && hits.iter().all(|&over| (over - 1.0).abs() < 1e-12 || over < 1.0), "{hits:?}");
+        let highest = stages.iter().filter_map(|case| Some(case.point?.height)).fold(0.0, f64::max);
+        assert_eq!((stages[0].point, highest), (Some(PointLoad { force: 1e5, height: 1.0 }), 4.0));
     }
 
     proptest! {
