@@ -10,7 +10,7 @@ use self::face::lean;
 pub use self::posts::PostLoad;
 pub use self::rope_load::RopeLoad;
 use self::ropes::Cases;
-use crate::design::{Channel, Stability, AnchorOf, Arrival, BarrierDesign, Bottom, DamBreak, Design, LateralTo, RunUp};
+use crate::design::{AnchorOf, Arrival, BarrierDesign, Bottom, Channel, DamBreak, Design, LateralTo, RunUp, Stability};
 use crate::larger::larger_or_nan;
 use crate::loads::cases::load_case::{AdditionalActions, BaseActions, Hit, LoadCase};
 use crate::loads::cases::{all, envelope, later_surge};

@@ -4,6 +4,7 @@ use crate::checks::outcome::{CheckName, CheckVerdict, OpenReason, Outcome, Resis
 use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{Demand, Demands};
 use crate::design::{AnchorOf, Bank, BarrierDesign, Design, FlexibleNet, LateralTo};
+use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 use crate::quantities::{anchor_load, other_ropes};
 use crate::sources::ANCHOR_FACTOR;
@@ -28,7 +29,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         };
         let capacity = resistance(design, net, index, bank.unwrap_or(Bank::Right));
         let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation).of_rope(index);
-        let outcome = Outcome { beside, ..outcome };
+        let outcome = open_where_oblique(net, index, bank, Outcome { beside, ..outcome });
         let outcome = if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome };
         match net.lateral_to {
             LateralTo::RopeEnds if net.dissipators.is_some() => outcome,
@@ -60,6 +61,27 @@ fn loads_of_ropes(net: &FlexibleNet, demands: &Demands) -> Vec<(usize, Option<Ba
         each.map(|(number, bank)| (index, Some(bank), demand(number))).collect()
     };
     (net.ropes_held_by_bed()..net.main_ropes.levels.len()).flat_map(of).collect()
+}
+
+/// Angle between an anchor and the line of its rope up to which its resistance, which is that along its axis, stands for its load (rad): 30
+/// degrees, from practice, not verified. The sag of the rope adds to it, which is told with the load.
+const MOST_OBLIQUE: f64 = 0.5236;
+
+/// Leaves the check of an anchor open whose rope would bend it rather than pull it.
+fn open_where_oblique(net: &FlexibleNet, rope: usize, bank: Option<Bank>, mut outcome: Outcome) -> Outcome {
+    let banks = bank.map_or(vec![Bank::Right, Bank::Left], |bank| vec![bank]);
+    let axes = banks.into_iter().filter_map(|bank| net.anchor_designs.of(rope, bank).axis);
+    let angle =
+        axes.map(|[plunge, bearing]| libm::acos(libm::cos(plunge) * libm::cos(bearing))).fold(0.0, larger_or_nan);
+    // Asked as "along", so that what is not a number is not.
+    let along = angle <= MOST_OBLIQUE;
+    if !along && outcome.holds() {
+        outcome.leave_open(OpenReason::NotGiven(format!(
+            "its rope pulls at {:.0} degrees to the axis of the anchor, along which its resistance counts (give a plunge and a bearing nearer to the line of the rope, or leave them out for a head that turns into it)",
+            angle.to_degrees()
+        )));
+    }
+    outcome
 }
 
 /// What an anchor of a main rope withstands.

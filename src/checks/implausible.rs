@@ -60,8 +60,13 @@ fn of_flow_and_channel(design: &Design) -> Vec<Usual> {
 
 /// A barrier that may lose most of the flow, or of its height, stops none; resistances without a factor are seldom design values.
 fn of_limits_and_factors(design: &Design) -> Vec<Usual> {
-    let (limits, factors) = (&design.limits, &design.factors);
-    let mut all = vec![usual("limits.retained_mass", limits.retained_mass, "-", [0.5, 1.0])];
+    let (limits, factors, loads) = (&design.limits, &design.factors, &design.loads);
+    let mut all = vec![
+        usual("limits.retained_mass", limits.retained_mass, "-", [0.5, 1.0]),
+        usual("factors.earth_pressure_k", factors.earth_pressure, "", [0.5, 10.0]),
+        usual("factors.dynamic_lambda", factors.dynamic_pressure, "", [0.5, 6.0]),
+    ];
+    all.extend(loads.impact_reduction.map(|it| usual("loads.impact_reduction", it, "", [0.1, 1.0])));
     if matches!(design.barrier, BarrierDesign::FlexibleNet(_)) {
         all.push(usual("limits.residual_height", limits.residual_height, "-", [0.3, 1.0]));
         all.push(usual("factors.rope", factors.rope, "", [1.2, 5.0]));
@@ -84,6 +89,13 @@ fn of_wall(wall: &RigidWall, width: f64) -> Vec<Usual> {
                 [10.0, 45.0],
             ),
         ]
+        .into_iter()
+        // From soft ground to sound rock.
+        .chain(
+            stability
+                .bearing_resistance
+                .map(|it| usual("barrier.rigid_wall.stability.bearing_resistance", 1e-6 * it, "MPa", [0.05, 10.0])),
+        )
     });
     resistance.into_iter().chain(stability).collect()
 }
@@ -95,7 +107,13 @@ fn of_posts(posts: &Posts) -> Vec<Usual> {
     let mut all = vec![
         usual(path("width"), posts.width, "m", [0.05, 0.5]),
         usual(path("retaining_ropes.anchor_resistance"), retaining.anchor_resistance, "N", [0.0, 3e6]),
+        usual(path("area"), 1e4 * posts.area, "cm²", [5.0, 500.0]),
     ];
+    let of_the_ground = [("foot_resistance", posts.foot_resistance), ("uplift_resistance", posts.uplift_resistance)];
+    all.extend(of_the_ground.into_iter().filter_map(|(name, given)| Some(usual(path(name), given?, "N", [0.0, 3e6]))));
+    if let Some(dissipator) = &retaining.dissipators {
+        all.push(usual(path("retaining_ropes.dissipators: the stroke"), dissipator.stroke, "m", [0.0, 6.0]));
+    }
     if let PostStrength::Section(section) = posts.strength {
         all.push(usual(path("radius_of_gyration"), section.radius_of_gyration, "m", [0.01, posts.width]));
         all.push(usual(path("yield_strength"), section.yield_strength, "Pa", [2e8, 7e8]));

@@ -9,7 +9,7 @@ use crate::loads::wall::WallInput;
 use crate::quantities::quantity::{Quantity, Unit};
 
 /// Share of its limit from which a passing check warns.
-const WARN_FROM: f64 = 0.9;
+pub const WARN_FROM: f64 = 0.9;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CheckVerdict {

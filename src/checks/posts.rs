@@ -90,7 +90,8 @@ fn compressed(design: &Design, given: &Posts, number: usize, demands: &Demands) 
             "nothing but friction of the rope holds the head of a post with a single retaining rope across the channel (give posts.retaining_ropes.spread)".into(),
         ));
     }
-    let of_an_open_section = matches!(given.strength, PostStrength::Section(section) if section.lateral_torsional.is_none());
+    let of_an_open_section =
+        matches!(given.strength, PostStrength::Section(section) if section.lateral_torsional.is_none());
     if of_an_open_section && outcome.holds() {
         outcome.leave_open(OpenReason::NotGiven(
             "a post of an open section may buckle sideways under bending before it yields (give posts.lateral_torsional_factor, 1 for a hollow section)".into(),

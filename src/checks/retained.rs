@@ -3,7 +3,7 @@
 use crate::checks::height::left_by_sag;
 use crate::checks::outcome::{CheckName, CheckVerdict, Kind, OpenReason, Outcome};
 use crate::demand::Demands;
-use crate::design::{BarrierDesign, Design, Flow};
+use crate::design::{BarrierDesign, Design, Flow, RetainedOf};
 use crate::guideline::{event_fill, flows, guideline, height_over_bed, held, held_below, input};
 use crate::larger::larger_or_nan;
 use crate::loads::fill::Surface;
@@ -26,7 +26,28 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
 
 /// What the simulation cannot have seen get lost: grains that were made too coarse for mesh and gap, and surges that were not simulated.
 fn unseen(design: &Design, held_in_simulation: Option<f64>) -> Option<OpenReason> {
-    unseen_fines(design, held_in_simulation).or_else(|| unseen_volume(design))
+    unseen_fluid(design, held_in_simulation)
+        .or_else(|| unseen_fines(design, held_in_simulation))
+        .or_else(|| unseen_volume(design))
+}
+
+/// The simulated mixture is held as a whole, but its fluid runs through a net.
+fn unseen_fluid(design: &Design, held_in_simulation: Option<f64>) -> Option<OpenReason> {
+    let (BarrierDesign::FlexibleNet(_), RetainedOf::Mixture) = (&design.barrier, design.limits.retained_of) else {
+        return None;
+    };
+    let fluid = design.flow.pore_fluid?;
+    let share = (1.0 - design.flow.solid_share()) * fluid.density / design.flow.bulk_density;
+    let held = held_in_simulation.unwrap_or(1.0);
+    // Asked as "enough", so that what is not a number is not.
+    let enough = held * (1.0 - share) >= design.limits.retained_mass;
+    (!enough).then(|| {
+        OpenReason::NotGiven(format!(
+            "{:.0} % of the mass are the pore fluid with its fines, which runs through a net, and the simulation holds it with the grains: {:.0} % of the mass are held for certain (limits.retained_of: grains asks for the share of the grains alone)",
+            100.0 * share,
+            100.0 * held * (1.0 - share)
+        ))
+    })
 }
 
 fn unseen_fines(design: &Design, held_in_simulation: Option<f64>) -> Option<OpenReason> {

@@ -12,7 +12,9 @@ const OF_A_BOULDER: &str = "limit of the design file; the load is the elastic fo
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
-    let (Some(characteristic), Some(_)) = (wall.resistance, point_load(design, &input(design))) else { return Vec::new() };
+    let (Some(characteristic), Some(_)) = (wall.resistance, point_load(design, &input(design))) else {
+        return Vec::new();
+    };
     let name = CheckName::new(
         "wall_local_force",
         "Force on the metre of the wall that the point load hits, per width",

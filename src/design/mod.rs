@@ -434,6 +434,8 @@ impl Bottom {
 pub struct Limits {
     /// Least share of the mass that must be held.
     pub retained_mass: f64,
+    /// What that is a share of.
+    pub retained_of: RetainedOf,
     /// Least height left over the initial height, both normal to the bed.
     pub residual_height: f64,
     /// By which the barrier must rise above the level of the event, normal to the bed (m), where that is asked for.
@@ -445,6 +447,14 @@ pub struct Limits {
     /// Greatest share of the stroke that may be used.
     pub dissipator_utilisation: f64,
     pub outside_range: OutsideRange,
+}
+
+/// What the share that must be held counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RetainedOf {
+    /// Grains and the fluid in their pores.
+    Mixture,
+    Grains,
 }
 
 /// The balance by which a flow's run-up is worked out.

@@ -104,6 +104,23 @@ pub fn retaining_ropes_run_clear_of_the_ground(e: &Entries) -> Option<Problem> {
         bed.x * sine + bed.z * cosine + own
     };
     for place in places {
+        let furthest = place.abs() + spread;
+        if let (None, Some(width)) = (&survey, e.number("channel.width"))
+            && furthest > 0.5 * width + ROUNDING
+        {
+            return Some(
+                Problem::new(
+                    format!("{}.spread", at(RETAINING)),
+                    format!(
+                        "an anchor of the post at {} that lies {} from the middle",
+                        length(*place),
+                        length(furthest)
+                    ),
+                    format!("anchors between the side walls, {} from the middle at the most", length(0.5 * width)),
+                )
+                .hint("a smaller spread, or the ground beyond the walls as a channel.section"),
+            );
+        }
         let tall = (top - ground(0.0, *place)) / libm::cos(lean);
         let head = [-libm::sin(lean) * tall, *place, top];
         for side in [spread, -spread] {

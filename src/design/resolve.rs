@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::design::RetainedOf;
 use crate::design::anchors::anchors;
 use crate::design::channel_entries::{height_of_barrier, height_of_sides, profile, section, survey};
 use crate::design::dissipator_entries::{OF_MAIN_ROPES, dissipators};
@@ -302,6 +303,10 @@ fn limits(e: &Entries) -> Option<Limits> {
     let value = |key: &str| e.number(&format!("limits.{key}"));
     Some(Limits {
         retained_mass: value("retained_mass")?,
+        retained_of: match e.text("limits.retained_of")? {
+            "grains" => RetainedOf::Grains,
+            _ => RetainedOf::Mixture,
+        },
         residual_height: value("residual_height")?,
         freeboard: value("freeboard"),
         run_up: match e.text("limits.run_up")? {

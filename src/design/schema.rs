@@ -476,7 +476,7 @@ const STABILITY: &[Key] = &[
     ),
     Key::optional(
         "bearing_resistance",
-        quantity(D::Pressure, 1e3, 1e9),
+        quantity(D::Pressure, 1e3, 3e7),
         "characteristic bearing resistance of the ground under the base, for a load as eccentric and inclined as this one",
     ),
     Key::default(
@@ -912,6 +912,12 @@ const UTILISATION: Kind = quantity(D::Share, 0.01, 1.0);
 
 const LIMITS: &[Key] = &[
     Key::default("retained_mass", quantity(D::Share, 0.0, 1.0), "90 %", "least share of the mass that must be held"),
+    Key::default(
+        "retained_of",
+        Kind::Choice(&["mixture", "grains"]),
+        "mixture",
+        "what the share in retained_mass counts: the mixture with the fluid in its pores, which runs through a net, or the grains alone",
+    ),
     Key::default("residual_height", quantity(D::Share, 0.0, 1.0), "50 %", "least height left over initial height"),
     Key::optional(
         "freeboard",
@@ -1014,7 +1020,7 @@ const LOADS: &[Key] = &[
     ),
     Key::optional(
         "impact_reduction",
-        Kind::Number { low: 0.01, high: 1.0 },
+        Kind::Number { low: 0.05, high: 1.0 },
         "share of the elastic force (Hertz) with which a boulder of flow.boulders hits a rigid wall, where no point_load is given; a tenth in the practice of Hong Kong (from memory, uncertain), which the loads take unless it is given: checks that pass by it alone then stay open",
     ),
     Key::optional("self_weight", quantity(D::Pressure, 0.1, 1e5), "weight of the net per area, hung on the top rope"),

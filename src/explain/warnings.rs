@@ -65,6 +65,12 @@ pub const WARNINGS: &[Text] = &[
         source: "",
     },
     Text {
+        id: "level_over_the_barrier",
+        meaning: "By the equations run-up or deposit of the event go over the barrier, and no freeboard is asked for: that the barrier is overtopped must be wanted.",
+        formula: "level of the event > height of the barrier",
+        source: "",
+    },
+    Text {
         id: "storage_without_an_end",
         meaning: "The surface of the deposit does not meet the bed in the part of the channel that is known, so that the volume held is not told.",
         formula: "",

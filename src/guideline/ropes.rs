@@ -313,8 +313,8 @@ fn point_on_rope(case: &LoadCase, heights: &[f64], index: usize, span: f64) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::loads::cases::load_case::Hit;
     use crate::guideline::guideline;
+    use crate::loads::cases::load_case::Hit;
     use approx::assert_relative_eq;
 
     #[test]
@@ -329,7 +329,10 @@ mod tests {
         assert_relative_eq!(shares[2], 5.0);
         // Three quarters on the rope at 1 m, a quarter on the one at 3 m; what hits the top rope is all its own.
         let uneven = |height: f64| {
-            let case = crate::loads::cases::point_load::case(&input, Hit { force: 100.0, height: Some(height), over_deposit: 0.0 });
+            let case = crate::loads::cases::point_load::case(
+                &input,
+                Hit { force: 100.0, height: Some(height), over_deposit: 0.0 },
+            );
             [0, 1, 2].map(|rope| point_on_rope(&case, &[0.0, 1.0, 3.0], rope, 10.0))
         };
         assert_eq!(uneven(1.5), [0.0, 15.0, 5.0]);

@@ -4,7 +4,7 @@ use crate::report::row::{Row, in_a_line, is_share, is_stop, lower_first, row, sc
 use serde::Serialize;
 
 use crate::checks::detailing;
-use crate::checks::outcome::{CheckVerdict, Kind, Outcome, most_used};
+use crate::checks::outcome::{CheckVerdict, Kind, Outcome, WARN_FROM, most_used};
 use crate::demand::USED_UP;
 use crate::design::entries::Origin;
 use crate::design::hydrograph::{GoverningPoint, HydrographPoint};
@@ -325,12 +325,18 @@ pub fn summary(run: &Run) -> String {
                 }
                 _ => "",
             };
-            let close = match count(CheckVerdict::Warn) {
-                0 => String::new(),
-                count => format!(", {count} with less than 10 % to spare"),
-            };
+            let let_stand = held.iter().filter(|outcome| !outcome.stands_despite.is_empty()).count();
+            let close = held
+                .iter()
+                .filter(|outcome| outcome.holds() && outcome.used().is_some_and(|used| used > WARN_FROM))
+                .count();
+            let mut spare = if close > 0 { format!(", {close} with less than 10 % to spare") } else { String::new() };
+            if let_stand > 0 {
+                spare +=
+                    &format!(", {let_stand} outside the range of a formula, which limits.outside_range lets stand");
+            }
             let left = loads::least_margin(run).map_or(String::new(), |left| format!(" By the guideline {left}."));
-            format!("{0} of {0} checks pass{close}{one}.{governing}{broken}{left}", held.len())
+            format!("{0} of {0} checks pass{spare}{one}.{governing}{broken}{left}", held.len())
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::checks::range::rope_outside;
 use crate::demand::USED_UP;
 use crate::design::{Arrival, BarrierDesign, FidelityWish, FlexibleNet};
 use crate::fidelity::ladder::rung_of;
+use crate::guideline::height_over_bed;
 use crate::loads::run_up;
 use crate::pipeline::Run;
 use crate::quantities::quantity::Unit;
@@ -35,6 +36,7 @@ const WARNINGS: &[(&str, Warning)] = &[
     ("grains_scaled_to_the_mass", grains_scaled_to_the_mass),
     ("escaped", escaped),
     ("run_up_over_the_banks", run_up_over_the_banks),
+    ("level_over_the_barrier", level_over_the_barrier),
     ("storage_without_an_end", storage_without_an_end),
     ("gully_turns", gully_turns),
     ("force_beyond_the_guideline", force_beyond_the_guideline),
@@ -185,6 +187,21 @@ fn run_up_over_the_banks(run: &Run) -> Option<String> {
 }
 
 /// A deposit whose surface never meets the bed has no volume that could be told.
+/// Many barriers are meant to be overtopped; that this one is must be wanted.
+fn level_over_the_barrier(run: &Run) -> Option<String> {
+    let design = &run.file.design;
+    let (level, height) = (run.guideline.level, height_over_bed(design));
+    // Asked as "below", so that what is not a number is not.
+    let below = level <= height;
+    (design.limits.freeboard.is_none() && !below).then(|| {
+        format!(
+            "By the equations the event reaches {}, measured normal to the bed, and the barrier is {} high: it is overtopped by run-up or deposit, and no check asks about that (limits.freeboard has it checked).",
+            with_unit(level, "m"),
+            with_unit(height, "m")
+        )
+    })
+}
+
 fn storage_without_an_end(run: &Run) -> Option<String> {
     let design = &run.file.design;
     let ends = run.guideline.retention.is_some();

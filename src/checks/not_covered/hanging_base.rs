@@ -100,7 +100,13 @@ mod tests {
 
     /// The bed falls at an angle from a distance downstream of the wall on.
     fn drops(from: &str, angle: &str) -> impl Fn(&str) -> String {
-        move |text| text.replacen("  slope: 14 deg\n", &format!("  slope: 14 deg\n  profile: {{downstream: [[{from}, {angle}]]}}\n"), 1)
+        move |text| {
+            text.replacen(
+                "  slope: 14 deg\n",
+                &format!("  slope: 14 deg\n  profile: {{downstream: [[{from}, {angle}]]}}\n"),
+                1,
+            )
+        }
     }
 
     /// 7 m of a level base on a bed of 14°: 1.745 m, of which 7 cm may be missing.

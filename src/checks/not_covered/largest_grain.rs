@@ -33,7 +33,8 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
         // The law of contacts with a soft modulus hits more gently than stone does.
         None => larger_or_nan(hit(design, velocity), on_the_base),
     };
-    let told = Told { given: given.map(|(force, _)| force), velocity, unreduced: design.loads.impact_reduction.is_none() };
+    let told =
+        Told { given: given.map(|(force, _)| force), velocity, unreduced: design.loads.impact_reduction.is_none() };
     let then = struck(context, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
@@ -61,7 +62,12 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
 }
 
 /// Whether a point load that the design gives stands for the stone: it is no smaller, and acts no lower than the surface of the flow.
-fn stands_for(CheckContext { design, guideline, .. }: CheckContext, force: f64, height: Option<f64>, stone: f64) -> bool {
+fn stands_for(
+    CheckContext { design, guideline, .. }: CheckContext,
+    force: f64,
+    height: Option<f64>,
+    stone: f64,
+) -> bool {
     let surface = guideline.input.depth.min(height_over_bed(design));
     force >= stone && height.is_none_or(|height| force * height >= stone * surface)
 }
@@ -76,9 +82,15 @@ struct Told {
 
 impl Told {
     fn reason(&self, place: &str, force: f64, part: &str, or: &str) -> String {
-        let more = self.given.map_or(String::new(), |given| format!(", where loads.point_load is {:.1} kN", given / 1e3));
-        let by = if self.unreduced { "its whole elastic force, as loads.impact_reduction is not given" } else { "reduced by loads.impact_reduction" };
-        let give = if self.given.is_some() { "give as much at the surface of the flow" } else { "give loads.point_load" };
+        let more =
+            self.given.map_or(String::new(), |given| format!(", where loads.point_load is {:.1} kN", given / 1e3));
+        let by = if self.unreduced {
+            "its whole elastic force, as loads.impact_reduction is not given"
+        } else {
+            "reduced by loads.impact_reduction"
+        };
+        let give =
+            if self.given.is_some() { "give as much at the surface of the flow" } else { "give loads.point_load" };
         format!(
             "the largest stone of the flow may hit {place} with up to {:.0} kN at {:.1} m/s ({by}){more}, and {part} would not hold it ({give}, loads.impact_reduction with its source, or {or})",
             force / 1e3,

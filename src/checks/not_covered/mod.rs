@@ -2,6 +2,7 @@
 //! would pass without them stay open, whatever `limits.outside_range` says, because that lets formulas stand, not gaps.
 
 pub(crate) mod context;
+pub(crate) mod cut_hydrograph;
 pub(crate) mod drag;
 pub(crate) mod full_barrier;
 pub(crate) mod hanging_base;
@@ -29,6 +30,7 @@ const RULES: &[fn(CheckContext, &mut [Outcome])] = &[
     thinner_flow::leave_open,
     heaped::leave_open,
     hanging_base::leave_open,
+    cut_hydrograph::leave_open,
     short_peaks::leave_open,
     soft_contacts::leave_open,
     rigid_wall::leave_open,

@@ -28,7 +28,8 @@ pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Out
         // Asked so that what is not a number is not within.
         let within = simulated * harder <= capacity && scaled * harder <= 1.0;
         if !within {
-            let full = if scaled * capacity > simulated { ", scaled up to the load by the guideline as well," } else { "" };
+            let full =
+                if scaled * capacity > simulated { ", scaled up to the load by the guideline as well," } else { "" };
             outcome.leave_open(OpenReason::Contradicted(format!(
                 "the grains are softer than stone, and harder ones may load it {harder:.2} times as much, which{full} it would not hold (give flow.contact_modulus: 1 GPa, or more resistance)"
             )));

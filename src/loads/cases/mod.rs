@@ -34,7 +34,9 @@ pub fn envelope(input: &GuidelineInput, extras: &AdditionalActions) -> Vec<LoadC
     let room = input.fill_height - input.moving_depth();
     let stages = (1..STAGES).map(|stage| later_surge::case(input, room * stage as f64 / STAGES as f64));
     let cases = all(input, extras).into_iter().chain(stages).filter(|case| case.certainty.decides());
-    let hit = |case: &LoadCase| extras.point.filter(|_| case.moving > 0.0).map(|hit| hit.over(case.deposit, input.barrier_height));
+    let hit = |case: &LoadCase| {
+        extras.point.filter(|_| case.moving > 0.0).map(|hit| hit.over(case.deposit, input.barrier_height))
+    };
     cases.map(|case| LoadCase { point: hit(&case), ..case }).collect()
 }
 
