@@ -4,7 +4,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use crate::arriving;
 use crate::checks::check_all;
-use crate::checks::not_covered::context::{CheckContext, FirstSurge};
+use crate::checks::not_covered::context::{AtOnce, CheckContext, FirstSurge};
 use crate::checks::not_covered::leave_open_not_covered;
 use crate::checks::outcome::{CheckVerdict, Outcome, most_used};
 use crate::checks::range::leave_open_outside_range;
@@ -18,7 +18,8 @@ use crate::flow_cases::{self, FlowCase, cases};
 use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
 use crate::quantities::observed::Observed;
-use crate::quantities::{boulder, earth_pressure, total_force, wall};
+use crate::quantities::quantity::Quantity;
+use crate::quantities::{anchor_load, bed, boulder, earth_pressure, other_ropes, rope_tension, total_force, wall};
 use crate::scene::estimate::estimate;
 use crate::scene::event::{ProgressReport, Watch};
 use crate::sensitivity::simulated::{swings, variants};
@@ -301,6 +302,14 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
             simulated.starts.iter().map(|start| of(&start.observed)).map(|[sampled, smoothed]| sampled / smoothed);
         ratios.fold(1.0, larger_or_nan)
     };
+    // Of each rope that is loaded in any packing.
+    let at_once = |instant: &Quantity, sample: &Quantity| {
+        let all = simulated.starts.iter().flat_map(|start| {
+            let [instant, sample] = [instant, sample].map(|of| start.observed.each(of));
+            instant.iter().zip(sample).filter(|(_, mean)| **mean > 0.0).map(|(instant, mean)| instant / mean)
+        });
+        all.fold(1.0, larger_or_nan)
+    };
     // Of the deposit at the end, and of what each surge has left.
     let of_deposits = |seen: &dyn Fn(&Start) -> Option<f64>| {
         let at_rest: Vec<f64> = simulated.starts.iter().filter_map(seen).collect();
@@ -328,6 +337,13 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
         moment: simulated.spread(|seen| seen.one(&wall::MOMENT)).mean,
         sampled_over_smoothed: short_peaks(|seen| [seen.one(&total_force::PEAK_SAMPLED), seen.one(&total_force::PEAK)]),
         moment_sampled_over_smoothed: short_peaks(|seen| [seen.one(&wall::MOMENT_SAMPLED), seen.one(&wall::MOMENT)]),
+        at_once: AtOnce {
+            main_ropes: at_once(&rope_tension::AT_ONCE, &rope_tension::PEAK),
+            net: at_once(&other_ropes::NET_AT_ONCE, &other_ropes::NET),
+            lateral_ropes: at_once(&other_ropes::LATERAL_AT_ONCE, &other_ropes::LATERAL),
+            anchors: at_once(&anchor_load::AT_ONCE, &anchor_load::PEAK),
+            bolts: at_once(&bed::BOLT_AT_ONCE, &bed::BOLT),
+        },
         depth: arrives.depth,
         velocity: arrives.velocity,
         flux_share: arrives.flux_share,

@@ -1,6 +1,6 @@
 //! Load of the anchors against their design resistance.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, OpenReason, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, CheckVerdict, Kind, OpenReason, Outcome, Resistance};
 use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{Demand, Demands};
 use crate::design::{AnchorOf, Bank, BarrierDesign, Design, FlexibleNet, LateralTo};
@@ -29,7 +29,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         };
         let capacity = resistance(design, net, index, bank.unwrap_or(Bank::Right));
         let outcome = Outcome::at_most(name, demand, capacity, design.limits.anchor_utilisation).of_rope(index);
-        let outcome = open_where_oblique(net, index, bank, Outcome { beside, ..outcome });
+        let outcome = open_where_oblique(net, index, bank, Outcome { kind: Kind::Anchors, beside, ..outcome });
         let outcome = if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome };
         match net.lateral_to {
             LateralTo::RopeEnds if net.dissipators.is_some() => outcome,

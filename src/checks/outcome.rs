@@ -40,6 +40,8 @@ impl CheckVerdict {
 pub enum Kind {
     #[default]
     Any,
+    /// The load of the anchors of a main rope.
+    Anchors,
     /// The share of the mass that is held.
     MassHeld,
     /// The share of its height that the barrier keeps.

@@ -13,6 +13,13 @@ pub const PEAK: Quantity = Quantity::new("anchor", "Load of the anchors of main 
 .told(Told::WhereLoaded)
 .demanded(Demanded::RopeLoad { capped: true });
 
+/// The same at any instant.
+pub const AT_ONCE: Quantity =
+    Quantity::new("anchor_at_once", "Load of the anchors at any instant, of main rope", Newton, Of::EachRope, |run| {
+        run.peaks(&of_anchors::LOAD_AT_ONCE)
+    })
+    .json("anchor_force_at_once_n");
+
 /// Largest load of each anchor.
 pub const EACH: Quantity = Quantity::new("each_anchor", "Load of anchor", Newton, Of::EachAnchor, |run| {
     at_largest(run).into_iter().map(|[along, across, up]| libm::hypot(libm::hypot(along, across), up)).collect()

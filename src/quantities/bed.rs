@@ -21,6 +21,12 @@ pub const BOLT: Quantity =
     .json("bolt_force_peak_n")
     .meaning("On its worst bolt; 0 where anchors.bed_bolt_spacing is not given.")
     .demanded(Demanded::Load(|guideline, _| guideline.bolt_force));
+/// The same in any step.
+pub const BOLT_AT_ONCE: Quantity =
+    Quantity::new("bolt_force_at_once", "Load of the worst bolt at any instant", Newton, Of::Run, |run| {
+        run.peak(&of_anchors::BOLT_AT_ONCE)
+    })
+    .json("bolt_force_at_once_n");
 /// Largest lift of one of its bolts, likewise.
 pub const BOLT_LIFT: Quantity =
     Quantity::new("bolt_lift", "Largest lift of a bolt", Newton, Of::Run, |run| run.peak(&of_anchors::BOLT_LIFT))

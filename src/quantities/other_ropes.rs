@@ -20,6 +20,18 @@ pub const NET: Quantity =
         .told(Told::WhereLoaded)
         .demanded(Demanded::Load(|guideline, _| guideline.rings.map(|rings| rings.leg)));
 
+/// Both at any instant.
+pub const LATERAL_AT_ONCE: Quantity =
+    Quantity::new("lateral_tension_at_once", "Tension of the lateral ropes at any instant", Newton, Of::Run, |run| {
+        run.peak(&of_ropes::LATERAL_AT_ONCE)
+    })
+    .json("lateral_tension_at_once_n");
+pub const NET_AT_ONCE: Quantity =
+    Quantity::new("net_tension_at_once", "Tension of the net's ropes at any instant", Newton, Of::Run, |run| {
+        run.peak(&of_ropes::NET_AT_ONCE)
+    })
+    .json("net_tension_at_once_n");
+
 /// Largest tension of the net at the end.
 pub const NET_RESIDUAL: Quantity =
     Quantity::new("net_tension_residual", "Tension of the net's ropes at rest", Newton, Of::Run, |run| {

@@ -2,13 +2,21 @@
 
 use crate::quantities::quantity::Unit::{Metre, Newton};
 use crate::quantities::quantity::{Demanded, Of, Quantity};
-use dem::recorders::of_ropes::{EXTENSION, LARGEST, MEAN};
+use dem::recorders::of_ropes::{EXTENSION, LARGEST, LARGEST_AT_ONCE, MEAN};
 
 /// Largest tension anywhere along each main rope, its dissipators included.
 pub const PEAK: Quantity =
     Quantity::new("rope_tension_peak", "Tension of main rope", Newton, Of::EachRope, |run| run.peaks(&LARGEST))
         .json("rope_tension_peak_n")
         .demanded(Demanded::RopeLoad { capped: false });
+
+/// The same at any instant; the others are largest means over a sample.
+pub const AT_ONCE: Quantity =
+    Quantity::new("rope_tension_at_once", "Tension of main rope at any instant", Newton, Of::EachRope, |run| {
+        run.peaks(&LARGEST_AT_ONCE)
+    })
+    .json("rope_tension_at_once_n")
+    .meaning("Largest at any instant of the simulation; the other tensions are largest means over a sample.");
 
 /// Largest mean tension along each main rope, and its mean at the end.
 pub const MEAN_PEAK: Quantity =

@@ -20,7 +20,7 @@ pub const FILE: &str = "recording.bin";
 
 pub const NAME: &[u8; 8] = b"BARRCHK\n";
 /// Changes whenever what is recorded beside quantities and channels changes, which are known by their names.
-pub const FORMAT: u32 = 14;
+pub const FORMAT: u32 = 15;
 
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]

@@ -1,5 +1,6 @@
 //! What the rules of this folder go by.
 
+use crate::checks::outcome::Kind;
 use crate::design::Design;
 use crate::guideline::Guideline;
 
@@ -19,6 +20,8 @@ pub struct FirstSurge {
     /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged (ratio, at least 1).
     pub sampled_over_smoothed: f64,
     pub moment_sampled_over_smoothed: f64,
+    /// Largest load at any instant over the largest mean over a sample, which is judged (ratios, at least 1).
+    pub at_once: AtOnce,
     /// The velocity with which it arrives (m/s).
     pub velocity: f64,
     /// Its depth then, at bulk density (m).
@@ -33,6 +36,36 @@ pub struct FirstSurge {
     pub force_band: f64,
     pub stroke_band: f64,
     pub share_band: f64,
+}
+
+/// By how much what bears a net is loaded more at an instant than in the mean over a sample (ratios).
+#[derive(Clone, Copy, Debug)]
+pub struct AtOnce {
+    pub main_ropes: f64,
+    pub net: f64,
+    pub lateral_ropes: f64,
+    pub anchors: f64,
+    pub bolts: f64,
+}
+
+impl Default for AtOnce {
+    fn default() -> Self {
+        Self { main_ropes: 1.0, net: 1.0, lateral_ropes: 1.0, anchors: 1.0, bolts: 1.0 }
+    }
+}
+
+impl AtOnce {
+    /// That of what a check is about, if that is such a part.
+    pub fn of(&self, kind: Kind) -> Option<f64> {
+        match kind {
+            Kind::MainRope => Some(self.main_ropes),
+            Kind::NetRopes => Some(self.net),
+            Kind::LateralRopes => Some(self.lateral_ropes),
+            Kind::Anchors => Some(self.anchors),
+            Kind::Bolts | Kind::BetweenBolts => Some(self.bolts),
+            _ => None,
+        }
+    }
 }
 
 impl FirstSurge {

@@ -92,6 +92,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
             return Some([lost(0.0), lost(seen.share_band)]);
         }
         Kind::Any
+        | Kind::Anchors
         | Kind::WallStrength
         | Kind::Bolts
         | Kind::BetweenBolts

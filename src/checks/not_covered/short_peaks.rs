@@ -1,12 +1,25 @@
-//! Short peaks of the force on a wall, and of its moment. What is judged is a mean over a window; a boulder that hits is shorter than that.
-//! Whether a wall follows so short a force is not known here: it holds it, or the check is open.
+//! Short peaks of the force on a wall and of its moment, and of what ropes, net, anchors and bolts bear. What is judged is a mean over a time; a
+//! boulder that hits is shorter than that. Whether a wall or a bolt follows so short a force is not known here: it holds it, or the check is open.
 
 use super::context::CheckContext;
 use crate::checks::outcome::{Kind, OpenReason, Outcome};
+use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 
 pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     let Some(seen) = context.seen else { return };
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        let Some((over, used)) = seen.at_once.of(outcome.kind).zip(used_by_simulation(outcome)) else { continue };
+        let at_once = used * over;
+        // Written so that a NaN counts as not within.
+        let within = at_once <= 1.0;
+        if !within {
+            outcome.leave_open(OpenReason::Contradicted(format!(
+                "what is judged is a mean over a short time; at one instant it bears {over:.2} times as much, {:.0} % of what it holds (give it more resistance)",
+                100.0 * at_once
+            )));
+        }
+    }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
         let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
         let over =
@@ -29,16 +42,36 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     }
 }
 
+/// Share of its capacity that a check uses by the simulation, scaled up to the load by the guideline where that is more.
+pub fn used_by_simulation(outcome: &Outcome) -> Option<f64> {
+    let (simulated, capacity) = outcome.demand.simulation.zip(outcome.capacity)?;
+    Some(larger_or_nan(simulated / capacity, outcome.scaled.map_or(0.0, |scaled| scaled.used)))
+}
+
 #[cfg(test)]
 mod tests {
-    use crate::checks::not_covered::context::FirstSurge;
-    use crate::checks::not_covered::tests::{pushing, simulated_verdict};
+    use crate::checks::not_covered::context::{AtOnce, FirstSurge};
+    use crate::checks::not_covered::tests::{net_holds, pushing, simulated_verdict, small_net};
     use crate::checks::outcome::CheckVerdict;
     use crate::design::BarrierDesign;
     use crate::design::read::read_design;
     use crate::quantities::counts::Counts;
     use crate::quantities::observed::Observed;
-    use crate::quantities::{total_force, wall};
+    use crate::quantities::{other_ropes, total_force, wall};
+
+    /// A net that uses 60 % in the mean over a sample, and half as much again, or seven tenths, at an instant.
+    #[test]
+    fn a_net_is_open_where_it_bears_more_at_an_instant_than_it_holds() {
+        let mut design = small_net();
+        design.flow.modulus = 1e9;
+        let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+            .with(&other_ropes::NET, &[0.6 * net_holds(&design)]);
+        let verdict = |over: f64| {
+            let at_once = AtOnce { net: over, ..AtOnce::default() };
+            simulated_verdict(&design, "net_tension", &observed, FirstSurge { at_once, ..pushing(1e9) })
+        };
+        assert_eq!([1.5, 1.7, f64::NAN].map(verdict), [CheckVerdict::Pass, CheckVerdict::Open, CheckVerdict::Open]);
+    }
 
     /// A wall that holds 10 MN and 2 MN m/m, under 4 MN and 0.8 MN m/m by the smoothed signal.
     #[test]

@@ -2,16 +2,17 @@
 //! single grains do, to the net, its edges and the rope and bolts at the bed, does: with 1 GPa in place of 0.05 GPa the simulated loads of two rope
 //! nets were 1.0 to 1.5 (lateral ropes), 1.2 to 1.8 (bolts), 1.25 to 1.9 (the rope between them) and 1.5 to 1.9 times as large, and those of main
 //! ropes and anchors 0.8 to 1.1 times (95 % fractiles over four packings each). That is at most the fourth root of the ratio of the moduli, 2.1, which is asked
-//! for here, on top of what the full barrier adds; of an elastic hit on something that does not give it would be the square root.
+//! for here, on top of what the full barrier and the peak at an instant add; of an elastic hit on something that does not give it would be the square root.
 
 use super::context::CheckContext;
+use super::short_peaks::used_by_simulation;
 use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::design::BarrierDesign;
 
 /// Contact modulus (Pa) from which harder grains are not asked for: beyond it the net gives, not the grain.
 const STIFF: f64 = 1e9;
 
-pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Outcome]) {
+pub fn leave_open(CheckContext { design, seen, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let BarrierDesign::FlexibleNet(_) = &design.barrier else { return };
     let softer = STIFF / design.flow.modulus;
     // Asked so that what is not a number goes on.
@@ -23,15 +24,18 @@ pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Out
         matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts | Kind::NetRopes | Kind::LateralRopes)
     };
     for outcome in outcomes.iter_mut().filter(|outcome| of_single_grains(outcome) && outcome.holds()) {
-        let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
-        let scaled = outcome.scaled.map_or(0.0, |scaled| scaled.used);
+        let Some(used) = used_by_simulation(outcome) else { continue };
+        let over = seen.and_then(|seen| seen.at_once.of(outcome.kind)).unwrap_or(1.0);
         // Asked so that what is not a number is not within.
-        let within = simulated * harder <= capacity && scaled * harder <= 1.0;
+        let within = used * over * harder <= 1.0;
         if !within {
-            let full =
-                if scaled * capacity > simulated { ", scaled up to the load by the guideline as well," } else { "" };
+            let more = if used * over > outcome.utilisation.unwrap_or(0.0) {
+                ", at an instant and scaled up to the load by the guideline,"
+            } else {
+                ""
+            };
             outcome.leave_open(OpenReason::Contradicted(format!(
-                "the grains are softer than stone, and harder ones may load it {harder:.2} times as much, which{full} it would not hold (give flow.contact_modulus: 1 GPa, or more resistance)"
+                "the grains are softer than stone, and harder ones may load it {harder:.2} times as much, which{more} it would not hold (give flow.contact_modulus: 1 GPa, or more resistance)"
             )));
         }
     }

@@ -1,5 +1,6 @@
 //! What every recorder of a part of the barrier does: it takes in steps, and makes a sample of them.
 
+use crate::larger_or_nan;
 use crate::recorders::channels::Channels;
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -28,6 +29,14 @@ pub fn add_shares(sums: &mut Vec<f64>, values: &[f64], lists: usize) {
     let share = 1.0 / lists as f64;
     for (sum, value) in sums.iter_mut().zip(values) {
         *sum += share * value;
+    }
+}
+
+/// Keeps the larger of each two values, one by one.
+pub fn keep_larger(largest: &mut Vec<f64>, values: &[f64]) {
+    largest.resize(values.len(), 0.0);
+    for (largest, &value) in largest.iter_mut().zip(values) {
+        *largest = larger_or_nan(*largest, value);
     }
 }
 

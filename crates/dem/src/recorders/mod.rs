@@ -24,7 +24,7 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 32] = [
+pub const CHANNELS: [&Channel; 37] = [
     &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
@@ -57,4 +57,9 @@ pub const CHANNELS: [&Channel; 32] = [
     &of_anchors::EACH[0],
     &of_anchors::EACH[1],
     &of_anchors::EACH[2],
+    &of_ropes::LARGEST_AT_ONCE,
+    &of_ropes::NET_AT_ONCE,
+    &of_ropes::LATERAL_AT_ONCE,
+    &of_anchors::LOAD_AT_ONCE,
+    &of_anchors::BOLT_AT_ONCE,
 ];

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::Vec3;
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
-use crate::recorders::body::{BodyRecorder, add_shares, means};
+use crate::recorders::body::{BodyRecorder, add_shares, keep_larger, means};
 use crate::recorders::bolts::share_between_bolts;
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
@@ -14,6 +14,8 @@ use crate::tables::barrier::Barrier;
 
 /// Load of the higher loaded anchor of each main rope; where several ropes run side by side each has its own, and takes its share.
 pub const LOAD: Channel = Channel { name: "anchor", unit: "n", rows: Rows::EachRope };
+/// The same at any instant of a sample.
+pub const LOAD_AT_ONCE: Channel = Channel { name: "anchor_at_once", unit: "n", rows: Rows::EachRope };
 /// Force on each anchor in the channel frame; where several ropes run side by side that on the anchor of one.
 pub const EACH: [Channel; 3] = [
     Channel { name: "anchor_x", unit: "n", rows: Rows::EachAnchor },
@@ -25,6 +27,8 @@ pub const BED: Channel = Channel { name: "bed_force", unit: "n", rows: Rows::One
 /// Largest force on one of the bolts that hold the lowest main rope to the bed, and the largest lift of one; not recorded where their
 /// distance is not known.
 pub const BOLT: Channel = Channel { name: "bolt_largest", unit: "n", rows: Rows::One };
+/// Largest force on one of them in any step of a sample.
+pub const BOLT_AT_ONCE: Channel = Channel { name: "bolt_largest_at_once", unit: "n", rows: Rows::One };
 pub const BOLT_LIFT: Channel = Channel { name: "bolt_lift", unit: "n", rows: Rows::One };
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -33,6 +37,9 @@ pub struct OfAnchors {
     each: Vec<Vec3>,
     bed: Vec3,
     bolts: Vec<Vec3>,
+    /// Largest at any instant: load of each rope's anchor, and force on a bolt.
+    at_once: Vec<f64>,
+    bolt_at_once: f64,
 }
 
 impl BodyRecorder for OfAnchors {
@@ -41,7 +48,9 @@ impl BodyRecorder for OfAnchors {
         self.bed += bed_force(barrier, forces, &setup.net_rows);
         let substeps = simulation.sums.net_in_substeps();
         for net in substeps {
-            add_shares(&mut self.load, &anchor_loads(barrier, &net.forces, setup.ropes), substeps.len());
+            let loads = anchor_loads(barrier, &net.forces, setup.ropes);
+            add_shares(&mut self.load, &loads, substeps.len());
+            keep_larger(&mut self.at_once, &loads);
         }
         self.each.resize(barrier.anchors.len(), Vec3::zeros());
         for (sum, anchor) in self.each.iter_mut().zip(&barrier.anchors) {
@@ -51,6 +60,7 @@ impl BodyRecorder for OfAnchors {
             let loads = bolt_loads(barrier, setup, forces);
             self.bolts.resize(loads.len(), Vec3::zeros());
             self.bolts.iter_mut().zip(&loads).for_each(|(sum, load)| *sum += load);
+            self.bolt_at_once = loads.iter().map(Vec3::norm).fold(self.bolt_at_once, larger_or_nan);
         }
     }
 
@@ -60,6 +70,7 @@ impl BodyRecorder for OfAnchors {
         }
         let done = std::mem::take(self);
         channels.push(&LOAD, &means(&done.load, steps));
+        channels.push(&LOAD_AT_ONCE, &done.at_once);
         for (axis, channel) in EACH.iter().enumerate() {
             let along: Vec<f64> = done.each.iter().map(|force| force[axis]).collect();
             channels.push(channel, &means(&along, steps));
@@ -68,6 +79,7 @@ impl BodyRecorder for OfAnchors {
         if setup.bolt_spaces > 0 {
             let most = |of: fn(&Vec3) -> f64| means(&[done.bolts.iter().map(of).fold(0.0, larger_or_nan)], steps);
             channels.push(&BOLT, &most(|load| load.norm()));
+            channels.push(&BOLT_AT_ONCE, &[done.bolt_at_once]);
             channels.push(&BOLT_LIFT, &most(|load| load.z));
         }
     }

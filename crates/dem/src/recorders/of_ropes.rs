@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
 use crate::net::NetForces;
-use crate::recorders::body::{BodyRecorder, add_shares, means};
+use crate::recorders::body::{BodyRecorder, add_shares, keep_larger, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -15,6 +15,10 @@ use crate::tables::barrier::Barrier;
 pub const MEAN: Channel = Channel { name: "rope_mean", unit: "n", rows: Rows::EachRope };
 /// Largest tension along each main rope, its dissipators included.
 pub const LARGEST: Channel = Channel { name: "rope_largest", unit: "n", rows: Rows::EachRope };
+/// The same at any instant of a sample: of main ropes, net and lateral ropes. The others are means over a sample.
+pub const LARGEST_AT_ONCE: Channel = Channel { name: "rope_largest_at_once", unit: "n", rows: Rows::EachRope };
+pub const NET_AT_ONCE: Channel = Channel { name: "net_largest_at_once", unit: "n", rows: Rows::One };
+pub const LATERAL_AT_ONCE: Channel = Channel { name: "lateral_largest_at_once", unit: "n", rows: Rows::One };
 /// How far downstream the furthest point of each main rope is from where the rope hung at first.
 pub const EXTENSION: Channel = Channel { name: "rope_extension", unit: "m", rows: Rows::EachRope };
 /// Largest tension in the lateral ropes.
@@ -34,6 +38,9 @@ pub struct OfRopes {
     largest: Vec<f64>,
     net: f64,
     lateral: f64,
+    /// Largest at any instant: of each rope, of the net and the lateral ropes.
+    at_once: Vec<f64>,
+    net_and_lateral_at_once: [f64; 2],
 }
 
 impl BodyRecorder for OfRopes {
@@ -50,6 +57,10 @@ impl BodyRecorder for OfRopes {
         channels.push(&LARGEST, &means(&done.largest, steps));
         channels.push(&NET, &means(&[done.net], steps));
         channels.push(&LATERAL, &means(&[done.lateral], steps));
+        channels.push(&LARGEST_AT_ONCE, &done.at_once);
+        let [net, lateral] = done.net_and_lateral_at_once;
+        channels.push(&NET_AT_ONCE, &[net]);
+        channels.push(&LATERAL_AT_ONCE, &[lateral]);
         let [broken, drawn_out] = wear(barrier);
         channels.push(&BROKEN, &[broken]);
         channels.push(&DRAWN_OUT, &[drawn_out]);
@@ -88,6 +99,10 @@ impl OfRopes {
         add_shares(&mut self.largest, &largest, substeps);
         self.net += net_largest / substeps as f64;
         self.lateral += lateral / substeps as f64;
+        keep_larger(&mut self.at_once, &largest);
+        let [net_at_once, lateral_at_once] = self.net_and_lateral_at_once;
+        self.net_and_lateral_at_once =
+            [larger_or_nan(net_at_once, net_largest), larger_or_nan(lateral_at_once, lateral)];
     }
 }
 
