@@ -293,9 +293,10 @@ mod tests {
             "factors.earth_pressure_k",
             "factors.dynamic_lambda",
             "loads.wood_factor",
-            // What the parts physically are: the strength that ends of ropes hold, and how much more than its plateau a dissipator pulls.
+            // What the parts physically are: the strength that ends of ropes hold, and how much more than its plateau a dissipator pulls; what buckling leaves of a section.
             "factors.rope_end",
             "factors.dissipator_overstrength",
+            "barrier.flexible_net.posts.lateral_torsional_factor",
             // The name of a set of the others.
             "factors.set",
         ];

@@ -15,7 +15,7 @@ pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Out
     // Asked as "ended", so that what is not a number has not.
     let ended = last <= ENDED * largest;
     // A larger event is told of by its volume: what comes later has rules of its own.
-    if ended || design.flow.is_part_of_its_event() {
+    if ended || !last.is_nan() && design.flow.is_part_of_its_event() {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {

@@ -102,8 +102,8 @@ mod tests {
     fn drops(from: &str, angle: &str) -> impl Fn(&str) -> String {
         move |text| {
             text.replacen(
-                "  slope: 14 deg\n",
-                &format!("  slope: 14 deg\n  profile: {{downstream: [[{from}, {angle}]]}}\n"),
+                "  slope: 14 deg",
+                &format!("  profile: {{downstream: [[{from}, {angle}]]}}\n  slope: 14 deg"),
                 1,
             )
         }
