@@ -67,7 +67,7 @@ fn main_ropes() {
     at(NET, spans, count, "heights: [0 m] ", "heights: [0 m, 1.8 m] ");
     at(NET, "count and heights", count, "count: 3\n      heights: [0 m, 1.8 m] ", "heights: [0 m, 1.8 m] ");
     at(NET, "none of count, heights and levels", count, "# ", count);
-    let without_bolts = said(NET, &[("bed_bolt_spacing: 0.28 m ", "# ")]);
+    let without_bolts = said(NET, &[("bed_bolt_spacing: 0.2 m ", "# ")]);
     assert!(without_bolts.contains("a resistance of one bolt without their distance"), "{without_bolts}");
     assert_eq!(said(NET, &[("bed_bolt_resistance: 800 kN ", "# ")]), "");
     let twice = "bed_resistance: 1 MN\n      bed_bolt_resistance: 800 kN ";

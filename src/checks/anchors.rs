@@ -142,6 +142,8 @@ fn against_plateau(net: &FlexibleNet, design: &Design, demands: &Demands) -> Opt
             .only_by_simulation("the lateral ropes are tied to the anchors, and the equations do not know their load"),
         false => outcome,
     };
+    let free = net.ropes_held_by_bed()..net.main_ropes.levels.len();
+    let outcome = free.fold(outcome, |outcome, rope| open_where_oblique(net, rope, None, outcome));
     Some(open_without_overstrength(design, outcome))
 }
 
@@ -162,6 +164,21 @@ mod tests {
     use crate::design::read::read_design;
     use crate::guideline::guideline;
     use crate::quantities::other_ropes;
+
+    /// An axis 29° off the line of the rope stands for it, one of 31° does not, nor one that is not a number.
+    #[test]
+    fn an_anchor_that_its_rope_bends_is_open() {
+        let told = |plunge: f64, bearing: f64| {
+            let degrees = [plunge, bearing].map(f64::to_radians);
+            let off = |design: &mut Design| {
+                let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
+                net.anchor_designs.all.axis = Some(degrees);
+            };
+            plateau(off, None).verdict
+        };
+        assert_eq!([told(29.0, 0.0), told(0.0, -29.0), told(20.0, 20.0)], [CheckVerdict::Pass; 3]);
+        assert_eq!([told(31.0, 0.0), told(0.0, 150.0), told(f64::NAN, 0.0)], [CheckVerdict::Open; 3]);
+    }
 
     /// The check against the plateau of 150 kN, with a simulated tension of the lateral ropes (N).
     fn plateau(change: impl Fn(&mut Design), lateral: Option<f64>) -> Outcome {
