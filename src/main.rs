@@ -9,6 +9,7 @@ use barrier_check::commands::compare::compare;
 use barrier_check::commands::engines::{Engine, Mode};
 use barrier_check::commands::explain::explain;
 use barrier_check::commands::messages::Format;
+use barrier_check::commands::misspelt::meant;
 use barrier_check::commands::new::{Given, new};
 use barrier_check::commands::progress::Audience;
 use barrier_check::commands::report::report;
@@ -376,6 +377,11 @@ fn run() -> i32 {
         // Help and version are what was asked for, the rest is an error.
         Err(told) if told.use_stderr() => {
             terminal::warn(told.render().to_string().trim_end());
+            let command = Arguments::command();
+            let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            if let Some(hint) = meant(&names, &std::env::args().skip(1).collect::<Vec<_>>()) {
+                terminal::warn(format_args!("hint: {hint}"));
+            }
             return 2;
         }
         Err(told) => return if terminal::say(told.render().to_string().trim_end()) { 0 } else { 2 },

@@ -8,6 +8,7 @@ pub(crate) mod input;
 pub(crate) mod kept;
 mod kept_simulations;
 pub mod messages;
+pub mod misspelt;
 pub mod new;
 mod one_page;
 pub(crate) mod output;

@@ -195,22 +195,27 @@ mod tests {
         let ropes = |rows: [f64; 3]| rows.map(|row| vec![0.5 * row, row, 0.25 * row]).to_vec();
         let single = |peak: f64| vec![vec![0.2 * peak, peak, 0.5 * peak]];
         let gauge = Gauge { velocity: 4.0, depth: 0.9, flux: 14.0, ..Gauge::default() };
-        let of_each_rope: [(&Channel, [f64; 3]); 7] = [
+        let of_each_rope: [(&Channel, [f64; 3]); 9] = [
             (&of_ropes::MEAN, [1.0, 2.0, 3.0]),
             (&of_ropes::LARGEST, [4.0, 5.0, 6.0]),
             (&of_anchors::LOAD, [7.0, 8.0, 9.0]),
+            (&of_ropes::LARGEST_AT_ONCE, [4.5, 5.5, 6.5]),
+            (&of_anchors::LOAD_AT_ONCE, [7.5, 8.5, 9.5]),
             (&of_ropes::EXTENSION, [10.0, 11.0, 12.0]),
             (&of_dissipators::STROKE, [13.0, 14.0, 15.0]),
             (&of_dissipators::MEAN_STROKE, [16.0, 17.0, 18.0]),
             (&of_dissipators::TENSION, [19.0, 20.0, 21.0]),
         ];
-        let of_the_net: [(&Channel, f64); 6] = [
+        let of_the_net: [(&Channel, f64); 9] = [
             (&of_ropes::LATERAL, 22.0),
             (&of_anchors::BED, 23.0),
             (&of_anchors::BOLT, 24.0),
             (&of_anchors::BOLT_LIFT, 25.0),
             (&of_ropes::NET, 26.0),
             (&of_ropes::DRAWN_OUT, 0.27),
+            (&of_ropes::LATERAL_AT_ONCE, 22.5),
+            (&of_anchors::BOLT_AT_ONCE, 24.5),
+            (&of_ropes::NET_AT_ONCE, 26.5),
         ];
         let mut barrier = Channels::default()
             .with(&of_ropes::BROKEN, vec![vec![0.0, 1.0, 2.0]])
@@ -241,7 +246,7 @@ mod tests {
             ..forces(&[30.0, 90.0, 60.0])
         };
         let seen = read(&histories, &design);
-        let single: [(&Quantity, f64); 21] = [
+        let single: [(&Quantity, f64); 24] = [
             (&total_force::PEAK, 90.0),
             (&total_force::PEAK_TIME, 2.0),
             (&total_force::PEAK_SAMPLED, 90.0),
@@ -257,6 +262,9 @@ mod tests {
             (&bed::FORCE, 23.0),
             (&bed::BOLT, 24.0),
             (&bed::BOLT_LIFT, 25.0),
+            (&other_ropes::LATERAL_AT_ONCE, 22.5),
+            (&bed::BOLT_AT_ONCE, 24.5),
+            (&other_ropes::NET_AT_ONCE, 26.5),
             (&rope_damage::BROKEN, 2.0),
             (&rope_damage::FIRST_BREAK, 2.0),
             (&rope_damage::DRAWN_OUT, 0.27),
@@ -268,11 +276,13 @@ mod tests {
         for (quantity, value) in single {
             assert_eq!(seen.one(quantity), value, "{}", quantity.id);
         }
-        let by_rope: [(&Quantity, [f64; 3]); 8] = [
+        let by_rope: [(&Quantity, [f64; 3]); 10] = [
             (&rope_tension::MEAN_PEAK, [1.0, 2.0, 3.0]),
             (&rope_tension::MEAN_RESIDUAL, [0.25, 0.5, 0.75]),
             (&rope_tension::PEAK, [4.0, 5.0, 6.0]),
             (&anchor_load::PEAK, [7.0, 8.0, 9.0]),
+            (&rope_tension::AT_ONCE, [4.5, 5.5, 6.5]),
+            (&anchor_load::AT_ONCE, [7.5, 8.5, 9.5]),
             (&rope_tension::BULGE, [10.0, 11.0, 12.0]),
             (&dissipator::STROKE, [13.0, 14.0, 15.0]),
             (&dissipator::MEAN_STROKE, [16.0, 17.0, 18.0]),

@@ -46,7 +46,7 @@ pub fn table(run: &Run) -> Option<Table> {
         ],
         rows: anchors.iter().enumerate().map(row).collect(),
         note: format!(
-            "Ground anchors, looking downstream. Loads by the equations are those of the checks, with partial factors and overstrength. The vector is that of the first run of the flow without partial factors, at the moment when the load of that anchor is largest, in horizontal and vertical components; with a minus it acts upstream, to the right or downwards. The angle is between that load and the axis of the anchor, which is the line of its unloaded rope where no plunge is given; it is told, not checked.{}",
+            "Ground anchors, looking downstream. Loads by the equations are those of the checks, with partial factors and overstrength. The vector is that of the first run of the flow without partial factors, at the moment when the load of that anchor is largest, in horizontal and vertical components; with a minus it acts upstream, to the right or downwards. The angle is between that load and the axis of the anchor, which is the line of its unloaded rope where no plunge is given; it is shown for information, and a check stays open only where the axis is more than 30° off the line of the rope.{}",
             if bundled { " Where ropes run side by side each has such an anchor at either end." } else { "" }
         ),
     })

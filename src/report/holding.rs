@@ -1,7 +1,7 @@
 //! What the barrier holds, how high the flow comes up in front of it, and what a flow of this volume is like by rules of thumb.
 
 use crate::checks::height::left_by_sag;
-use crate::design::RunUp;
+use crate::design::{BarrierDesign, RunUp};
 use crate::guideline::event_fill;
 use crate::loads::estimates::{manning_strickler, peak_discharge, velocity_and_depth};
 use crate::loads::run_up;
@@ -26,8 +26,12 @@ pub fn rows(run: &Run) -> Vec<Row> {
             "Volume held behind the barrier",
             with_unit(held.volume, "m³"),
             format!(
-                "{formula}, H = {} the height of the sagged net when full (loads.filled_height), α = {:.1}° the slope of the bed, α' = {:.1}° that of the deposit's surface (loads.deposit_slope), ε = {:.1}° the lean of the barrier from the bed's normal; over {} of channel. Defaults are from practice, not verified",
+                "{formula}, H = {} the height of {}, α = {:.1}° the slope of the bed, α' = {:.1}° that of the deposit's surface (loads.deposit_slope), ε = {:.1}° the lean of the barrier from the bed's normal; over {} of channel. Defaults are from practice, not verified",
                 with_unit(held.deposit.height, "m"),
+                match run.file.design.barrier {
+                    BarrierDesign::RigidWall(_) => "the wall over the bed",
+                    BarrierDesign::FlexibleNet(_) => "the sagged net when full (loads.filled_height)",
+                },
                 held.deposit.slope.to_degrees(),
                 held.deposit.surface.to_degrees(),
                 held.deposit.lean.to_degrees(),

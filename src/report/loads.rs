@@ -141,7 +141,7 @@ fn remark(run: &Run, case: &LoadCase) -> String {
     if case.moving > 0.0 && case.deposit > 0.0 && case.shear == 0.0 && case.diagram.top >= case.diagram.surface {
         let (first, second) = split(&run.guideline.input, case);
         parts.push(format!(
-            "of which the deposit F₁ = {} and the moving flow F₂ = {}",
+            "the deposit's part of it is F₁ = {}, that of the moving flow F₂ = {}",
             with_unit(first, "N/m"),
             with_unit(second, "N/m")
         ));
@@ -159,9 +159,14 @@ fn remark(run: &Run, case: &LoadCase) -> String {
     }
     if let Some(point) = case.point {
         parts.push(format!(
-            "in force and moment, not in force per width: {} at {}; on a rope as the uniform load 2 P/L, shared by lever between the ropes beside it",
+            "in force and moment, not in force per width: {} at {}{}",
             with_unit(point.force, "N"),
-            with_unit(point.height, "m")
+            with_unit(point.height, "m"),
+            if run.guideline.ropes.is_empty() {
+                ""
+            } else {
+                "; on a rope as the uniform load 2 P/L, shared by lever between the ropes beside it"
+            }
         ));
     }
     parts.join("; ")
@@ -378,12 +383,12 @@ pub fn wall(run: &Run) -> Vec<Row> {
     let ([hold, pull], [right, tilt]) = (wall.sliding(), wall.overturning());
     vec![
         row(
-            "Length along the wall",
+            "Height of the wall with its foundation",
             with_unit(wall.height, "m"),
-            "height normal to the bed over cos(α − β); the wall stands upright on its base of slope β",
+            "square to its base of slope β, on which the wall stands upright: over the bed H/cos(α − β), and what is founded below it",
         ),
         row("Weight W", with_unit(wall.weight(), "N/m"), "ρ g t H"),
-        row("Holds against sliding", with_unit(hold, "N/m"), "W cos β tan φ, without partial factor"),
+        row("Resistance to sliding", with_unit(hold, "N/m"), "W cos β tan φ, without partial factor"),
         row(
             "Demand for sliding",
             format!("R · {:.3} + {}", wall.sliding_share(), with_unit(pull, "N/m")),

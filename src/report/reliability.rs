@@ -218,6 +218,7 @@ fn validation_row() -> Row {
     };
     let commit = match kept.not_run() {
         0 => commit,
+        1 => format!("{commit}; one further case has not been run yet"),
         count => format!("{commit}; {count} further cases have not been run yet"),
     };
     let remark = match failed.as_slice() {

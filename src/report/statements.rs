@@ -21,7 +21,7 @@ pub struct Assumption {
 
 const SAFE: &str = "yes";
 const UNSAFE: &str = "no";
-const EITHER: &str = "may err either way";
+const EITHER: &str = "may err on either side";
 
 /// What is assumed, as far as it bears on this design.
 pub fn assumptions(run: &Run) -> Vec<Assumption> {

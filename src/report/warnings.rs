@@ -265,9 +265,10 @@ fn event_larger_than_the_flow(run: &Run) -> Option<String> {
     let flow = &run.file.design.flow;
     flow.is_part_of_its_event().then(|| {
         format!(
-            "The event of {} is more than the flow that is simulated, {}: the simulation is of {}. Further surges onto the deposit are in the equations alone.",
+            "The event of {} is more than the design flow of {}: {} of {}. Further surges onto the deposit are in the equations alone.",
             with_unit(flow.event_volume, "m³"),
             with_unit(flow.volume_of_all(), "m³"),
+            if run.simulated.is_some() { "the simulation is" } else { "a simulation would be" },
             match flow.surges() {
                 1 => "one surge on the empty barrier".to_string(),
                 several => format!("{several} surges, the first on the empty barrier"),

@@ -32,9 +32,12 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
         outcome.holds() && outcome.resistance.is_some() && outcome.rests_on_pressures && !spare
     };
     for outcome in outcomes.iter_mut().filter(close) {
-        outcome.leave_open(OpenReason::NeedsSimulation(format!(
-            "the guideline's pressures were measured on flexible barriers, and a simulation may show up to {SIMULATIONS_REACH} times as much on a rigid wall (run the simulation)"
-        )));
+        outcome.leave_open(OpenReason::NeedsSimulation(match bounded {
+            true => format!(
+                "the guideline's pressures were measured on flexible barriers, and a simulation may show up to {SIMULATIONS_REACH} times as much on a rigid wall (run the simulation)"
+            ),
+            false => "the surge has a steeper front or a shorter run-in than by default, and how much harder it hits a rigid wall than the guideline says is not known (run the simulation, or leave front_angle and run_in out)".to_string(),
+        }));
     }
 }
 
