@@ -21,7 +21,7 @@ use crate::quantities::observed::Observed;
 use crate::quantities::quantity::Quantity;
 use crate::quantities::{anchor_load, bed, boulder, earth_pressure, other_ropes, rope_tension, total_force, wall};
 use crate::scene::estimate::estimate;
-use crate::scene::event::{ProgressReport, Watch};
+use crate::scene::event::{ProgressReport, RunControl};
 use crate::sensitivity::simulated::{swings, variants};
 use crate::sensitivity::{Point, Swing};
 use crate::simulated::{Detail, RunError, Simulated, Start, simulate};
@@ -88,15 +88,15 @@ pub fn by_equations(file: DesignFile) -> Run {
 /// use barrier_check::design::read::read_design;
 /// use barrier_check::pipeline::run;
 /// use barrier_check::quantities::mass;
-/// use barrier_check::scene::event::Watch;
+/// use barrier_check::scene::event::RunControl;
 ///
 /// let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/tiny_wall.yaml"));
-/// let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+/// let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
 /// let run = run(read_design("tiny_wall.yaml", text).unwrap(), 1, &watch).unwrap();
 /// let simulated = run.simulated.unwrap();
 /// assert!(simulated.first().one(&mass::RETAINED) > 0.9);
 /// ```
-pub fn run(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
+pub fn run(file: DesignFile, starts: u32, watch: &RunControl) -> Result<Run, RunError> {
     run_by(None, file, starts, &|design, starts| simulate_cases(design, starts, Detail::Full, watch))
 }
 
@@ -111,7 +111,7 @@ fn run_by(rung: Option<&'static Rung>, file: DesignFile, starts: u32, by: &Simul
 }
 
 /// Simulates a design under each of its load cases, with as many packings as `starts` asks for; `first` is how much is kept of the first.
-pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch) -> Result<Simulated, RunError> {
+pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &RunControl) -> Result<Simulated, RunError> {
     let threads = rayon::current_num_threads();
     let (started, began) = (Instant::now(), SystemTime::now());
     let cases = cases(design);
@@ -125,7 +125,7 @@ pub fn simulate_cases(design: &Design, starts: u32, first: Detail, watch: &Watch
         let progress = |report: ProgressReport| {
             (watch.progress)(ProgressReport { number: index, of: jobs.len(), ..report });
         };
-        let watch = Watch { progress: &progress, ..*watch };
+        let watch = RunControl { progress: &progress, ..*watch };
         simulate(design, &choose(design), &crate::guideline::guideline(design), seed, detail, &watch)
     };
     let runs = if jobs.len() == 1 { vec![one(0)] } else { side_by_side(threads, jobs.len(), one) };
@@ -160,7 +160,7 @@ pub fn restore(mut file: DesignFile, simulated: Option<Simulated>, varied: Vec<S
 
 /// Runs one design on one rung of the ladder after the other, until no verdict can flip. `starts` is the least number of packings
 /// of those rungs that have several. The file's design becomes that of the last rung.
-pub fn climb(file: DesignFile, starts: u32, watch: &Watch) -> Result<Run, RunError> {
+pub fn climb(file: DesignFile, starts: u32, watch: &RunControl) -> Result<Run, RunError> {
     climb_by(file, starts, RungKind::Fine, &|design, starts| simulate_cases(design, starts, Detail::Full, watch))
 }
 
@@ -219,7 +219,7 @@ fn governing(outcomes: &[Outcome]) -> String {
 }
 
 /// Runs the design again with every input changed alone, side by side, one start each; the answers go into `run`.
-pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
+pub fn vary(run: &mut Run, watch: &RunControl) -> Result<(), RunError> {
     let variants = variants(&run.file.design);
     let answer = |number: usize, design: &Design| -> Result<Point, RunError> {
         // Forces and strokes are designed for the factored flow alone.
@@ -229,7 +229,7 @@ pub fn vary(run: &mut Run, watch: &Watch) -> Result<(), RunError> {
         let progress = |report: ProgressReport| {
             (watch.progress)(ProgressReport { number, of: 2 * variants.len(), ..report });
         };
-        let watch = Watch { progress: &progress, ..*watch };
+        let watch = RunControl { progress: &progress, ..*watch };
         let simulated = simulate(&design, &choose(&design), &guideline, seed, Detail::Observed, &watch)?;
         let mut demands = Demands::meet(&guideline, &simulated.seen(), &design.factors);
         demands.leave_out_guideline();

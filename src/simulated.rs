@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::Slot;
 use crate::checks::credibility::{Numerics, doubts};
-use crate::demand::Seen;
+use crate::demand::SimulatedRuns;
 use crate::design::{Arrival, Design};
 use crate::fidelity::Fidelity;
 use crate::guideline::Guideline;
@@ -18,7 +18,7 @@ use crate::quantities::observed::Observed;
 use crate::quantities::reading::Samples;
 use crate::scene::build::{Prepared, Preparing, SAMPLES_PER_WINDOW, build_watched};
 use crate::scene::estimate::estimate;
-use crate::scene::event::{Ending, Event, Ongoing, Watch};
+use crate::scene::event::{Ending, Event, Ongoing, RunControl};
 use crate::scene::flow::packing::PackingError;
 use crate::starts::Spread;
 use dem::ledger::Ledger;
@@ -71,11 +71,15 @@ impl Simulated {
     }
 
     /// What checks are made of.
-    pub fn seen(&self) -> Seen<'_> {
+    pub fn seen(&self) -> SimulatedRuns<'_> {
         fn observed(starts: &[Start]) -> Vec<&Observed> {
             starts.iter().map(|start| &start.observed).collect()
         }
-        Seen { characteristic: observed(&self.starts), factored: observed(&self.factored), weak: observed(&self.weak) }
+        SimulatedRuns {
+            characteristic: observed(&self.starts),
+            factored: observed(&self.factored),
+            weak: observed(&self.weak),
+        }
     }
 
     /// All runs, of whatever case.
@@ -224,7 +228,7 @@ pub fn simulate(
     guideline: &Guideline,
     seed: u64,
     detail: Detail,
-    watch: &Watch,
+    watch: &RunControl,
 ) -> Result<Simulated, RunError> {
     if let Some(reason) = estimate(design, fidelity).too_much() {
         return Err(RunError::TooMuch(reason));

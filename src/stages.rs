@@ -16,7 +16,7 @@ use crate::starts::Spread;
 
 /// One surge of several. Forces without partial factors; spreads are over the packings.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stage {
+pub struct SurgeResult {
     /// As the design gives it: volume with pores (m³), depth (m), velocity (m/s).
     pub volume: f64,
     pub depth: f64,
@@ -46,13 +46,13 @@ pub struct Stage {
 }
 
 /// The surges of a simulated event, in their order; empty where there is one only.
-pub fn stages(design: &Design, simulated: &Simulated) -> Vec<Stage> {
+pub fn stages(design: &Design, simulated: &Simulated) -> Vec<SurgeResult> {
     let shown = simulated.starts.iter().map(|start| start.surges.len()).min().unwrap_or(0);
     (0..shown).map(|number| stage(design, simulated, number)).collect()
 }
 
 /// The surge whose force along the bed is largest, counted from 0.
-pub fn hardest(stages: &[Stage]) -> Option<usize> {
+pub fn hardest(stages: &[SurgeResult]) -> Option<usize> {
     (0..stages.len()).max_by(|a, b| stages[*a].force.mean.total_cmp(&stages[*b].force.mean))
 }
 
@@ -98,7 +98,7 @@ pub fn push_on_empty(led: &Design, start: &Start, number: usize) -> Option<f64> 
     Some(equations.force(0.0, lambda))
 }
 
-fn stage(design: &Design, simulated: &Simulated, number: usize) -> Stage {
+fn stage(design: &Design, simulated: &Simulated, number: usize) -> SurgeResult {
     let starts = &simulated.starts;
     let over = |value: &dyn Fn(&Start) -> f64| Spread::of(&starts.iter().map(value).collect::<Vec<_>>());
     let one = |quantity: &'static Quantity| over(&|start| start.surges[number].one(quantity));
@@ -122,7 +122,7 @@ fn stage(design: &Design, simulated: &Simulated, number: usize) -> Stage {
         let stroke = |surge: usize| most(&start.surges[surge], &dissipator::STROKE).unwrap_or(0.0);
         stroke(number) - number.checked_sub(1).map_or(0.0, stroke)
     };
-    Stage {
+    SurgeResult {
         volume: design.flow.alone(number).volume(),
         depth: flow.depth,
         velocity: flow.velocity,

@@ -8,7 +8,7 @@ use barrier_check::guideline::{input, point_load};
 use barrier_check::pipeline::{Run, by_equations, run};
 use barrier_check::quantities::{boulder, other_ropes};
 use barrier_check::scene::build::build;
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 use barrier_check::validation::scenes::{free_model, material};
 use dem::Vec3;
 use dem::model::Model;
@@ -25,7 +25,7 @@ fn with(text: &str, boulders: &str) -> DesignFile {
 }
 
 fn simulated(file: DesignFile) -> Run {
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     run(file, 1, &watch).expect("a run")
 }
 

@@ -4,7 +4,7 @@
 use barrier_check::checks::check_all;
 use barrier_check::checks::detailing::{Bearing, Rule, rules};
 use barrier_check::checks::outcome::Outcome;
-use barrier_check::demand::{Demands, Seen};
+use barrier_check::demand::{Demands, SimulatedRuns};
 use barrier_check::design::Design;
 use barrier_check::design::entries::Purpose;
 use barrier_check::design::read::read_design_for;
@@ -244,7 +244,7 @@ fn what_a_simulation_without_factors_shows_is_factored() {
         .with(&bed::BOLT, &[20e3])
         .with(&mass::RETAINED, &[0.97])
         .with(&height::RESIDUAL, &[0.8]);
-    let seen = Seen { characteristic: vec![&observed], ..Seen::default() };
+    let seen = SimulatedRuns { characteristic: vec![&observed], ..SimulatedRuns::default() };
     let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
     let simulated = |demand: barrier_check::demand::Demand| demand.simulation.expect("a demand");
     near(simulated(demands.one(&total_force::PEAK)), 135e3);
@@ -274,7 +274,7 @@ fn of_several_packings_the_unfavourable_side_counts() {
     let design = design(NET);
     let of = |net: f64, held: f64| zero().with(&other_ropes::NET, &[net]).with(&mass::RETAINED, &[held]);
     let [one, other] = [of(40e3, 0.96), of(42e3, 0.97)];
-    let seen = Seen { characteristic: vec![&one, &other], ..Seen::default() };
+    let seen = SimulatedRuns { characteristic: vec![&one, &other], ..SimulatedRuns::default() };
     let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
     // 41 kN + 7.733 · 1.4142 kN, by 1.35; 0.965 − 7.733 · 0.0070711.
     near(demands.one(&other_ropes::NET).simulation.unwrap(), 1.35 * 51.936e3);

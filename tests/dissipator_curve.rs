@@ -7,7 +7,7 @@ use barrier_check::design::read::{read_design, read_design_for};
 use barrier_check::design::{BarrierDesign, DissipatorDesign};
 use barrier_check::pipeline::{Run, run};
 use barrier_check::quantities::dissipator;
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 
 const TINY: &str = include_str!("fixtures/tiny.yaml");
 
@@ -26,7 +26,7 @@ fn told(text: &str) -> DissipatorDesign {
 }
 
 fn simulated(text: &str) -> Run {
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     run(read_design("x.yaml", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")), 1, &watch)
         .expect("a run")
 }

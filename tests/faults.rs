@@ -8,7 +8,7 @@ use barrier_check::design::read::{DesignFile, read_design};
 use barrier_check::fidelity::choose;
 use barrier_check::pipeline::{Verdict, run};
 use barrier_check::scene::build::{Scene, build};
-use barrier_check::scene::event::{Ending, Event, Ongoing, Watch};
+use barrier_check::scene::event::{Ending, Event, Ongoing, RunControl};
 use barrier_check::simulated::numerics;
 use dem::Vec3;
 use dem::recorders::recorder::Recorder;
@@ -18,8 +18,8 @@ fn file() -> DesignFile {
     read_design("tiny.yaml", include_bytes!("fixtures/tiny.yaml")).expect("a design")
 }
 
-fn watched<T>(work: impl FnOnce(&Watch) -> T) -> T {
-    work(&Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None })
+fn watched<T>(work: impl FnOnce(&RunControl) -> T) -> T {
+    work(&RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None })
 }
 
 /// The event with a fault in its scene at the moment of release.

@@ -10,7 +10,7 @@ use barrier_check::guideline::{flows, guideline};
 use barrier_check::pipeline::{Run, Verdict, run};
 use barrier_check::quantities::mass;
 use barrier_check::scene::build::build;
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 use barrier_check::scene::flow::packing::overlaps;
 
 const TINY: &str = include_str!("fixtures/tiny_inlet.yaml");
@@ -24,7 +24,7 @@ fn file(text: &str) -> DesignFile {
 }
 
 fn simulated(file: DesignFile) -> Run {
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     run(file, 1, &watch).expect("a run")
 }
 

@@ -10,7 +10,7 @@ use barrier_check::fidelity::choose;
 use barrier_check::guideline::{Surface, earth_pressure_by_weight, guideline, held_below, reservoir};
 use barrier_check::pipeline::{Verdict, run};
 use barrier_check::scene::build::build;
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 use barrier_check::section::Section;
 
 const GULLY: &str = include_str!("../designs/gully.yaml");
@@ -114,7 +114,7 @@ fn the_flow_fills_the_section() {
 #[test]
 fn the_gully_is_judged_from_end_to_end() {
     let file = read_design("gully.yaml", GULLY.as_bytes()).unwrap_or_else(|problems| panic!("{problems}"));
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     let run = run(file, 1, &watch).expect("a run");
     assert!(run.doubts.is_empty(), "{:?}", run.doubts);
     assert_ne!(run.verdict, Verdict::Fail);
@@ -159,7 +159,7 @@ fn the_flow_follows_its_bed() {
     assert!(lowest > 0.9, "{lowest}");
     assert!(steepest > libm::tan(27.9_f64.to_radians()), "{steepest}");
     let file = read_design("gully.yaml", with_reaches().as_bytes()).unwrap_or_else(|problems| panic!("{problems}"));
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     let run = run(file, 1, &watch).expect("a run");
     assert!(run.doubts.is_empty(), "{:?}", run.doubts);
     let seen = run.simulated.as_ref().expect("a simulation");
@@ -283,7 +283,7 @@ fn the_storage_of_a_raster_is_that_of_fine_sums() {
 /// On a raster the flow lies on the ground as it is, none of it goes through, and the net holds it.
 #[test]
 fn the_raster_is_judged_from_end_to_end() {
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     let run = run(raster_gully(), 1, &watch).expect("a run");
     assert!(run.doubts.is_empty(), "{:?}", run.doubts);
     assert_ne!(run.verdict, Verdict::Fail);

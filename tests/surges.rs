@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use barrier_check::design::read::{DesignFile, read_design};
 use barrier_check::pipeline::{Run, Verdict, by_equations, restore, run};
 use barrier_check::quantities::{dissipator, incoming, total_force};
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 use barrier_check::stages::{hardest, stages};
 
 const THREE: &str = include_str!("fixtures/tiny_surges.yaml");
@@ -16,7 +16,7 @@ fn file(text: &str) -> DesignFile {
 }
 
 fn simulated(text: &str) -> Run {
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     run(file(text), 1, &watch).expect("a run")
 }
 

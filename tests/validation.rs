@@ -2,13 +2,13 @@
 
 use barrier_check::commands::validate::Selection;
 use barrier_check::report::validation::Row;
-use barrier_check::validation::case::Ran;
+use barrier_check::validation::case::CaseRun;
 
 fn holds(suite: &str) {
     let names = [suite.to_string()];
     let cases = Selection { names: &names, quick_only: true }.cases().expect("suite is known");
     for case in cases {
-        let ran = Ran::of(case);
+        let ran = CaseRun::of(case);
         assert!(ran.passed(), "{:#?}", Row::of(&ran));
     }
 }

@@ -8,7 +8,7 @@ use barrier_check::design::read::{DesignFile, read_design_for};
 use barrier_check::guideline::guideline;
 use barrier_check::pipeline::{Run, run};
 use barrier_check::quantities::{mass, total_force, wall};
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 use dem::recorders::histories::tail_mean;
 use dem::recorders::of_wall::{METRE_FORCE, METRE_MOMENT, MOMENT, SEGMENTS};
 
@@ -36,7 +36,7 @@ fn read(text: &str) -> DesignFile {
 }
 
 fn simulated(file: DesignFile) -> Run {
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     let run = run(file, 1, &watch).expect("a run");
     // How much of its momentum the surge brings to the wall is none of these tests' matter.
     assert!(run.doubts.iter().all(|doubt| doubt.contains("simulated flow arrives")), "{:?}", run.doubts);

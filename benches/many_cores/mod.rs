@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use barrier_check::design::read::read_design;
 use barrier_check::pipeline::run;
-use barrier_check::scene::event::Watch;
+use barrier_check::scene::event::RunControl;
 use dem::schedule::{Stretch, record, time};
 
 const WORKERS: [usize; 6] = [2, 4, 8, 16, 32, 64];
@@ -36,7 +36,7 @@ pub fn tell_steps(name: &str, message: f64, steps: impl FnOnce()) {
 pub fn tell_design(path: &str, message: f64) {
     let text = std::fs::read(path).expect("design file");
     let design = read_design(path, &text).unwrap_or_else(|_| panic!("{path} is no design"));
-    let watch = Watch { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| (), stop: &AtomicBool::new(false), store: None };
     let (_, stretches) = record(|| run(design, 1, &watch).map(|run| run.verdict));
     tell(path, &stretches, message);
     let mut places = BTreeMap::<String, Vec<Stretch>>::new();

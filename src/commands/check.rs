@@ -25,7 +25,7 @@ use crate::problem::{Problem, Problems};
 use crate::report::folder::{Folder, Named, folder_name};
 use crate::report::kind::Kind;
 use crate::scene::estimate::{Estimate, estimate, slowness};
-use crate::scene::event::{ProgressReport, Watch};
+use crate::scene::event::{ProgressReport, RunControl};
 use crate::sensitivity::simulated::variants;
 use crate::simulated::RunError;
 use crate::terminal;
@@ -352,7 +352,7 @@ pub fn simulate(file: DesignFile, options: Options, store: Option<&CheckpointSto
         .num_threads(options.threads.unwrap_or(0))
         .build()
         .map_err(|error| format!("the threads could not be started ({error}): ask for fewer with --threads"))?;
-    let watch = Watch { progress: &show, stop: stop(), store };
+    let watch = RunControl { progress: &show, stop: stop(), store };
     let result = pool.install(|| {
         let mut result = match file.design.simulation.fidelity {
             FidelityWish::Auto => climb(file, options.starts, &watch)?,

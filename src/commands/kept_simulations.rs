@@ -5,7 +5,7 @@ use crate::commands::signals::stop;
 use crate::design::Design;
 use crate::fidelity::choose;
 use crate::pipeline::simulate_cases;
-use crate::scene::event::Watch;
+use crate::scene::event::RunControl;
 use crate::simulated::{Detail, RunError, Simulated};
 use crate::studies::sizing::mechanics;
 use crate::terminal;
@@ -17,7 +17,7 @@ pub fn simulated(kept: &KeptResults, design: &Design, starts: u32) -> Result<Sim
     if let Some(kept) = kept.get::<Simulated>(&[of.as_bytes()]) {
         return Ok(Simulated { fidelity: choose(design), ..kept });
     }
-    let watch = Watch { progress: &|_| (), stop: stop(), store: None };
+    let watch = RunControl { progress: &|_| (), stop: stop(), store: None };
     let simulated = simulate_cases(design, starts, Detail::Observed, &watch)?;
     // What cannot be kept is made again.
     if let Err(error) = kept.put(&[of.as_bytes()], &simulated) {

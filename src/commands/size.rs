@@ -22,7 +22,7 @@ use crate::starts::side_by_side;
 use crate::studies::bill::Prices;
 use crate::studies::choices::Choices;
 use crate::studies::size_plan::SizePlan;
-use crate::studies::sizing::{Fate, Fault, Wanted, Way, Ways, search};
+use crate::studies::sizing::{Candidate, CandidateResult, Candidates, Fault, Wanted, search};
 use crate::terminal;
 
 /// Of the design that is sized: its text, and files that it and its changes name.
@@ -61,7 +61,7 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
     };
     let wanted = plan.wanted();
     let found = search(&ways, &wanted)?;
-    if let Some(Fate::Impossible { why }) =
+    if let Some(CandidateResult::Impossible { why }) =
         found.ways.first().map(|way| &way.fate).filter(|_| found.ways.iter().all(|way| way.price.is_none()))
     {
         return Err(format!("no combination of the choices is a valid design; the first is refused: {why}").into());
@@ -91,7 +91,7 @@ pub fn size(plan: &SizePlan, beside: &Path, mut folder: Folder) -> Result<(PathB
         let named = ways.read(way.number)?.attached.into_iter().filter(|(name, _)| below(name));
         extra.extend(named.map(|(name, bytes)| ReportFile::new(name, bytes)));
     }
-    let passes = cheapest.is_some_and(|way| matches!(way.fate, Fate::Passes { .. }));
+    let passes = cheapest.is_some_and(|way| matches!(way.fate, CandidateResult::Passes { .. }));
     let sized = Sized {
         name: &plan.name,
         design: &plan.design,
@@ -134,7 +134,7 @@ fn fault(error: RunError) -> Fault {
     }
 }
 
-impl Ways for Sizes<'_> {
+impl Candidates for Sizes<'_> {
     fn count(&self) -> usize {
         self.choices.count().unwrap_or(0)
     }
@@ -165,14 +165,14 @@ impl Ways for Sizes<'_> {
         rayon::current_num_threads()
     }
 
-    fn tell(&self, way: &Way) {
+    fn tell(&self, way: &Candidate) {
         let options: Vec<&str> = self.choices.options(way.number).iter().map(|option| option.label.as_str()).collect();
         let price = way.price.map_or(String::new(), |price| format!("{price:.0} {}", self.prices.currency));
         let said = match &way.fate {
-            Fate::Passes { by, check, used } => format!("passes by {by}, {check} {:.0} %", 100.0 * used),
-            Fate::Fails { by, check, used } => format!("fails by {by}, {check} {:.0} %", 100.0 * used),
-            Fate::Undecided { by, why, .. } => format!("undecided by {by}, {why}"),
-            Fate::Impossible { .. } | Fate::NotAsked => return,
+            CandidateResult::Passes { by, check, used } => format!("passes by {by}, {check} {:.0} %", 100.0 * used),
+            CandidateResult::Fails { by, check, used } => format!("fails by {by}, {check} {:.0} %", 100.0 * used),
+            CandidateResult::Undecided { by, why, .. } => format!("undecided by {by}, {why}"),
+            CandidateResult::Impossible { .. } | CandidateResult::NotAsked => return,
         };
         let _ = terminal::say(format_args!("{:<40} {price:>14}  {said}", options.join(", ")));
     }

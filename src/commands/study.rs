@@ -20,7 +20,7 @@ use crate::report::folder::{Folder, Named, Refusal, folder_name};
 use crate::report::kind::Kind;
 use crate::report::stability_map::files as map_files;
 use crate::report::study::{Scene, files};
-use crate::scene::event::Watch;
+use crate::scene::event::RunControl;
 use crate::simulated::RunError;
 use crate::starts::side_by_side;
 use crate::studies::knobs::Knob;
@@ -142,7 +142,7 @@ fn all_points(
         }
         let what = format!("{}, {}", scene.name, task.setting.word());
         steps.next(&what);
-        let watch = Watch { progress: &|_| (), stop: stop(), store: None };
+        let watch = RunControl { progress: &|_| (), stop: stop(), store: None };
         let point = match make(task, &scene.design, &watch) {
             Ok(point) => point,
             Err(RunError::Preparation(_)) => return Ok(None),

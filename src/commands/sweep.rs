@@ -19,12 +19,12 @@ use crate::fidelity::ladder::RungKind;
 use crate::pipeline::{by_equations, climb_by, confirm_by, simulate_cases};
 use crate::report::folder::Folder;
 use crate::report::sweep::{Swept, files};
-use crate::scene::event::Watch;
+use crate::scene::event::RunControl;
 use crate::simulated::{Detail, RunError};
 use crate::starts::side_by_side;
 use crate::studies::choices::Choices;
 use crate::studies::size_plan::By;
-use crate::studies::sweep::Ran;
+use crate::studies::sweep::RunRecord;
 use crate::studies::sweep_plan::SweepPlan;
 use crate::terminal;
 
@@ -80,7 +80,7 @@ impl<'a> Sweep<'a> {
         (site.digest, format!("{changes:?}{files}"))
     }
 
-    fn kept(&self, run: usize) -> Option<Ran> {
+    fn kept(&self, run: usize) -> Option<RunRecord> {
         let (digest, changes) = self.of(run);
         self.kept.get(&[&digest, changes.as_bytes()])
     }
@@ -103,7 +103,7 @@ impl<'a> Sweep<'a> {
         kept.map_err(|error| format!("a result could not be kept: {error}"))
     }
 
-    fn ran(&self, run: usize) -> Result<Ran, String> {
+    fn ran(&self, run: usize) -> Result<RunRecord, String> {
         let site = &self.sites[run / self.ways];
         let open = |name: &str| input::beside(&site.path, name);
         let file = match site.source.read(self.plan.by.purpose(), &open, &self.changes(run)) {
@@ -112,10 +112,10 @@ impl<'a> Sweep<'a> {
                 let first = problems.list.first();
                 let why = first
                     .map(|problem| format!("{}: found {}, allowed {}", problem.path, problem.found, problem.allowed));
-                return Ok(Ran::nothing("invalid", why.unwrap_or_default()));
+                return Ok(RunRecord::nothing("invalid", why.unwrap_or_default()));
             }
         };
-        let watch = Watch { progress: &|_| (), stop: stop(), store: None };
+        let watch = RunControl { progress: &|_| (), stop: stop(), store: None };
         let by = |design: &Design, starts: u32| simulate_cases(design, starts, Detail::Observed, &watch);
         let packings = self.plan.packings;
         let result = match (self.plan.by, file.design.simulation.fidelity) {
@@ -124,12 +124,12 @@ impl<'a> Sweep<'a> {
             (By::Simulation, _) => confirm_by(file, packings, &by),
         };
         match result {
-            Ok(run) => Ok(Ran::of(&run)),
+            Ok(run) => Ok(RunRecord::of(&run)),
             Err(RunError::Interrupted) => {
                 Err("the study was interrupted; what has been run is kept, and it goes on there when it runs again"
                     .into())
             }
-            Err(error) => Ok(Ran::nothing("not simulated", error.to_string())),
+            Err(error) => Ok(RunRecord::nothing("not simulated", error.to_string())),
         }
     }
 }
@@ -238,7 +238,7 @@ fn only(sweep: &Sweep, ids: &[String]) -> Result<ExitCode, Failure> {
 
 /// Writes the page of what is kept; not passed where runs are missing.
 fn gather(sweep: &Sweep, folder: &mut Folder) -> Result<(Option<PathBuf>, ExitCode), Failure> {
-    let runs: Vec<Option<Ran>> = (0..sweep.count()).map(|run| sweep.kept(run)).collect();
+    let runs: Vec<Option<RunRecord>> = (0..sweep.count()).map(|run| sweep.kept(run)).collect();
     let missing = runs.iter().filter(|run| run.is_none()).count();
     let swept =
         Swept { plan: sweep.plan, choices: &sweep.choices, ways: sweep.ways, runs: &runs, id: &|run| sweep.id(run) };

@@ -9,7 +9,7 @@ use crate::report::kind::Kind;
 use crate::report::validation::{Row, render, verdict_line};
 use crate::terminal;
 use crate::validation::CASES;
-use crate::validation::case::{Case, Cost, Ran, Suite};
+use crate::validation::case::{Case, CaseRun, Cost, Suite};
 
 /// Which cases to run.
 pub struct Selection<'a> {
@@ -66,7 +66,7 @@ pub fn validate(selection: &Selection, folder: &Path) -> ExitCode {
     let mut rows = Vec::new();
     let mut written = Ok(());
     for case in cases {
-        let row = Row::of(&Ran::of(case));
+        let row = Row::of(&CaseRun::of(case));
         tell(&row);
         rows.push(row);
         // After each, so that one that is cut short keeps those that have run.

@@ -1,6 +1,6 @@
 //! How the value that is checked is made of a quantity: by the equations, and by the packings that were simulated.
 
-use crate::demand::value::{Demand, Seen};
+use crate::demand::value::{Demand, SimulatedRuns};
 use crate::design::{AnchorOf, Factors};
 use crate::guideline::{Guideline, PostLoad, RopeLoad};
 use crate::larger::larger_or_nan;
@@ -37,7 +37,7 @@ fn capped(observed: &[&Observed], read: Read, cap: f64) -> Option<f64> {
 pub struct Meeting<'a> {
     pub guideline: &'a Guideline,
     pub factors: &'a Factors,
-    pub seen: &'a Seen<'a>,
+    pub seen: &'a SimulatedRuns<'a>,
     /// What the factored actions did, and the factor still to be put on its forces.
     pub governing: &'a [&'a Observed],
     pub factor: f64,

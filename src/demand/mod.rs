@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use self::meeting::Meeting;
 pub use self::meeting::{CAP_TOLERANCE, USED_UP};
-pub use self::value::{Demand, Seen};
+pub use self::value::{Demand, SimulatedRuns};
 use crate::design::Factors;
 use crate::guideline::Guideline;
 use crate::larger::larger_or_nan;
@@ -27,12 +27,12 @@ pub struct Demands(BTreeMap<&'static str, Vec<Demand>>);
 impl Demands {
     /// By the equations alone.
     pub fn by_equations(guideline: &Guideline, factors: &Factors) -> Self {
-        Self::meet(guideline, &Seen::default(), factors)
+        Self::meet(guideline, &SimulatedRuns::default(), factors)
     }
 
     /// With several packings a demand is the value that the next one exceeds (or, for what must be kept, falls below) with a
     /// probability of 5 %; what a dissipator caps stays at its cap as long as no packing has gone beyond.
-    pub fn meet(guideline: &Guideline, seen: &Seen, factors: &Factors) -> Self {
+    pub fn meet(guideline: &Guideline, seen: &SimulatedRuns, factors: &Factors) -> Self {
         let (governing, factor) = seen.governing(factors.load);
         let meeting = Meeting { guideline, factors, seen, governing, factor };
         let weakest = guideline.with_weakest_dissipators();
@@ -121,7 +121,7 @@ mod tests {
                     .with(&mass::RETAINED, &[retained])
             })
             .collect();
-        let seen = Seen { characteristic: observed.iter().collect(), ..Seen::default() };
+        let seen = SimulatedRuns { characteristic: observed.iter().collect(), ..SimulatedRuns::default() };
         Demands::meet(&guideline(&design), &seen, &design.factors)
     }
 
@@ -182,7 +182,11 @@ mod tests {
                 .with(&height::RESIDUAL, &[retained])
         };
         let (characteristic, factored) = (seen(20e3, 60e3, 0.0, 0.97), seen(26e3, 100e3, 0.3, 0.95));
-        let both = Seen { characteristic: vec![&characteristic], factored: vec![&factored], ..Seen::default() };
+        let both = SimulatedRuns {
+            characteristic: vec![&characteristic],
+            factored: vec![&factored],
+            ..SimulatedRuns::default()
+        };
         let demands = Demands::meet(&guideline(&design), &both, &design.factors);
         // Forces and strokes as the factored flow makes them, never multiplied again.
         assert_eq!(demands.one(&other_ropes::NET).simulation, Some(26e3));
@@ -198,7 +202,7 @@ mod tests {
         let beyond = if tension >= 99.1e3 { 25e3 } else { 0.0 };
         assert_eq!(demands.each(&anchor_load::PEAK)[1].guideline, Some(tension + beyond));
         // Without a simulation of its own the factored case is proportional, as on a rigid wall.
-        let alone = Seen { characteristic: vec![&characteristic], ..Seen::default() };
+        let alone = SimulatedRuns { characteristic: vec![&characteristic], ..SimulatedRuns::default() };
         let demands = Demands::meet(&guideline(&design), &alone, &design.factors);
         assert_eq!(demands.one(&other_ropes::NET).simulation, Some(30e3));
         assert_eq!(demands.one(&mass::RETAINED).simulation, Some(0.97));
@@ -229,7 +233,7 @@ mod tests {
         let seen =
             |net: f64| Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&other_ropes::NET, &[net]);
         let [one, two] = [seen(1e3), seen(2e3)];
-        let both = Seen { characteristic: vec![&one], factored: vec![&two], ..Seen::default() };
+        let both = SimulatedRuns { characteristic: vec![&one], factored: vec![&two], ..SimulatedRuns::default() };
         let design = small_net();
         let met = Demands::meet(&guideline(&design), &both, &design.factors);
         assert_eq!(
@@ -247,7 +251,7 @@ mod tests {
         };
         for (one, other) in [(0.9, f64::NAN), (f64::NAN, 0.9)] {
             let [one, other] = [seen(one), seen(other)];
-            let both = Seen { characteristic: vec![&one], factored: vec![&other], ..Seen::default() };
+            let both = SimulatedRuns { characteristic: vec![&one], factored: vec![&other], ..SimulatedRuns::default() };
             let met = Demands::meet(&guideline(&design), &both, &design.factors);
             assert!(met.one(&mass::RETAINED).simulation.is_some_and(f64::is_nan));
         }
@@ -274,7 +278,7 @@ mod tests {
         let seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
             .with(&anchor_load::PEAK, &[0.0, 100e3, 0.0])
             .with(&dissipator::TENSION, &[0.0, 100e3, 0.0]);
-        let alone = Seen { characteristic: vec![&seen], ..Seen::default() };
+        let alone = SimulatedRuns { characteristic: vec![&seen], ..SimulatedRuns::default() };
         let met = Demands::meet(&guideline(&design), &alone, &design.factors);
         assert_eq!(met.each(&anchor_load::PEAK)[1].cap, Some(175e3));
         // With the lateral ropes at the anchors nothing caps their load.
@@ -299,7 +303,7 @@ mod tests {
                 .with(&anchor_load::PEAK, &[0.0, tension, 0.0])
                 .with(&dissipator::TENSION, &[0.0, tension, 0.0])
                 .with(&dissipator::STROKE, &[0.0, stroke, 0.0]);
-            let seen = Seen { characteristic: vec![&seen], ..Seen::default() };
+            let seen = SimulatedRuns { characteristic: vec![&seen], ..SimulatedRuns::default() };
             Demands::meet(&guideline(&design), &seen, &design.factors).each(&anchor_load::PEAK)[1]
         };
         assert_eq!((met(60e3, 0.5).simulation, met(60e3, 0.5).cap), (Some(85e3), Some(125e3)));
@@ -322,7 +326,7 @@ mod tests {
                         .with(&dissipator::STROKE, &[0.0, *stroke, 0.0])
                 })
                 .collect();
-            let seen = Seen { characteristic: seen.iter().collect(), ..Seen::default() };
+            let seen = SimulatedRuns { characteristic: seen.iter().collect(), ..SimulatedRuns::default() };
             let met = Demands::meet(&guideline(&design), &seen, &design.factors);
             met.each(&dissipator::STROKE)[1].simulation.expect("a stroke")
         };
@@ -353,7 +357,7 @@ mod tests {
                 .with(&rope_damage::DRAWN_OUT, &[drawn_out])
         };
         let [one, other] = [seen(2.0, 0.1), seen(0.0, 0.3)];
-        let both = Seen { characteristic: vec![&one, &other], ..Seen::default() };
+        let both = SimulatedRuns { characteristic: vec![&one, &other], ..SimulatedRuns::default() };
         let met = Demands::meet(&guideline(&design), &both, &design.factors);
         assert_eq!(
             (met.one(&rope_damage::BROKEN).simulation, met.one(&rope_damage::DRAWN_OUT).simulation),
@@ -367,7 +371,7 @@ mod tests {
         let mut design = read_design("x", include_bytes!("../../designs/rigid_wall.yaml")).unwrap().design;
         (design.factors.load, design.channel.width) = (1.35, 15.2);
         let observed = Observed::of_nothing(Counts::default()).with(&total_force::ON_A_METRE, &[600e3 / 15.2]);
-        let seen = Seen { characteristic: vec![&observed], ..Seen::default() };
+        let seen = SimulatedRuns { characteristic: vec![&observed], ..SimulatedRuns::default() };
         let demands = Demands::meet(&guideline(&design), &seen, &design.factors);
         assert_relative_eq!(
             demands.one(&total_force::ON_A_METRE).simulation.unwrap(),
@@ -395,13 +399,13 @@ mod tests {
                 .with(&mass::RETAINED, &[held])
         };
         let (usual, weak) = (run(0.2, 9e3, 0.99), run(0.5, 7e3, 0.97));
-        let seen = Seen { characteristic: vec![&usual], weak: vec![&weak], ..Seen::default() };
+        let seen = SimulatedRuns { characteristic: vec![&usual], weak: vec![&weak], ..SimulatedRuns::default() };
         let met = Demands::meet(&guideline(&design), &seen, &design.factors);
         assert_eq!(met.each(&dissipator::STROKE)[1].simulation, Some(0.5));
         assert_eq!(met.one(&other_ropes::NET).simulation, Some(9e3));
         assert_eq!(met.one(&mass::RETAINED).simulation, Some(0.97));
         let lost = run(f64::NAN, 7e3, f64::NAN);
-        let seen = Seen { characteristic: vec![&usual], weak: vec![&lost], ..Seen::default() };
+        let seen = SimulatedRuns { characteristic: vec![&usual], weak: vec![&lost], ..SimulatedRuns::default() };
         let met = Demands::meet(&guideline(&design), &seen, &design.factors);
         assert!(met.each(&dissipator::STROKE)[1].simulation.is_some_and(f64::is_nan));
         assert!(met.one(&mass::RETAINED).simulation.is_some_and(f64::is_nan));

@@ -34,7 +34,7 @@ impl Demand {
 
 /// What the simulations showed, packing by packing.
 #[derive(Clone, Debug, Default)]
-pub struct Seen<'a> {
+pub struct SimulatedRuns<'a> {
     /// The flow as it is.
     pub characteristic: Vec<&'a Observed>,
     /// The flow with factored actions, where that was simulated; else forces are proportional to the action.
@@ -43,7 +43,7 @@ pub struct Seen<'a> {
     pub weak: Vec<&'a Observed>,
 }
 
-impl Seen<'_> {
+impl SimulatedRuns<'_> {
     /// The case that forces and strokes are designed for, and the factor that is still to be put on its forces.
     pub fn governing(&self, load_factor: f64) -> (&[&Observed], f64) {
         if self.factored.is_empty() { (&self.characteristic, load_factor) } else { (&self.factored, 1.0) }

@@ -52,7 +52,7 @@ pub const QUANTITIES: &[&Quantity] = &[
     &rope_tension::MEAN_RESIDUAL,
     &anchor_load::PEAK,
     &anchor_load::AT_ONCE,
-    &rope_tension::BULGE,
+    &rope_tension::DEFLECTION,
     &dissipator::STROKE,
     &dissipator::MEAN_STROKE,
     &dissipator::TENSION,

@@ -283,7 +283,7 @@ mod tests {
             (&anchor_load::PEAK, [7.0, 8.0, 9.0]),
             (&rope_tension::AT_ONCE, [4.5, 5.5, 6.5]),
             (&anchor_load::AT_ONCE, [7.5, 8.5, 9.5]),
-            (&rope_tension::BULGE, [10.0, 11.0, 12.0]),
+            (&rope_tension::DEFLECTION, [10.0, 11.0, 12.0]),
             (&dissipator::STROKE, [13.0, 14.0, 15.0]),
             (&dissipator::MEAN_STROKE, [16.0, 17.0, 18.0]),
             (&dissipator::TENSION, [19.0, 20.0, 21.0]),
@@ -371,7 +371,7 @@ mod tests {
         let net = net();
         let whole = || Observed::of_nothing(Counts::of(&net));
         assert!(whole().fits(&net));
-        assert!(!whole().with(&rope_tension::BULGE, &[0.0; 2]).fits(&net));
+        assert!(!whole().with(&rope_tension::DEFLECTION, &[0.0; 2]).fits(&net));
         assert!(!whole().with(&wall::SEGMENT, &[0.0]).fits(&net));
         assert!(!whole().with(&total_force::PEAK, &[]).fits(&net));
         let coefficients = Coefficients { time: vec![0.0], ..Coefficients::default() };

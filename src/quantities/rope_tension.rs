@@ -29,7 +29,7 @@ pub const MEAN_RESIDUAL: Quantity =
     .json("rope_tension_mean_residual_n");
 
 /// How far downstream each main rope bulged at the most.
-pub const BULGE: Quantity =
+pub const DEFLECTION: Quantity =
     Quantity::new("rope_extension", "Extension of main rope", Metre, Of::EachRope, |run| run.peaks(&EXTENSION))
         .json("rope_extension_m")
         .meaning("How far downstream each main rope bulged at the most.");

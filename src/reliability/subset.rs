@@ -48,7 +48,7 @@ const GROUP: usize = 10;
 
 /// What came of all checks together and of each alone.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rare {
+pub struct SubsetResult {
     /// That any check fails, with what plain samples have seen.
     pub any: Probability,
     pub each: Vec<Probability>,
@@ -61,7 +61,7 @@ pub struct Rare {
 /// The probability that any check fails, and each of the first `checks` of them, where plain samples saw too few failures to tell. All together
 /// subset simulation follows the check whose utilisation rises first, which need not be the one that fails first: so each is asked of alone as well,
 /// and where one fails more often than all are said to, the checks are taken to fail at different times, which is the most that they can.
-pub fn rare(dimensions: usize, states: &LimitStates, checks: usize, plain: &Counted, asked: &Asked) -> Rare {
+pub fn rare(dimensions: usize, states: &LimitStates, checks: usize, plain: &Counted, asked: &Asked) -> SubsetResult {
     let together = subset(dimensions, states, asked);
     let mut evaluations = together.evaluations;
     let each: Vec<Probability> = (0..checks)
@@ -96,7 +96,7 @@ pub fn rare(dimensions: usize, states: &LimitStates, checks: usize, plain: &Coun
         false => together.probability,
     };
     let any = any.or_seen(plain.probability());
-    Rare { any, each, repeats: asked.repeats, evaluations, stuck: together.stuck }
+    SubsetResult { any, each, repeats: asked.repeats, evaluations, stuck: together.stuck }
 }
 
 /// The probability that any check fails, of all together.

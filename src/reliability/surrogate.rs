@@ -40,7 +40,7 @@ pub struct Asked {
 
 /// What came of it.
 #[derive(Debug)]
-pub struct Learned {
+pub struct SurrogateResult {
     /// With the interval by what the surrogate does not know, and by counting.
     pub probability: Probability,
     pub of_checks: Vec<Probability>,
@@ -196,7 +196,7 @@ const WIDE: f64 = 1.96;
 const FIRST_SPREAD: f64 = 1.6;
 
 /// Learns until the probability is known well enough or the runs are used up.
-pub fn learn(inputs: usize, runs: &Runs, asked: &Asked) -> Result<Learned, String> {
+pub fn learn(inputs: usize, runs: &Runs, asked: &Asked) -> Result<SurrogateResult, String> {
     let mut learner = Learner::begin(inputs, runs, asked)?;
     let mut history = Vec::new();
     let (surrogate, settled) = loop {
@@ -213,7 +213,7 @@ pub fn learn(inputs: usize, runs: &Runs, asked: &Asked) -> Result<Learned, Strin
         learner.run(points)?;
     };
     let (probability, of_checks) = surrogate.count(COUNTED[1], asked, u64::MAX);
-    Ok(Learned {
+    Ok(SurrogateResult {
         probability,
         of_checks,
         runs: learner.ran,

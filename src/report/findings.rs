@@ -101,9 +101,9 @@ fn force_rows(design: &Design, simulated: &Simulated) -> Vec<Row> {
 
 /// How far the net bulges: the room it needs downstream.
 fn extension_row(seen: &Observed) -> Option<Row> {
-    let most = seen.each(&rope_tension::BULGE).iter().copied().fold(0.0, f64::max);
+    let most = seen.each(&rope_tension::DEFLECTION).iter().copied().fold(0.0, f64::max);
     let ropes: Vec<String> =
-        seen.each(&rope_tension::BULGE).iter().map(|extension| with_unit(*extension, "m")).collect();
+        seen.each(&rope_tension::DEFLECTION).iter().map(|extension| with_unit(*extension, "m")).collect();
     (most > 0.0).then(|| {
         let remark = format!(
             "downstream, in the simulated surge; of main ropes from the bottom: {}. Keep clear the larger of this and the sag by the guideline",

@@ -12,7 +12,7 @@ use crate::report::measured::Measured;
 use crate::report::spreads::over_packings;
 use crate::report::warnings;
 use crate::simulated::Simulated;
-use crate::stages::{Stage, stages};
+use crate::stages::{SurgeResult, stages};
 use crate::starts::Spread;
 
 /// Version of this contract.
@@ -266,7 +266,7 @@ fn simulation_part(run: &Simulated) -> SimulationPart {
     }
 }
 
-fn surge_part(stage: &Stage) -> SurgePart {
+fn surge_part(stage: &SurgeResult) -> SurgePart {
     let mean = |spread: Option<Spread>| spread.map(|spread| spread.mean);
     SurgePart {
         volume_m3: stage.volume,

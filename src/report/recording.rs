@@ -41,11 +41,11 @@ pub enum RecordingError {
 
 /// The recorded parts; `T` owns or borrows them.
 #[derive(Serialize, Deserialize)]
-struct Recording<Seen, Varied> {
+struct Recording<SimulatedRuns, Varied> {
     design_name: String,
     design: Vec<u8>,
     attached: Attached,
-    simulated: Option<Seen>,
+    simulated: Option<SimulatedRuns>,
     varied: Varied,
     climb: Vec<Step>,
 }

@@ -14,7 +14,7 @@ use crate::report::plots::cost_margin::{CostMargin, Dot, Mark};
 use crate::report::render::{Rendered, render_as};
 use crate::studies::bill::Prices;
 use crate::studies::choices::Choices;
-use crate::studies::sizing::{BY_EQUATIONS, Fate, Found, Wanted, Way};
+use crate::studies::sizing::{BY_EQUATIONS, Candidate, CandidateResult, Found, Wanted};
 
 const HTML: &str = include_str!("../../templates/size.html");
 const MARKDOWN: &str = include_str!("../../templates/size.md");
@@ -36,7 +36,7 @@ pub struct Sized<'a> {
 /// The cheapest that keeps a margin.
 pub struct Front {
     pub margin: f64,
-    pub cheapest: Option<Way>,
+    pub cheapest: Option<Candidate>,
     /// Whether the search ended before because enough had been simulated.
     pub out_of_budget: bool,
 }
@@ -79,7 +79,7 @@ pub fn files(
     let Sized { found, prices, .. } = sized;
     let cheapest = found.cheapest.map(|place| &found.ways[place]);
     let money = |price: f64| format!("{} {}", figures(price), prices.currency).trim().to_string();
-    let options = |way: &Way| -> Vec<String> {
+    let options = |way: &Candidate| -> Vec<String> {
         sized.choices.options(way.number).iter().map(|option| option.label.clone()).collect()
     };
     let bill = match cheapest {
@@ -94,7 +94,7 @@ pub fn files(
         }
         None => Vec::new(),
     };
-    let shown: Vec<&Way> = shown(found);
+    let shown: Vec<&Candidate> = shown(found);
     let page = Page {
         name: sized.name.to_string(),
         design: sized.design.display().to_string(),
@@ -140,15 +140,15 @@ fn shortly(name: &str) -> String {
 }
 
 /// The cheapest, what is undecided or was simulated, and of the others the dearest ones that cost less than the cheapest.
-fn shown(found: &Found) -> Vec<&Way> {
-    let told = |way: &Way| match &way.fate {
-        Fate::Passes { .. } | Fate::Undecided { .. } => true,
-        Fate::Fails { by, .. } => by != BY_EQUATIONS,
-        Fate::NotAsked | Fate::Impossible { .. } => false,
+fn shown(found: &Found) -> Vec<&Candidate> {
+    let told = |way: &Candidate| match &way.fate {
+        CandidateResult::Passes { .. } | CandidateResult::Undecided { .. } => true,
+        CandidateResult::Fails { by, .. } => by != BY_EQUATIONS,
+        CandidateResult::NotAsked | CandidateResult::Impossible { .. } => false,
     };
     let refuted: Vec<usize> = (0..found.ways.len()).filter(|place| !told(&found.ways[*place])).collect();
     let asked: Vec<usize> =
-        refuted.into_iter().filter(|place| matches!(found.ways[*place].fate, Fate::Fails { .. })).collect();
+        refuted.into_iter().filter(|place| matches!(found.ways[*place].fate, CandidateResult::Fails { .. })).collect();
     let told: Vec<usize> = (0..found.ways.len()).filter(|place| told(&found.ways[*place])).collect();
     let room = MOST_SHOWN.saturating_sub(told.len());
     let mut places: Vec<usize> = told.into_iter().chain(asked.into_iter().rev().take(room)).collect();
@@ -157,14 +157,14 @@ fn shown(found: &Found) -> Vec<&Way> {
     places.into_iter().map(|place| &found.ways[place]).collect()
 }
 
-fn result(sized: &Sized, cheapest: Option<&Way>, money: &impl Fn(f64) -> String) -> String {
+fn result(sized: &Sized, cheapest: Option<&Candidate>, money: &impl Fn(f64) -> String) -> String {
     let Some(way) = cheapest else {
         return match sized.found.out_of_budget {
             true => format!(
                 "None found: {} combinations were simulated, the most that the study allows (most_simulated), and none of them passes.",
                 sized.wanted.most_simulated
             ),
-            false => match sized.found.ways.iter().any(|way| matches!(way.fate, Fate::Undecided { .. })) {
+            false => match sized.found.ways.iter().any(|way| matches!(way.fate, CandidateResult::Undecided { .. })) {
                 true => "No combination of the choices passes; some are undecided.".into(),
                 false => "No combination of the choices passes: all of them fail, or lack the margin.".into(),
             },
@@ -176,7 +176,7 @@ fn result(sized: &Sized, cheapest: Option<&Way>, money: &impl Fn(f64) -> String)
         margin => format!(" with a margin of {:.0} %", 100.0 * margin),
     };
     match &way.fate {
-        Fate::Passes { by, check, used } => format!(
+        CandidateResult::Passes { by, check, used } => format!(
             "The cheapest barrier that passes{margin} costs {price}. It passes by {by}; the check that uses most is {check}, {:.0} %.",
             100.0 * used
         ),
@@ -189,12 +189,12 @@ fn result(sized: &Sized, cheapest: Option<&Way>, money: &impl Fn(f64) -> String)
 /// What was ruled out by what, and what could still be cheaper.
 fn reasons(sized: &Sized) -> Vec<String> {
     let ways = &sized.found.ways;
-    let count = |of: &dyn Fn(&Fate) -> bool| ways.iter().filter(|way| of(&way.fate)).count();
-    let impossible = count(&|fate| matches!(fate, Fate::Impossible { .. }));
-    let refuted = count(&|fate| matches!(fate, Fate::Fails { by, .. } if by == BY_EQUATIONS));
-    let failed = count(&|fate| matches!(fate, Fate::Fails { by, .. } if by != BY_EQUATIONS));
-    let undecided = count(&|fate| matches!(fate, Fate::Undecided { .. }));
-    let not_asked = count(&|fate| matches!(fate, Fate::NotAsked));
+    let count = |of: &dyn Fn(&CandidateResult) -> bool| ways.iter().filter(|way| of(&way.fate)).count();
+    let impossible = count(&|fate| matches!(fate, CandidateResult::Impossible { .. }));
+    let refuted = count(&|fate| matches!(fate, CandidateResult::Fails { by, .. } if by == BY_EQUATIONS));
+    let failed = count(&|fate| matches!(fate, CandidateResult::Fails { by, .. } if by != BY_EQUATIONS));
+    let undecided = count(&|fate| matches!(fate, CandidateResult::Undecided { .. }));
+    let not_asked = count(&|fate| matches!(fate, CandidateResult::NotAsked));
     let mut told = vec![format!(
         "Combinations of the choices: {}. Not valid as designs: {impossible}; ruled out by the equations: {refuted}; by simulation: {failed}; undecided: {undecided}; not evaluated: {not_asked}. What lacks the margin counts as ruled out.",
         ways.len()
@@ -202,7 +202,8 @@ fn reasons(sized: &Sized) -> Vec<String> {
     if let Some(place) = sized.found.cheapest {
         told.push("They were evaluated in the order of their price: every cheaper one has been ruled out, is not a valid design, or is listed as undecided.".into());
         let price = ways[place].price;
-        let as_dear = ways.iter().filter(|way| way.price == price && matches!(way.fate, Fate::NotAsked)).count();
+        let as_dear =
+            ways.iter().filter(|way| way.price == price && matches!(way.fate, CandidateResult::NotAsked)).count();
         if as_dear > 0 {
             told.push(format!(
                 "{as_dear} that were not evaluated cost the same: the prices do not distinguish them, and one of them may have more margin."
@@ -221,20 +222,20 @@ fn reasons(sized: &Sized) -> Vec<String> {
         ));
     }
     let first = ways.iter().find_map(|way| match &way.fate {
-        Fate::Impossible { why } => Some(why),
+        CandidateResult::Impossible { why } => Some(why),
         _ => None,
     });
     told.extend(first.map(|why| format!("The first that is not a valid design: {why}.")));
     told
 }
 
-fn row_of(way: &Way, options: Vec<String>, money: &impl Fn(f64) -> String) -> WayRow {
+fn row_of(way: &Candidate, options: Vec<String>, money: &impl Fn(f64) -> String) -> WayRow {
     let (verdict, by, why, used) = match &way.fate {
-        Fate::Passes { by, check, used } => ("pass", by.as_str(), check.as_str(), Some(*used)),
-        Fate::Fails { by, check, used } => ("fail", by.as_str(), check.as_str(), Some(*used)),
-        Fate::Undecided { by, why, used } => ("open", by.as_str(), why.as_str(), Some(*used)),
-        Fate::Impossible { why } => ("", "", why.as_str(), None),
-        Fate::NotAsked => ("", "", "", None),
+        CandidateResult::Passes { by, check, used } => ("pass", by.as_str(), check.as_str(), Some(*used)),
+        CandidateResult::Fails { by, check, used } => ("fail", by.as_str(), check.as_str(), Some(*used)),
+        CandidateResult::Undecided { by, why, used } => ("open", by.as_str(), why.as_str(), Some(*used)),
+        CandidateResult::Impossible { why } => ("", "", why.as_str(), None),
+        CandidateResult::NotAsked => ("", "", "", None),
     };
     let used = used.filter(|used| used.is_finite()).map_or("–".into(), |used| format!("{:.0} %", 100.0 * used));
     let price = way.price.map_or("–".into(), money);
@@ -242,13 +243,13 @@ fn row_of(way: &Way, options: Vec<String>, money: &impl Fn(f64) -> String) -> Wa
 }
 
 fn chart(sized: &Sized) -> Option<Chart> {
-    let dot = |way: &Way| {
+    let dot = |way: &Candidate| {
         let (mark, used) = match &way.fate {
-            Fate::Passes { used, .. } => (Mark::Pass, *used),
-            Fate::Fails { by, used, .. } if by == BY_EQUATIONS => (Mark::Refuted, *used),
-            Fate::Fails { used, .. } => (Mark::Fail, *used),
-            Fate::Undecided { used, .. } => (Mark::Open, *used),
-            Fate::Impossible { .. } | Fate::NotAsked => return None,
+            CandidateResult::Passes { used, .. } => (Mark::Pass, *used),
+            CandidateResult::Fails { by, used, .. } if by == BY_EQUATIONS => (Mark::Refuted, *used),
+            CandidateResult::Fails { used, .. } => (Mark::Fail, *used),
+            CandidateResult::Undecided { used, .. } => (Mark::Open, *used),
+            CandidateResult::Impossible { .. } | CandidateResult::NotAsked => return None,
         };
         let price = way.price.filter(|_| used.is_finite())?;
         Some(Dot { price, used, mark })
@@ -280,11 +281,11 @@ fn table(sized: &Sized) -> String {
             let _ = write!(text, ",{}", quoted(&option.label));
         }
         let (fate, by, used, why) = match &way.fate {
-            Fate::Passes { by, check, used } => ("passes", by.as_str(), Some(*used), check.as_str()),
-            Fate::Fails { by, check, used } => ("fails", by.as_str(), Some(*used), check.as_str()),
-            Fate::Undecided { by, why, used } => ("undecided", by.as_str(), Some(*used), why.as_str()),
-            Fate::Impossible { why } => ("impossible", "", None, why.as_str()),
-            Fate::NotAsked => ("not asked", "", None, ""),
+            CandidateResult::Passes { by, check, used } => ("passes", by.as_str(), Some(*used), check.as_str()),
+            CandidateResult::Fails { by, check, used } => ("fails", by.as_str(), Some(*used), check.as_str()),
+            CandidateResult::Undecided { by, why, used } => ("undecided", by.as_str(), Some(*used), why.as_str()),
+            CandidateResult::Impossible { why } => ("impossible", "", None, why.as_str()),
+            CandidateResult::NotAsked => ("not asked", "", None, ""),
         };
         let price = way.price.map_or(String::new(), |price| format!("{price:.6}"));
         let used = used.filter(|used| used.is_finite()).map_or(String::new(), |used| format!("{used:.6}"));
@@ -303,7 +304,7 @@ pub struct SizeFile<'a> {
     choices: Vec<&'a str>,
     currency: &'a str,
     margin: f64,
-    cheapest: Option<&'a Way>,
+    cheapest: Option<&'a Candidate>,
     /// In the order of their price, those that are no designs last.
     ways: Vec<JsonWay<'a>>,
     front: Vec<JsonFront<'a>>,
@@ -313,18 +314,18 @@ pub struct SizeFile<'a> {
 struct JsonWay<'a> {
     options: Vec<&'a str>,
     #[serde(flatten)]
-    way: &'a Way,
+    way: &'a Candidate,
 }
 
 #[derive(Serialize, JsonSchema)]
 struct JsonFront<'a> {
     margin: f64,
-    cheapest: Option<&'a Way>,
+    cheapest: Option<&'a Candidate>,
 }
 
 fn json(sized: &Sized) -> serde_json::Result<String> {
     let options =
-        |way: &Way| sized.choices.options(way.number).into_iter().map(|option| option.label.as_str()).collect();
+        |way: &Candidate| sized.choices.options(way.number).into_iter().map(|option| option.label.as_str()).collect();
     serde_json::to_string_pretty(&SizeFile {
         schema_version: 1,
         name: sized.name,

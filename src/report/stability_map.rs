@@ -9,7 +9,7 @@ use crate::report::folder::ReportFile;
 use crate::report::numbers::quoted;
 use crate::report::plots::escape;
 use crate::report::render::{Rendered, render_as};
-use crate::studies::stability::{Fate, Mapped};
+use crate::studies::stability::{Mapped, StepOutcome};
 
 const HTML: &str = include_str!("../../templates/stability.html");
 const MARKDOWN: &str = include_str!("../../templates/stability.md");
@@ -55,7 +55,8 @@ pub fn files(name: &str, mapped: &[Mapped]) -> Result<Vec<ReportFile>, tera::Err
 }
 
 fn row(mapped: &Mapped) -> Row {
-    let wrong = mapped.limits.trials.iter().find(|trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling));
+    let wrong =
+        mapped.limits.trials.iter().find(|trial| matches!(trial.fate, StepOutcome::Unstable | StepOutcome::Tunnelling));
     Row {
         name: mapped.name,
         what: mapped.what,

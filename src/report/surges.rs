@@ -7,7 +7,7 @@ use crate::pipeline::Run;
 use crate::report::chart::Chart;
 use crate::report::numbers::{figures, with_scatter, with_unit};
 use crate::report::plots::surges::{Pair, surges};
-use crate::stages::{Stage, hardest, stages};
+use crate::stages::{SurgeResult, hardest, stages};
 use crate::starts::Spread;
 
 #[derive(Debug, Default, Serialize)]
@@ -37,8 +37,8 @@ pub fn of(run: &Run) -> Option<Surges> {
     Some(Surges { columns, rows: rows(&stages), chart: Some(chart(&stages)), says: says(run, &stages) })
 }
 
-fn rows(stages: &[Stage]) -> Vec<Line> {
-    let line = |name: &'static str, value: &dyn Fn(&Stage) -> String| Line {
+fn rows(stages: &[SurgeResult]) -> Vec<Line> {
+    let line = |name: &'static str, value: &dyn Fn(&SurgeResult) -> String| Line {
         name,
         values: stages.iter().map(value).collect(),
     };
@@ -82,8 +82,8 @@ fn rows(stages: &[Stage]) -> Vec<Line> {
     rows
 }
 
-fn chart(stages: &[Stage]) -> Chart {
-    let pair = |stage: &Stage| Pair {
+fn chart(stages: &[SurgeResult]) -> Chart {
+    let pair = |stage: &SurgeResult| Pair {
         guideline: stage.guideline * 1e-3,
         simulation: stage.force.mean * 1e-3,
         scatter: (stage.force.starts > 1)
@@ -97,7 +97,7 @@ fn chart(stages: &[Stage]) -> Chart {
     )
 }
 
-fn says(run: &Run, stages: &[Stage]) -> String {
+fn says(run: &Run, stages: &[SurgeResult]) -> String {
     let hardest = hardest(stages).map_or(0, |number| number + 1);
     let [least, most] = stages
         .iter()
@@ -114,14 +114,15 @@ fn says(run: &Run, stages: &[Stage]) -> String {
 }
 
 /// Before which surge the barrier would have to be cleared, or its dissipators replaced.
-fn before_the_next(run: &Run, stages: &[Stage]) -> String {
+fn before_the_next(run: &Run, stages: &[SurgeResult]) -> String {
     let strokes = run.outcomes.iter().filter(|outcome| outcome.kind == Kind::Stroke);
     let permitted = strokes.filter_map(|outcome| outcome.capacity).reduce(f64::min);
     // Asked as "within", so that what is not a number is not.
-    let is_within = |stage: &Stage| permitted.is_none_or(|most| stage.stroke.is_none_or(|[all, _]| all.mean <= most));
+    let is_within =
+        |stage: &SurgeResult| permitted.is_none_or(|most| stage.stroke.is_none_or(|[all, _]| all.mean <= most));
     let worn = stages.iter().position(|stage| !is_within(stage));
     let top = run.guideline.input.barrier_height;
-    let is_below = |stage: &Stage| stage.level.mean <= top;
+    let is_below = |stage: &SurgeResult| stage.level.mean <= top;
     let over = stages.iter().position(|stage| !is_below(stage));
     let mut said = Vec::new();
     if let Some(number) = worn {

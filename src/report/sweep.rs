@@ -14,7 +14,7 @@ use crate::report::plots::line_chart::{Level, LineChart, Series};
 use crate::report::render::{Rendered, render_as};
 use crate::studies::amount::Amount;
 use crate::studies::choices::Choices;
-use crate::studies::sweep::Ran;
+use crate::studies::sweep::RunRecord;
 use crate::studies::sweep_plan::SweepPlan;
 
 const HTML: &str = include_str!("../../templates/sweep.html");
@@ -30,7 +30,7 @@ pub struct Swept<'a> {
     /// Runs of one design.
     pub ways: usize,
     /// Design by design; nothing where a run has not been made.
-    pub runs: &'a [Option<Ran>],
+    pub runs: &'a [Option<RunRecord>],
     /// The name of a run.
     pub id: &'a dyn Fn(usize) -> String,
 }
@@ -116,7 +116,7 @@ fn result(swept: &Swept) -> String {
 }
 
 fn row(swept: &Swept, run: usize) -> RowOfARun {
-    let nothing = Ran::nothing("not made", String::new());
+    let nothing = RunRecord::nothing("not made", String::new());
     let ran = swept.runs[run].as_ref().unwrap_or(&nothing);
     let force = measured(ran, PEAK).or(ran.guideline_force);
     RowOfARun {
@@ -139,7 +139,7 @@ fn row(swept: &Swept, run: usize) -> RowOfARun {
 /// The largest force by the simulation, among what is measured.
 const PEAK: &str = "force_total_peak_n";
 
-fn measured(ran: &Ran, name: &str) -> Option<f64> {
+fn measured(ran: &RunRecord, name: &str) -> Option<f64> {
     ran.measured.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
 }
 
@@ -163,7 +163,7 @@ struct Shown {
     unit: &'static str,
     factor: f64,
     limit: Option<f64>,
-    of: fn(&Ran) -> Option<f64>,
+    of: fn(&RunRecord) -> Option<f64>,
     note: &'static str,
 }
 
@@ -242,11 +242,12 @@ fn column_name(text: &str) -> String {
 fn table(swept: &Swept) -> Vec<(String, Column)> {
     let runs = 0..swept.runs.len();
     let texts = |of: &dyn Fn(usize) -> String| Column::Texts(runs.clone().map(of).collect());
-    let known = |of: &dyn Fn(&Ran) -> Option<f64>| {
+    let known = |of: &dyn Fn(&RunRecord) -> Option<f64>| {
         Column::Known(swept.runs.iter().map(|ran| ran.as_ref().and_then(of)).collect())
     };
-    let told =
-        |of: fn(&Ran) -> &String| texts(&|run| swept.runs[run].as_ref().map_or(String::new(), |ran| of(ran).clone()));
+    let told = |of: fn(&RunRecord) -> &String| {
+        texts(&|run| swept.runs[run].as_ref().map_or(String::new(), |ran| of(ran).clone()))
+    };
     let mut table = vec![("design".to_string(), texts(&|run| name_of(swept, run / swept.ways)))];
     for (key, choice) in swept.choices.0.iter().enumerate() {
         table.push((column_name(&choice.name), texts(&|run| labels(swept, run)[key].clone())));
@@ -258,7 +259,7 @@ fn table(swept: &Swept) -> Vec<(String, Column)> {
     table.push(("governing".into(), told(|ran| &ran.governing)));
     table.push(("largest_utilisation".into(), known(&|ran| ran.used)));
     table.push(("guideline_force_n".into(), known(&|ran| ran.guideline_force)));
-    let mut add = |names: BTreeSet<&str>, prefix: &str, of: &dyn Fn(&Ran, &str) -> Option<f64>| {
+    let mut add = |names: BTreeSet<&str>, prefix: &str, of: &dyn Fn(&RunRecord, &str) -> Option<f64>| {
         for name in names {
             table.push((column_name(&format!("{prefix}{name}")), known(&|ran| of(ran, name))));
         }
@@ -274,7 +275,7 @@ fn table(swept: &Swept) -> Vec<(String, Column)> {
 
 /// Where runs were made and how long they took: what differs between engines and machines.
 fn where_they_ran(swept: &Swept) -> Vec<(String, Column)> {
-    let known = |of: &dyn Fn(&Ran) -> Option<f64>| {
+    let known = |of: &dyn Fn(&RunRecord) -> Option<f64>| {
         Column::Known(swept.runs.iter().map(|ran| ran.as_ref().and_then(of)).collect())
     };
     let instructions = swept.runs.iter().map(|ran| ran.as_ref().map_or(String::new(), |ran| ran.instructions.clone()));
@@ -331,7 +332,7 @@ struct CheckPart {
 }
 
 fn json(swept: &Swept) -> SweepFile {
-    let nothing = Ran::nothing("not made", String::new());
+    let nothing = RunRecord::nothing("not made", String::new());
     let part = |run: usize| {
         let ran = swept.runs[run].as_ref().unwrap_or(&nothing);
         let check = |check: &crate::studies::sweep::CheckRan| CheckPart {

@@ -6,7 +6,7 @@ use tera::{Context, Tera};
 use crate::program::COMMIT;
 use crate::report::folder::ReportFile;
 use crate::validation::CASES;
-use crate::validation::case::{Case, Finding, Ran, Wanted};
+use crate::validation::case::{Case, CaseRun, Finding, Wanted};
 
 const HTML: &str = include_str!("../../templates/validation.html");
 const DOCUMENT: &str = include_str!("../../templates/validation_document.md");
@@ -45,7 +45,7 @@ impl Row {
         self.verdict == "pass"
     }
 
-    pub fn of(ran: &Ran) -> Self {
+    pub fn of(ran: &CaseRun) -> Self {
         let case = ran.case;
         Self {
             id: case.id,

@@ -53,7 +53,7 @@ pub struct ProgressReport<'a> {
 }
 
 /// How a run is watched and stopped from outside, and where it is kept, if it is.
-pub struct Watch<'a> {
+pub struct RunControl<'a> {
     pub progress: &'a (dyn Fn(ProgressReport) + Sync),
     pub stop: &'a AtomicBool,
     pub store: Option<&'a CheckpointStore>,
@@ -120,7 +120,7 @@ impl Ongoing {
     /// Goes on until the last surge is steady, at the longest time that the design allows each, on breakdown or when asked to. At every stop of the simulation `keep` is
     /// handed the run, and told whether it ends there because it was asked to; a run that nobody keeps, or whose next stop is far, ends
     /// before.
-    pub fn go_on(mut self, design: &Design, seed: u64, watch: &Watch, mut keep: impl FnMut(&Self, bool)) -> Event {
+    pub fn go_on(mut self, design: &Design, seed: u64, watch: &RunControl, mut keep: impl FnMut(&Self, bool)) -> Event {
         let mut interrupt_grace = Patience::default();
         let ending = loop {
             let sampled = match self.recorder.step(&mut self.simulation) {
@@ -186,7 +186,7 @@ impl Ongoing {
     }
 
     /// Lets the next surge go, if there is one.
-    fn next_surge(&mut self, design: &Design, seed: u64, watch: &Watch) -> Option<Result<(), Ending>> {
+    fn next_surge(&mut self, design: &Design, seed: u64, watch: &RunControl) -> Option<Result<(), Ending>> {
         let number = self.recorder.histories.surges.len() + 1;
         design.flow.later.get(number - 1)?;
         let next = Next { design, number, seed, first: self.next_grain, reach: self.reach };
@@ -206,7 +206,7 @@ impl Ongoing {
     }
 
     /// Takes in the sample just made; tells whether the surge under way ends with it.
-    fn judge(&mut self, design: &Design, watch: &Watch) -> Option<Ending> {
+    fn judge(&mut self, design: &Design, watch: &RunControl) -> Option<Ending> {
         let histories = &self.recorder.histories;
         let error = self.simulation.ledger.relative_error(&histories.at_release);
         self.energy_error = worse(self.energy_error, error);

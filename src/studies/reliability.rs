@@ -7,8 +7,8 @@ use serde::Serialize;
 use crate::reliability::form::{DesignPoint, NoPoint, form};
 use crate::reliability::monte_carlo::{self, Counted, monte_carlo};
 use crate::reliability::sobol::{Indices, sobol};
-use crate::reliability::subset::{self, Rare, rare};
-use crate::reliability::surrogate::{self, Learned, Surrogate, learn};
+use crate::reliability::subset::{self, SubsetResult, rare};
+use crate::reliability::surrogate::{self, Surrogate, SurrogateResult, learn};
 use crate::reliability::{LimitStates, Probability, largest};
 use crate::studies::limit_states::{Judged, Tally};
 
@@ -32,9 +32,9 @@ pub struct Wanted<'a> {
 #[derive(Debug)]
 pub enum Way {
     /// By the equations: samples, and where few of them fail, subset simulation.
-    Equations { counted: Counted, rare: Option<Rare> },
+    Equations { counted: Counted, rare: Option<SubsetResult> },
     /// By simulations and a surrogate.
-    Simulations(Box<Learned>),
+    Simulations(Box<SurrogateResult>),
 }
 
 /// What came of it.

@@ -30,7 +30,7 @@ pub struct Wanted {
 /// What a way came to.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case", tag = "is")]
-pub enum Fate {
+pub enum CandidateResult {
     /// It is no design.
     Impossible {
         why: String,
@@ -56,12 +56,12 @@ pub enum Fate {
 
 /// A way to put the choices together.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Way {
+pub struct Candidate {
     /// Its number among all.
     pub number: usize,
     /// Nothing where it is no design.
     pub price: Option<f64>,
-    pub fate: Fate,
+    pub fate: CandidateResult,
 }
 
 /// Why a way has no run.
@@ -74,7 +74,7 @@ pub enum Fault {
 }
 
 /// What the search needs of the ways.
-pub trait Ways: Sync {
+pub trait Candidates: Sync {
     fn count(&self) -> usize;
     /// Price of a way, or why it is no design.
     fn price(&self, number: usize) -> Result<f64, String>;
@@ -86,14 +86,14 @@ pub trait Ways: Sync {
     fn side_by_side<T: Send>(&self, numbers: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T>;
     /// How many jobs run at once.
     fn at_once(&self) -> usize;
-    fn tell(&self, way: &Way);
+    fn tell(&self, way: &Candidate);
 }
 
 /// What came of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// In the order of their price, those that are no designs last.
-    pub ways: Vec<Way>,
+    pub ways: Vec<Candidate>,
     /// The cheapest that passes, or by equations alone that they do not refute, by its place in that list.
     pub cheapest: Option<usize>,
     /// Whether ways were left because enough had been simulated.
@@ -119,7 +119,7 @@ fn worst_of<'a>(failing: impl Iterator<Item = &'a Outcome>) -> Option<(String, f
 }
 
 /// What a run says of a way, with the margin wanted.
-fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
+fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> CandidateResult {
     let titled = |outcome: &Outcome| Some((outcome.used()?, outcome.title.clone()));
     let (used, check) = most_used(&run.outcomes).and_then(titled).unwrap_or((f64::NAN, String::new()));
     let by = by.to_string();
@@ -127,7 +127,7 @@ fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
         Verdict::Fail => {
             let failed = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Fail);
             let (check, used) = worst_of(failed).unwrap_or((check, used));
-            Fate::Fails { by, check, used }
+            CandidateResult::Fails { by, check, used }
         }
         Verdict::Undecided => {
             let open = run.outcomes.iter().filter(|outcome| outcome.verdict == CheckVerdict::Open);
@@ -136,11 +136,11 @@ fn fate_of(run: &Run, by: &str, wanted: &Wanted) -> Fate {
             let more = if open.len() > 3 { format!(" and {} more", open.len() - 3) } else { String::new() };
             let first = open.first().and_then(|outcome| outcome.open.as_ref()).map_or("", OpenReason::words);
             let why = run.doubts.first().cloned().unwrap_or_else(|| format!("{}{more}: {first}", titles.join(", ")));
-            Fate::Undecided { by, why, used }
+            CandidateResult::Undecided { by, why, used }
         }
         // Asked so that what is not a number does not pass.
-        Verdict::Pass if used <= 1.0 - wanted.margin => Fate::Passes { by, check, used },
-        Verdict::Pass => Fate::Fails { by, check, used },
+        Verdict::Pass if used <= 1.0 - wanted.margin => CandidateResult::Passes { by, check, used },
+        Verdict::Pass => CandidateResult::Fails { by, check, used },
     }
 }
 
@@ -157,22 +157,22 @@ fn rung_of(run: &Run) -> String {
 pub const BY_EQUATIONS: &str = "equations";
 
 /// Searches the cheapest way that passes.
-pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
+pub fn search(ways: &impl Candidates, wanted: &Wanted) -> Result<Found, String> {
     let numbers: Vec<usize> = (0..ways.count()).collect();
     let prices = ways.side_by_side(&numbers, |number| ways.price(number));
-    let mut list: Vec<Way> = numbers
+    let mut list: Vec<Candidate> = numbers
         .into_iter()
         .zip(prices)
         .map(|(number, price)| match price {
-            Ok(price) => Way { number, price: Some(price), fate: Fate::NotAsked },
-            Err(why) => Way { number, price: None, fate: Fate::Impossible { why } },
+            Ok(price) => Candidate { number, price: Some(price), fate: CandidateResult::NotAsked },
+            Err(why) => Candidate { number, price: None, fate: CandidateResult::Impossible { why } },
         })
         .collect();
     // What costs nothing is no cheapest: the order would be that of the list.
     if list.iter().any(|way| way.price.is_some()) && list.iter().all(|way| way.price.is_none_or(|price| price <= 0.0)) {
         return Err("prices: nothing that is priced is part of these barriers, so that all cost nothing (without prices the mass of steel counts, and a wall has none); price what the choices change, for example wall_volume and foundation_volume".into());
     }
-    let order = |way: &Way| way.price.unwrap_or(f64::INFINITY);
+    let order = |way: &Candidate| way.price.unwrap_or(f64::INFINITY);
     list.sort_by(|a, b| order(a).total_cmp(&order(b)).then(a.number.cmp(&b.number)));
     let mut found = Found { ways: list, cheapest: None, out_of_budget: false };
     let mut simulated = 0;
@@ -189,7 +189,7 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
                 let run = run?;
                 match refuted(&run, wanted) {
                     Some((check, used)) => {
-                        found.ways[place].fate = Fate::Fails { by: BY_EQUATIONS.into(), check, used };
+                        found.ways[place].fate = CandidateResult::Fails { by: BY_EQUATIONS.into(), check, used };
                     }
                     // What the equations do not refute need not pass: the verdict says.
                     None if wanted.by_equations => {
@@ -225,7 +225,7 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
             if found.cheapest.is_none() && run.is_some_and(|run| several_may_pass(&run, &fate)) {
                 let confirmed = ways.confirmed(found.ways[place].number, wanted.packings);
                 fate = told(confirmed, wanted)?.0;
-                if matches!(fate, Fate::Passes { .. }) {
+                if matches!(fate, CandidateResult::Passes { .. }) {
                     found.cheapest = Some(place);
                 }
             }
@@ -237,24 +237,26 @@ pub fn search(ways: &impl Ways, wanted: &Wanted) -> Result<Found, String> {
 }
 
 /// What a simulation says of a way; one that cannot be made leaves it undecided.
-fn told(run: Result<Run, Fault>, wanted: &Wanted) -> Result<(Fate, Option<Run>), String> {
+fn told(run: Result<Run, Fault>, wanted: &Wanted) -> Result<(CandidateResult, Option<Run>), String> {
     match run {
         Ok(run) => Ok((fate_of(&run, &rung_of(&run), wanted), Some(run))),
-        Err(Fault::OfTheWay(why)) => Ok((Fate::Undecided { by: "no simulation".into(), why, used: f64::NAN }, None)),
+        Err(Fault::OfTheWay(why)) => {
+            Ok((CandidateResult::Undecided { by: "no simulation".into(), why, used: f64::NAN }, None))
+        }
         Err(Fault::OfAll(why)) => Err(why),
     }
 }
 
 /// Whether several packings may pass what one simulation shows: it passes, or nothing is open that none of them can close.
-fn several_may_pass(run: &Run, fate: &Fate) -> bool {
+fn several_may_pass(run: &Run, fate: &CandidateResult) -> bool {
     let closable = |outcome: &Outcome| match &outcome.open {
         Some(OpenReason::TooClose(_) | OpenReason::Contradicted(_)) | None => true,
         Some(OpenReason::NotGiven(_) | OpenReason::NeedsSimulation(_) | OpenReason::OutOfRange(_)) => false,
     };
     match fate {
-        Fate::Passes { .. } => true,
-        Fate::Undecided { .. } => run.doubts.is_empty() && run.outcomes.iter().all(closable),
-        Fate::Fails { .. } | Fate::Impossible { .. } | Fate::NotAsked => false,
+        CandidateResult::Passes { .. } => true,
+        CandidateResult::Undecided { .. } => run.doubts.is_empty() && run.outcomes.iter().all(closable),
+        CandidateResult::Fails { .. } | CandidateResult::Impossible { .. } | CandidateResult::NotAsked => false,
     }
 }
 
@@ -312,7 +314,7 @@ mod tests {
         }
     }
 
-    impl Ways for Walls {
+    impl Candidates for Walls {
         fn count(&self) -> usize {
             EACH.pow(4)
         }
@@ -346,7 +348,7 @@ mod tests {
             2
         }
 
-        fn tell(&self, _: &Way) {}
+        fn tell(&self, _: &Candidate) {}
     }
 
     const WANTED: Wanted = Wanted { margin: 0.1, by_equations: true, packings: 5, most_simulated: 10 };
@@ -369,7 +371,7 @@ mod tests {
         assert!(stands.iter().flatten().count() > 100, "a choice worth searching");
         assert!((100..walls.count() / 2).contains(&asked), "{asked} asked");
         // The equations alone do not pass it: what is found is no verdict.
-        assert!(matches!(found.ways[place].fate, Fate::Undecided { .. }), "{:?}", found.ways[place].fate);
+        assert!(matches!(found.ways[place].fate, CandidateResult::Undecided { .. }), "{:?}", found.ways[place].fate);
     }
 
     /// Designs that differ in resistances alone are one to the simulation, and others are not.

@@ -6,7 +6,7 @@ use crate::design::Design;
 use crate::design::read::DesignFile;
 use crate::guideline::guideline;
 use crate::quantities::{anchor_load, dissipator, mass, total_force, wall};
-use crate::scene::event::Watch;
+use crate::scene::event::RunControl;
 use crate::simulated::{Detail, RunError, Simulated, simulate};
 use crate::starts::Spread;
 use crate::studies::knobs::{Knob, turn};
@@ -119,7 +119,7 @@ pub fn tasks(plan: &Plan, scenes: &[DesignFile]) -> Vec<Task> {
 }
 
 /// Makes one run.
-pub fn make(task: &Task, design: &Design, watch: &Watch) -> Result<Point, RunError> {
+pub fn make(task: &Task, design: &Design, watch: &RunControl) -> Result<Point, RunError> {
     let (design, fidelity) = match &task.setting {
         Setting::AsItIs => turn(design, &[]),
         Setting::Turned(knob, value) => turn(design, &[(*knob, *value)]),

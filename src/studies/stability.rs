@@ -9,7 +9,7 @@ use dem::simulation::Simulation;
 
 /// How a run went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Fate {
+pub enum StepOutcome {
     /// The energy account closes to the limit of credibility.
     Stable,
     /// It does not, but nothing grows without end.
@@ -20,7 +20,7 @@ pub enum Fate {
     Tunnelling,
 }
 
-impl Fate {
+impl StepOutcome {
     pub fn word(self) -> &'static str {
         match self {
             Self::Stable => "stable",
@@ -35,7 +35,7 @@ impl Fate {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trial {
     pub share: f64,
-    pub fate: Fate,
+    pub fate: StepOutcome,
     /// Energy unaccounted for over the energy there was: the largest, and the largest that was made from nothing.
     pub imbalance: f64,
     pub made: f64,
@@ -48,7 +48,7 @@ impl Trial {
     fn makes_energy(&self) -> bool {
         // Asked so that a NaN counts.
         let within = self.made <= MADE;
-        self.fate == Fate::Unstable || !within
+        self.fate == StepOutcome::Unstable || !within
     }
 }
 
@@ -100,7 +100,7 @@ impl Mapped {
 
     /// Every run that went wrong was noticed, or stepped so that the audit would have cut the step.
     pub fn all_caught(&self) -> bool {
-        let wrong = |trial: &&Trial| matches!(trial.fate, Fate::Unstable | Fate::Tunnelling);
+        let wrong = |trial: &&Trial| matches!(trial.fate, StepOutcome::Unstable | StepOutcome::Tunnelling);
         self.limits.trials.iter().filter(wrong).all(|trial| !trial.noticed.is_empty())
     }
 }
@@ -188,13 +188,13 @@ fn trial(scene: &Scene, share: f64, estimated: f64, steps: usize) -> Trial {
     numerics.overlap = simulation.extremes.overlap_ratio;
     numerics.crossings = simulation.extremes.crossings;
     let fate = if numerics.crossings > 0 {
-        Fate::Tunnelling
+        StepOutcome::Tunnelling
     } else if numerics.broke_down.is_some() || imbalance.is_nan() || imbalance.abs() > GROWTH {
-        Fate::Unstable
+        StepOutcome::Unstable
     } else if imbalance.abs() > ENERGY_LIMIT {
-        Fate::Drifting
+        StepOutcome::Drifting
     } else {
-        Fate::Stable
+        StepOutcome::Stable
     };
     let mut noticed = doubts(&numerics);
     if share > 1.0 {
@@ -213,8 +213,8 @@ mod tests {
         // Balls between walls: ω² = 4 k/m at the most, the walls being twice as stiff a touch more.
         let mapped = Mapped::new(&SCENES[0], map(&SCENES[0], &[0.5, 1.5], 2000));
         assert!(mapped.safe() && mapped.sharpness() > 0.6, "{mapped:?}");
-        assert_eq!(mapped.limits.trials[0].fate, Fate::Stable);
-        assert_eq!(mapped.limits.trials[1].fate, Fate::Unstable);
+        assert_eq!(mapped.limits.trials[0].fate, StepOutcome::Stable);
+        assert_eq!(mapped.limits.trials[1].fate, StepOutcome::Unstable);
         assert!(mapped.all_caught());
     }
 }

@@ -10,7 +10,7 @@ use dem::simd::widest::instructions;
 
 /// What is kept of a run. The same wherever it ran, but for the time that it took and the instructions it used.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Ran {
+pub struct RunRecord {
     /// pass, fail, undecided; `invalid` where the values make no design, `not simulated` where it could not be.
     pub verdict: String,
     /// Why it is undecided, or no design.
@@ -38,7 +38,7 @@ pub struct CheckRan {
     pub verdict: String,
 }
 
-impl Ran {
+impl RunRecord {
     /// Whether there is nothing but why there is nothing.
     pub fn is_not_made(&self) -> bool {
         ["invalid", "not simulated"].contains(&self.verdict.as_str())

@@ -21,13 +21,13 @@ pub struct Case {
 }
 
 /// A case that has run.
-pub struct Ran {
+pub struct CaseRun {
     pub case: &'static Case,
     pub outcome: Result<Vec<Finding>, Broken>,
     pub time: Duration,
 }
 
-impl Ran {
+impl CaseRun {
     /// Runs one case.
     pub fn of(case: &'static Case) -> Self {
         let started = Instant::now();

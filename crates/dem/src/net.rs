@@ -7,7 +7,7 @@ use crate::elements::cylinder::{Cylinder, strain_all};
 use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingForce, RingSide};
-use crate::elements::rope::{Fate, pull};
+use crate::elements::rope::{Overload, pull};
 use crate::elements::segment::AxialMember;
 use crate::tables::barrier::Barrier;
 
@@ -45,7 +45,7 @@ pub struct NetForces {
     /// Where the barrier lies on the ground now.
     lies: Vec<Footing>,
     /// Pieces of rope that were overloaded.
-    overloaded: Vec<(usize, Fate)>,
+    overloaded: Vec<(usize, Overload)>,
     bent: Vec<(usize, Cylinder)>,
     /// Rings of the net that broke.
     torn: Vec<usize>,
@@ -238,11 +238,11 @@ impl NetForces {
         for (number, fate) in &self.overloaded {
             let segment = &mut barrier.segments[*number];
             match fate {
-                Fate::Drawn(rest_length) => {
+                Overload::Drawn(rest_length) => {
                     segment.strength.drawn_out += rest_length - segment.rest_length;
                     segment.set_rest_length(*rest_length);
                 }
-                Fate::Broken => {
+                Overload::Broken => {
                     let nodes = segment.nodes;
                     segment.part();
                     barrier.lose_line(nodes);

@@ -53,7 +53,7 @@ pub mod tests {
     use crate::checks::check_all;
     use crate::checks::not_covered::context::FirstSurge;
     use crate::checks::outcome::CheckVerdict;
-    use crate::demand::{Demands, Seen};
+    use crate::demand::{Demands, SimulatedRuns};
     use crate::design::Design;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
@@ -111,7 +111,7 @@ pub mod tests {
     /// Verdict of a check where the first surge shows certain numbers.
     pub fn simulated_verdict(design: &Design, id: &str, observed: &Observed, seen: FirstSurge) -> CheckVerdict {
         let guideline = guideline(design);
-        let packings = Seen { characteristic: vec![observed], ..Seen::default() };
+        let packings = SimulatedRuns { characteristic: vec![observed], ..SimulatedRuns::default() };
         let mut outcomes = check_all(design, &Demands::meet(&guideline, &packings, &design.factors));
         leave_open_not_covered(CheckContext { design, guideline: &guideline, seen: Some(seen) }, &mut outcomes);
         outcomes.iter().find(|outcome| outcome.id == id).expect("a check").verdict

@@ -11,7 +11,7 @@ use crate::quantities::observed::Observed;
 use crate::quantities::reading::Samples;
 use crate::quantities::total_force;
 use crate::scene::build::{SAMPLES_PER_WINDOW, build};
-use crate::scene::event::{Ending, Ongoing, Watch};
+use crate::scene::event::{Ending, Ongoing, RunControl};
 use crate::validation::case::Broken;
 use dem::ledger::Ledger;
 use dem::recorders::histories::{Histories, smoothed};
@@ -124,7 +124,7 @@ pub fn run_variant(variant: &Variant) -> Result<Run, Broken> {
     let scene = build(&design, &choose(&design), variant.seed).map_err(|error| Broken::Scene(error.to_string()))?;
     let window = SAMPLES_PER_WINDOW as usize;
     let reading = Samples { window, tail: scene.samples_of_rest() };
-    let watch = Watch { progress: &|_| {}, stop: &AtomicBool::new(false), store: None };
+    let watch = RunControl { progress: &|_| {}, stop: &AtomicBool::new(false), store: None };
     let event = Ongoing::begin(scene).go_on(&design, 1, &watch, |_, _| ());
     if let Ending::BrokeDown(unstable) = event.ending {
         return Err(unstable.into());

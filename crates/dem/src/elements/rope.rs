@@ -19,12 +19,12 @@ pub struct Pull {
     /// Dissipated in the step just made (J).
     pub lost: f64,
     /// What became of a segment that was overloaded.
-    pub fate: Option<Fate>,
+    pub fate: Option<Overload>,
 }
 
 /// What becomes of an overloaded piece of rope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum Overload {
     /// Drawn out to this rest length (m).
     Drawn(f64),
     Broken,
@@ -61,11 +61,11 @@ fn overloaded(segment: &Segment, length: f64, direction: Vec3, stretched: f64) -
     let stretch = length - segment.rest_length;
     let (would_pull, would_store) = (segment.stiffness * stretch, 0.5 * segment.stiffness * stretch * stretch);
     let (tension, stored, fate) = if would_pull > strength.breaking {
-        (0.0, 0.0, Fate::Broken)
+        (0.0, 0.0, Overload::Broken)
     } else {
         let axial = segment.stiffness * segment.rest_length;
         let rest_length = strength.rest_length_at_limit(axial, length);
-        (strength.elastic, 0.5 * strength.elastic * (length - rest_length), Fate::Drawn(rest_length))
+        (strength.elastic, 0.5 * strength.elastic * (length - rest_length), Overload::Drawn(rest_length))
     };
     let lost = would_store - stored - 0.5 * (would_pull - tension) * stretched;
     Pull { tension, direction, stored, lost, fate: Some(fate) }
