@@ -9,7 +9,7 @@
 //!
 //! | to add | go to |
 //! |---|---|
-//! | a key of the design file | a line in [`design::schema`], a field in [`design`], its use in [`design::resolve`] |
+//! | a key of the design file | a line in [`design::schema`], a field in [`design`], its reading in [`design::resolve`] or, for channel, flow, ropes, rings, dissipators, posts and anchors, in the file of that part (`design::*_entries`, `design::posts`, ...); a factor is set to 1 or named in `studies::limit_states` |
 //! | another way to give the section of a channel | its key in [`design::schema`], what it makes in `design::channel_entries`; all else asks [`section`] and [`profile`] |
 //! | a format of terrain rasters | [`raster`]; how it is turned into the barrier's directions in `design::terrain_file` and [`relief`] |
 //! | a file that a design names | a key of the kind `File`, and `design::attached` |
@@ -24,7 +24,7 @@
 //! | a kit that ships, or another way to give a thing that kits give | a file in `designs/kits`; a line in `WAYS` of `design::kit` |
 //! | a rope that can be named | a line in `design/ropes.csv` |
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
-//! | a structural element | a file in [`dem::elements`], a variant of `SegmentKind` with its matches (recorders, [`report::segment_kinds`], [`report::pictures`]), its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::strands`, `Barrier::springs` and `Barrier::connect` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
+//! | a structural element | a file in [`dem::elements`], a variant of `SegmentKind` with its matches (recorders, [`report::segment_kinds`], [`report::pictures`]), its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::axial_members`, `Barrier::springs` and `Barrier::connect` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
 //! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::AdditionalActions` and `guideline`; its working with [`loads::cases::working`] |
 //! | another impact model | an entry of [`loads::other_models::MODELS`] |
@@ -33,7 +33,7 @@
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`flow_cases`]; its runs in `pipeline::simulate_cases`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
-//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there |
+//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there; raise the `FORMAT`s of [`checkpoint::file`] and [`report::recording`]. A check on it takes one of the variants of `quantities::quantity::Demanded` |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, a function of `arriving` or one beside it |
@@ -47,7 +47,7 @@
 //! | a kind of report | [`report::kind`] |
 //! | a question that a new design asks | a line in [`new_design::QUESTIONS`], its flag in `src/main.rs`, its place in `templates/new_design.yaml` |
 //! | something that the page of `serve` asks for | a function in `commands::serve::requests`, its address in `commands::serve::router`; the page itself in `templates/serve`, whose README says how its bundle is built |
-//! | a file beside the report for another program | a field of [`exports::Exports`], its flag in `src/main.rs`, a file in [`report`], its line in [`commands::output`] |
+//! | a file beside the report for another program | a field of [`exports::Exports`], its flag in `src/main.rs`, a file in [`report`], its line in [`commands::output`], in `commands::messages` and in `commands::serve::runs`; raise the `FORMAT` of [`checkpoint::file`] |
 //! | a command | a file in [`commands`], its arguments in `src/main.rs` |
 //! | a time series of the barrier | a channel in the file of its body in [`dem::recorders`] and a line in `CHANNELS` there |
 //! | a validation case | a file in the folder of its suite in [`validation`] and a line in [`validation::CASES`] |
@@ -57,7 +57,7 @@
 //! | a kind of study | its plan in a file of [`studies`] and a line in `studies::plan`, what runs it in a file of [`commands`], its page in [`report`] |
 //! | a distribution of an input | a variant of [`reliability::distribution::Distribution`], its key in `studies::reliability_plan`, its word in `report::probability` |
 //! | a method that works out a probability | a file in [`reliability`], its use in [`studies::reliability`], what the page says of it in `report::probability` |
-//! | an engine that makes runs | a variant of [`commands::engines::Engine`] and its script in `templates/engines` |
+//! | an engine that makes runs | a variant of [`commands::engines::Engine`], its script in `templates/engines`, and the name of that in `report::folder` |
 //! | a quantity that a price stands on | [`studies::bill::Measure`] |
 //! | a lattice of meshes or rings | a variant of [`lattice::Lattice`] |
 //! | a knob to study | a variant and its lines in [`studies::knobs`] |

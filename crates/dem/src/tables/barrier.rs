@@ -69,7 +69,7 @@ pub struct Barrier {
 }
 
 impl Barrier {
-    /// All that pulls or pushes along a line, in the order of [`NetForces::each_axial_member`](crate::net::NetForces::each_strand). A new element is listed here.
+    /// All that pulls or pushes along a line, in the order of [`NetForces::each_axial_member`](crate::net::NetForces::each_axial_member). A new element is listed here.
     pub fn axial_members(&self) -> impl Iterator<Item = AxialMember> {
         let segments = self.segments.iter().map(Segment::member);
         segments
