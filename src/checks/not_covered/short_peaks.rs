@@ -2,15 +2,15 @@
 //! boulder that hits is shorter than that. Whether a wall or a bolt follows so short a force is not known here: it holds it, or the check is open.
 
 use super::context::CheckContext;
-use crate::checks::outcome::{Kind, OpenReason, Outcome};
+use crate::checks::outcome::{Kind, OpenReason, Outcome, Route, Scaled};
 use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 
 pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     let Some(seen) = context.seen else { return };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
-        let Some((over, used)) = seen.at_once.of(outcome.kind).zip(used_by_simulation(outcome)) else { continue };
-        let at_once = used * over;
+        let Some(over) = seen.at_once.of(outcome.kind) else { continue };
+        let Some(at_once) = used_under(outcome, over) else { continue };
         // Written so that a NaN counts as not within.
         let within = at_once <= 1.0;
         if !within {
@@ -42,10 +42,15 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     }
 }
 
-/// Share of its capacity that a check uses by the simulation, scaled up to the load by the guideline where that is more.
-pub fn used_by_simulation(outcome: &Outcome) -> Option<f64> {
+/// Share of its capacity that a check uses under so many times the simulated load, on top of what the guideline has more than that.
+pub fn used_under(outcome: &Outcome, times: f64) -> Option<f64> {
     let (simulated, capacity) = outcome.demand.simulation.zip(outcome.capacity)?;
-    Some(larger_or_nan(simulated / capacity, outcome.scaled.map_or(0.0, |scaled| scaled.used)))
+    let scaled = outcome.scaled.unwrap_or(Scaled { more: 1.0, used: 0.0 });
+    let full = outcome.demand_under(Route::Simulation, scaled.more * times).unwrap_or(f64::NAN);
+    // Where dissipators yield no rope pulls harder than they let it; asked so that what is not a number stays so.
+    let cap = outcome.demand.cap.map_or(f64::INFINITY, |cap| times * cap.max(simulated));
+    let demand = if full > cap { cap } else { full };
+    Some(larger_or_nan(demand / capacity, scaled.used))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! for here, on top of what the full barrier and the peak at an instant add; of an elastic hit on something that does not give it would be the square root.
 
 use super::context::CheckContext;
-use super::short_peaks::used_by_simulation;
+use super::short_peaks::used_under;
 use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::design::BarrierDesign;
 
@@ -24,12 +24,12 @@ pub fn leave_open(CheckContext { design, seen, .. }: CheckContext, outcomes: &mu
         matches!(outcome.kind, Kind::Bolts | Kind::BetweenBolts | Kind::NetRopes | Kind::LateralRopes)
     };
     for outcome in outcomes.iter_mut().filter(|outcome| of_single_grains(outcome) && outcome.holds()) {
-        let Some(used) = used_by_simulation(outcome) else { continue };
         let over = seen.and_then(|seen| seen.at_once.of(outcome.kind)).unwrap_or(1.0);
+        let Some(used) = used_under(outcome, over * harder) else { continue };
         // Asked so that what is not a number is not within.
-        let within = used * over * harder <= 1.0;
+        let within = used <= 1.0;
         if !within {
-            let more = if used * over > outcome.utilisation.unwrap_or(0.0) {
+            let more = if over > 1.0 || outcome.scaled.is_some() {
                 ", at an instant and scaled up to the load by the guideline,"
             } else {
                 ""
