@@ -302,21 +302,6 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
             simulated.starts.iter().map(|start| of(&start.observed)).map(|[sampled, smoothed]| sampled / smoothed);
         ratios.fold(1.0, larger_or_nan)
     };
-    // Of each rope that is loaded, as the next packing may exceed both with a probability of 5 %.
-    let at_once = |instant: &Quantity, sample: &Quantity| {
-        let rows = simulated.first().each(sample).len();
-        let ratios = (0..rows).map(|row| {
-            let values = |of: &Quantity| {
-                let seen = simulated.starts.iter().map(|start| start.observed.each(of).get(row).copied());
-                Spread::of(&seen.map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<_>>())
-            };
-            let largest = |spread: Spread| if spread.starts > 1 { spread.upper() } else { spread.mean };
-            let [instant, mean] = [instant, sample].map(|of| largest(values(of)));
-            // What nothing loads has no ratio.
-            if mean == 0.0 && instant == 0.0 { 1.0 } else { instant / mean }
-        });
-        ratios.fold(1.0, larger_or_nan)
-    };
     // Of the deposit at the end, and of what each surge has left.
     let of_deposits = |seen: &dyn Fn(&Start) -> Option<f64>| {
         let at_rest: Vec<f64> = simulated.starts.iter().filter_map(seen).collect();
@@ -344,13 +329,7 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
         moment: simulated.spread(|seen| seen.one(&wall::MOMENT)).mean,
         sampled_over_smoothed: short_peaks(|seen| [seen.one(&total_force::PEAK_SAMPLED), seen.one(&total_force::PEAK)]),
         moment_sampled_over_smoothed: short_peaks(|seen| [seen.one(&wall::MOMENT_SAMPLED), seen.one(&wall::MOMENT)]),
-        at_once: AtOnce {
-            main_ropes: at_once(&rope_tension::AT_ONCE, &rope_tension::PEAK),
-            net: at_once(&other_ropes::NET_AT_ONCE, &other_ropes::NET),
-            lateral_ropes: at_once(&other_ropes::LATERAL_AT_ONCE, &other_ropes::LATERAL),
-            anchors: at_once(&anchor_load::AT_ONCE, &anchor_load::PEAK),
-            bolts: at_once(&bed::BOLT_AT_ONCE, &bed::BOLT),
-        },
+        at_once: at_once(simulated),
         depth: arrives.depth,
         velocity: arrives.velocity,
         flux_share: arrives.flux_share,
@@ -358,6 +337,32 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
         force_band: if on_a_wall { rung.on_a_wall } else { band.force },
         stroke_band: band.stroke,
         share_band: band.share,
+    }
+}
+
+/// By how much what bears a net is loaded more at an instant than in the mean over a sample, as the next packing may exceed both with a
+/// probability of 5 %.
+pub fn at_once(simulated: &Simulated) -> AtOnce {
+    let ratio = |instant: &Quantity, sample: &Quantity| {
+        let rows = simulated.first().each(sample).len();
+        let ratios = (0..rows).map(|row| {
+            let largest = |of: &Quantity| {
+                let seen = simulated.starts.iter().map(|start| start.observed.each(of).get(row).copied());
+                let spread = Spread::of(&seen.map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<_>>());
+                if spread.starts > 1 { spread.upper() } else { spread.mean }
+            };
+            let [instant, mean] = [instant, sample].map(largest);
+            // What nothing loads has no ratio.
+            if mean == 0.0 && instant == 0.0 { 1.0 } else { instant / mean }
+        });
+        ratios.fold(1.0, larger_or_nan)
+    };
+    AtOnce {
+        main_ropes: ratio(&rope_tension::AT_ONCE, &rope_tension::PEAK),
+        net: ratio(&other_ropes::NET_AT_ONCE, &other_ropes::NET),
+        lateral_ropes: ratio(&other_ropes::LATERAL_AT_ONCE, &other_ropes::LATERAL),
+        anchors: ratio(&anchor_load::AT_ONCE, &anchor_load::PEAK),
+        bolts: ratio(&bed::BOLT_AT_ONCE, &bed::BOLT),
     }
 }
 

@@ -3,9 +3,11 @@
 use serde::Serialize;
 
 use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PACKING_LIMIT, STEP_LIMIT, STORED_LIMIT};
+use crate::checks::not_covered::context::AtOnce;
 use crate::design::{BarrierDesign, BarrierModel};
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::pipeline::{Run, Verdict};
+use crate::larger::larger_or_nan;
+use crate::pipeline::{Run, Verdict, at_once};
 use crate::program::COMMIT;
 use crate::report::numbers::with_unit;
 use crate::report::row::{Row, row};
@@ -17,7 +19,7 @@ use crate::starts::k_n;
 /// How the numbers were obtained, and the limits of credibility.
 pub fn numerics_rows(whole: &Run, run: &Simulated) -> Vec<Row> {
     let fidelity = pinned_fidelity(whole).map(|why| row("Fidelity", fidelity_in_a_word(whole, run), why));
-    fidelity.into_iter().chain(limit_rows(run)).chain(model_rows(run)).collect()
+    fidelity.into_iter().chain(limit_rows(run)).chain(peaks_row(run)).chain(model_rows(run)).collect()
 }
 
 /// What the audits found, beside the limits of credibility.
@@ -230,6 +232,32 @@ fn validation_row() -> Row {
         format!("{} of {} cases pass", kept.cases.len() - failed.len(), kept.cases.len()),
         remark,
     )
+}
+
+/// What bears a net is judged by means over a sample; how much more it bears at an instant.
+fn peaks_row(run: &Simulated) -> Option<Row> {
+    let AtOnce { main_ropes, net, lateral_ropes, anchors, bolts } = at_once(run);
+    let parts = [
+        ("main ropes", main_ropes),
+        ("net", net),
+        ("lateral ropes", lateral_ropes),
+        ("anchors", anchors),
+        ("bolts", bolts),
+    ];
+    let most = parts.iter().map(|(_, over)| *over).fold(1.0, larger_or_nan);
+    let told: Vec<String> = parts.iter().map(|(name, over)| format!("{name} {over:.2}")).collect();
+    let of_a_net = run.facts.barrier_nodes > 0;
+    of_a_net.then(|| {
+        row(
+            "Loads at an instant",
+            format!("up to {most:.2} times"),
+            format!(
+                "the largest mean over {:.1} ms, by which checks are judged ({}); a check that would not hold the load at an instant is open",
+                1e3 * run.facts.sampling,
+                told.join(", ")
+            ),
+        )
+    })
 }
 
 fn seed_row(run: &Simulated) -> Row {
