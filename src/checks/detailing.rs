@@ -227,7 +227,7 @@ fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
     let heaped =
         flows(design, guideline.input).iter().map(|flow| event_fill(design, flow).height()).fold(0.0, larger_or_nan);
     least(
-        "Barrier over the heaped deposit of one event",
+        "Barrier above the heap that one event leaves against it",
         guideline.input.barrier_height - heaped,
         0.0,
         "m",

@@ -59,7 +59,7 @@ pub fn terrain_takes_a_plumb_barrier(e: &Entries) -> Option<Problem> {
         None if leans(base) => (base.to_string(), "a base that is not level, in a terrain"),
         None => return None,
     };
-    Some(Problem::new(path, found, "0 deg: the section is taken plumb between the two ends"))
+    Some(Problem::new(path, found, "0 deg: the section is taken vertically between the two ends"))
 }
 
 pub fn terrain_takes_a_surge(e: &Entries) -> Option<Problem> {
@@ -190,7 +190,12 @@ pub fn barrier_within_the_section(e: &Entries) -> Option<Problem> {
     let plumb = libm::cos(e.number("channel.slope")?);
     (top > end * (1.0 + 1e-9)).then(|| {
         let found = format!("a section whose lower end is {} above the bed", length(end / plumb));
-        let allowed = format!("both banks up to the barrier's top, {} above the bed (plumb)", length(top / plumb));
+        let allowed = format!("both banks up to the barrier's top, {} above the bed (vertically)", length(top / plumb));
+        if e.mentions("channel.terrain") {
+            let found = format!("ends of which the lower one is {} above the bed", length(end / plumb));
+            return Problem::new("channel.terrain.left_end", found, allowed)
+                .hint("put the lower end further up its bank, or give a lower barrier");
+        }
         Problem::new(path_of_section(e, "depth"), found, allowed)
             .hint("survey the banks further up, or give a lower barrier")
     })

@@ -84,7 +84,7 @@ const CROSS_SECTION: &[Key] = &[
     Key::optional(
         "points",
         Kind::Pairs { first: SURVEYED, second: SURVEYED, example: "[[-3 m, 2 m], [0 m, 0 m], [3 m, 2 m]]" },
-        "points of the ground, from the left to the right looking downstream: distance and height, both as surveyed (heights plumb)",
+        "points of the ground, from the left to the right looking downstream: distance and height, both as surveyed (heights vertical)",
     ),
     Key::optional(
         "file",
@@ -148,7 +148,7 @@ const TRAPEZOID: &[Key] = &[
     Key::required("bed_width", quantity(D::Length, 0.01, 200.0), "width of the level bed"),
     Key::required("left_bank", BANK, "slope of the left bank, looking downstream, against the horizontal"),
     Key::required("right_bank", BANK, "slope of the right bank, looking downstream, against the horizontal"),
-    Key::required("depth", quantity(D::Length, 0.01, 500.0), "height of the banks above the bed, plumb"),
+    Key::required("depth", quantity(D::Length, 0.01, 500.0), "vertical height of the banks above the bed"),
 ];
 
 const FLOW: &[Key] = &[
@@ -514,7 +514,7 @@ const FLEXIBLE_NET: &[Key] = &[
         "mesh_shape",
         Kind::Choice(&mesh_shape::SHAPES),
         "squares",
-        "squares on their corner, or regular hexagons with two plumb sides",
+        "squares on their corner, or regular hexagons with two vertical sides",
     ),
     Key::optional(
         "mesh_angle",

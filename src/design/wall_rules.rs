@@ -79,7 +79,7 @@ pub fn wall_face_stands_on_its_base(e: &Entries) -> Option<Problem> {
     // Positive leans upstream; a base that falls downstream leans the wall downstream.
     ((tilt + base).abs() > OFF_UPRIGHT).then(|| {
         let show = |angle| Dimension::Angle.show(angle);
-        let found = format!("a face {} from plumb on a base of {}", show(tilt), show(base));
+        let found = format!("a face {} from vertical on a base of {}", show(tilt), show(base));
         Problem::new(
             path,
             found,

@@ -69,7 +69,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
     let or_unknown =
         |height: f64| if height.is_finite() { with_unit(height, "m") } else { "a height that is not known".into() };
     rows.push(row(
-        "Barrier over the heaped deposit of one event",
+        "Barrier above the heap that one event leaves against it",
         if event.height().is_finite() { with_unit(input.barrier_height - event.height(), "m") } else { "not known".into() },
         format!(
             "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier, its surface falling upstream at {:.1}° (flow.grain_friction), to {}, but no higher than the larger run-up; with a level surface {}. No guideline value was found",
@@ -96,7 +96,7 @@ fn height_needed(run: &Run) -> Row {
         "Height of the barrier that is needed",
         with_unit(needed, "m"),
         format!(
-            "normal to the bed, {} plumb; the barrier has {}. Level of the event {}, by {}{}{}; {}",
+            "normal to the bed, {} vertically; the barrier has {}. Level of the event {}, by {}{}{}; {}",
             with_unit(needed / libm::cos(design.channel.slope), "m"),
             with_unit(input.barrier_height, "m"),
             if run.guideline.level_is_known {

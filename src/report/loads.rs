@@ -109,7 +109,7 @@ pub fn per_width(run: &Run) -> String {
     let Section::Surveyed(survey) = section else { return String::new() };
     let top = run.guideline.input.barrier_height;
     format!(
-        "The section is not a rectangle: pressures, force per width and moment are those of a metre of width at its lowest point. The force is integrated over the width at each height, R = ∫ p(z) w(z) dz, with w = {:.2} m at the bed and {:.2} m at the barrier's top, and {:.1} m² between them.{} Heights of the survey ({} points) count normal to the bed, plumb heights times cos α.",
+        "The section is not a rectangle: pressures, force per width and moment are those of a metre of width at its lowest point. The force is integrated over the width at each height, R = ∫ p(z) w(z) dz, with w = {:.2} m at the bed and {:.2} m at the barrier's top, and {:.1} m² between them.{} Heights of the survey ({} points) count normal to the bed, vertical heights times cos α.",
         section.width(0.0),
         section.width(top),
         section.area(top),

@@ -55,7 +55,7 @@ fn rope_rows(run: &Run) -> Vec<Row> {
             format!("Main rope {}, {what}", index + 1),
             with_unit(value, "m"),
             format!(
-                "{}{:.2} m above the lowest point, plumb; from {left:.2} m to {right:.2} m across, as surveyed, to the right looking downstream; area below it {:.2} m², normal to the bed",
+                "{}{:.2} m vertically above the lowest point; from {left:.2} m to {right:.2} m across, as surveyed, to the right looking downstream; area below it {:.2} m², normal to the bed",
                 of_level(design, index),
                 z / drawing.plumb,
                 guideline.section.area(*z)
@@ -238,7 +238,7 @@ fn across(run: &Run) -> Chart {
     let section = &guideline.section;
     let is_net = matches!(design.barrier, BarrierDesign::FlexibleNet(_));
     let note = format!(
-        "To scale, looking downstream; heights plumb over the lowest point of the bed. The barrier's top is {:.2} m high, plumb, and {:.2} m normal to the bed, which is the height that the load equations use.{}{}",
+        "To scale, looking downstream; heights are vertical, over the lowest point of the bed. The barrier's top is {:.2} m high, vertically, and {:.2} m normal to the bed, which is the height that the load equations use.{}{}",
         top / plumb,
         top,
         match (section, is_net) {
@@ -346,7 +346,7 @@ fn along(run: &Run) -> Option<Chart> {
     let (design, guideline) = (&run.file.design, &run.guideline);
     let held = guideline.retention?;
     let note = format!(
-        "To scale, plumb. What the filled barrier holds below a surface that starts {} above the bed (normal to it) at the barrier.{}",
+        "To scale, heights vertical. What the filled barrier holds below a surface that starts {} above the bed (normal to it) at the barrier.{}",
         with_unit(held.deposit.height, "m"),
         if design.channel.profile.is_some() {
             " Volumes are summed along the bed, reach by reach; at the design slope the surface has its share of the slope of each reach."

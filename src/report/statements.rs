@@ -61,7 +61,7 @@ fn of_the_channel(design: &Design) -> Vec<Statement> {
         ),
         (
             !rectangular && !raster,
-            "The channel is straight and has the surveyed section all along, plumb heights over a bed of the slopes given; the last slope on either side goes on. Beyond the ends of the survey there is no ground: what goes over them is lost.",
+            "The channel is straight and has the surveyed section all along, vertical heights over a bed of the slopes given; the last slope on either side goes on. Beyond the ends of the survey there is no ground: what goes over them is lost.",
             EITHER,
         ),
         (
