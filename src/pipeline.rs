@@ -335,6 +335,7 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
         flux_share: arrives.flux_share,
         earth_pressure: seen.into_iter().chain(by_weight).reduce(larger_or_nan),
         force_band: if on_a_wall { rung.on_a_wall } else { band.force },
+        net_band: rung.of_the_net,
         stroke_band: band.stroke,
         share_band: band.share,
     }

@@ -10,7 +10,7 @@ use crate::sources::{
 pub const CHECKS: &[Text] = &[
     Text {
         id: "total_force",
-        meaning: "The largest total force on the barrier along the bed. A rigid wall is held against its resistance; for a net, and for a block that stands by its weight alone, it is told for information, because its parts are checked one by one.",
+        meaning: "The largest total force on the barrier, normal to its face. A rigid wall is held against its resistance; for a net, and for a block that stands by its weight alone, it is told for information, because its parts are checked one by one.",
         formula: "γ_F F ≤ R_k/γ_M",
         source: DESIGN_LIMIT,
     },

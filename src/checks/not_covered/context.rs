@@ -34,6 +34,8 @@ pub struct FirstSurge {
     pub one_run: f64,
     /// By how much a finer model, or other packings, may show larger forces and strokes (over these, less one) and smaller shares.
     pub force_band: f64,
+    /// The same of the net, which a single grain may load.
+    pub net_band: f64,
     pub stroke_band: f64,
     pub share_band: f64,
 }

@@ -113,6 +113,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
     let band = match outcome.kind {
         _ if known => seen.one_run,
         Kind::Stroke => seen.stroke_band,
+        Kind::NetRopes => seen.net_band,
         _ => seen.force_band,
     };
     Some([used(0.0), used(band)])
@@ -152,8 +153,8 @@ mod tests {
         let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
             .with(&other_ropes::NET, &[0.3 * net_holds(&design)]);
         let first = guideline(&design).largest_force / 2.0;
-        let verdict = |force_band: f64| {
-            simulated_verdict(&design, "net_tension", &observed, FirstSurge { force_band, ..pushing(first) })
+        let verdict = |net_band: f64| {
+            simulated_verdict(&design, "net_tension", &observed, FirstSurge { net_band, ..pushing(first) })
         };
         assert_eq!(verdict(0.6), CheckVerdict::Pass);
         assert_eq!(verdict(0.8), CheckVerdict::Open);
