@@ -202,6 +202,28 @@ mod tests {
 
     const TEXT: &str = include_str!("../../designs/net_with_posts.yaml");
 
+    /// N_b of 1 MN and M_R of 100 kN m are given, and N_cr is no less than N_b: 300 kN with 10 kN m are 300 + 100/(1 − 0.3) = 442.9 kN of it.
+    #[test]
+    fn where_resistances_are_given_the_compression_still_makes_the_moment_larger() {
+        let mut design = read_design("x", TEXT.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;
+        design.factors.post = 1.0;
+        let mut given = design.posts().expect("posts").clone();
+        given.strength = PostStrength::Given { compression: 1e6, bending: 1e5 };
+        let used = strut(&design, &given, 0).expect("a strut").with_moment(3e5, 1e4);
+        assert!((used - 442.857e3).abs() < 1.0, "{used}");
+    }
+
+    /// A section of which lateral-torsional buckling leaves what nobody says is open.
+    #[test]
+    fn a_section_that_may_buckle_sideways_is_open() {
+        let verdict = |key: &str| {
+            let told = judged(|text| text.replace("lateral_torsional_factor: 1 ", key), 1e3);
+            told.into_iter().find(|outcome| outcome.id == "post_1_compression").expect("a check").verdict
+        };
+        assert_eq!(verdict("lateral_torsional_factor: 1 "), CheckVerdict::Pass);
+        assert_eq!(verdict("# "), CheckVerdict::Open);
+    }
+
     fn judged(change: impl Fn(String) -> String, compression: f64) -> Vec<Outcome> {
         let text = change(TEXT.to_string());
         let design = read_design("x", text.as_bytes()).unwrap_or_else(|problems| panic!("{problems}")).design;

@@ -171,8 +171,8 @@ fn stored(design: &Design) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::demand::Demand;
-    use crate::design::Bottom;
     use crate::design::read::read_design;
+    use crate::design::{Bottom, PoreFluid};
     use crate::quantities::mass;
 
     #[test]
@@ -189,6 +189,22 @@ mod tests {
         // On a level bed nothing is known of what is held.
         (design.channel.slope, design.flow.event_volume) = (0.0, 2.0 * design.flow.volume());
         assert_eq!(check(&design, &demands)[0].verdict, CheckVerdict::Open);
+    }
+
+    /// Grains are (1850 − 1300)/(2650 − 1300) = 40.7 % of the volume; the fluid is 0.593 · 1300/1850 = 41.6 % of the mass.
+    #[test]
+    fn a_fluid_runs_through_a_net() {
+        let wet = |of: RetainedOf, limit: f64| {
+            let flow = |design: &mut Design| {
+                (design.flow.bulk_density, design.flow.solid_density) = (1850.0, 2650.0);
+                let fluid = PoreFluid { density: 1300.0, pressure_ratio: 0.72, drains_in: 60.0, drains_to: 0.72 };
+                design.flow.pore_fluid = Some(fluid);
+                (design.limits.retained_of, design.limits.retained_mass) = (of, limit);
+            };
+            verdict(flow, 1.0)
+        };
+        assert_eq!([0.58, 0.59].map(|limit| wet(RetainedOf::Mixture, limit)), [CheckVerdict::Pass, CheckVerdict::Open]);
+        assert_eq!(wet(RetainedOf::Grains, 0.9), CheckVerdict::Pass);
     }
 
     /// Verdict of `small_net`, of whose flow 10 % may be lost, after a change and with a share held in the simulation.
