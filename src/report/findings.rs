@@ -4,7 +4,7 @@ use crate::design::{BarrierDesign, Design};
 use crate::pipeline::Run;
 use crate::quantities::coefficients::Coefficients;
 use crate::quantities::observed::Observed;
-use crate::quantities::{earth_pressure, incoming, mass, rope_tension, total_force, wall};
+use crate::quantities::{boulder, earth_pressure, incoming, mass, rope_tension, total_force, wall};
 use crate::report::numbers::with_unit;
 use crate::report::row::{Row, row};
 use crate::simulated::Simulated;
@@ -96,6 +96,7 @@ fn force_rows(design: &Design, simulated: &Simulated) -> Vec<Row> {
     ]
     .into_iter()
     .chain(extension_row(seen))
+    .chain(boulder_rows(design, seen))
     .collect()
 }
 
@@ -111,6 +112,26 @@ fn extension_row(seen: &Observed) -> Option<Row> {
         );
         row("Largest extension of the net", with_unit(most, "m"), remark)
     })
+}
+
+/// What single boulders do, where the flow has some: a matter of where they happen to hit.
+fn boulder_rows(design: &Design, seen: &Observed) -> Vec<Row> {
+    if design.flow.boulders.is_empty() {
+        return Vec::new();
+    }
+    let on_a_net = matches!(design.barrier, BarrierDesign::FlexibleNet(_)).then(|| {
+        row(
+            "Largest tension of the net beside a boulder",
+            with_unit(seen.one(&boulder::NET), "N"),
+            "within one mesh of it",
+        )
+    });
+    let hit = row(
+        "Largest force of a boulder on the barrier",
+        with_unit(seen.one(&boulder::FORCE), "N"),
+        "of one boulder, in this run; which part of the barrier it hits differs from run to run, so that several seeds are needed to know its scatter",
+    );
+    std::iter::once(hit).chain(on_a_net).collect()
 }
 
 /// The force at rest beside the weight of what is held.
