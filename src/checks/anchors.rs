@@ -65,7 +65,7 @@ fn loads_of_ropes(net: &FlexibleNet, demands: &Demands) -> Vec<(usize, Option<Ba
 
 /// Angle between an anchor and the line of its rope up to which its resistance, which is that along its axis, stands for its load (rad): 30
 /// degrees, from practice, not verified. The sag of the rope adds to it, which is told with the load.
-const MOST_OBLIQUE: f64 = 0.5236;
+const MOST_OBLIQUE: f64 = std::f64::consts::FRAC_PI_6;
 
 /// Leaves the check of an anchor open whose rope would bend it rather than pull it.
 fn open_where_oblique(net: &FlexibleNet, rope: usize, bank: Option<Bank>, mut outcome: Outcome) -> Outcome {

@@ -9,9 +9,9 @@ const ENDED: f64 = 0.05;
 pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let Some(hydrograph) = &design.flow.hydrograph else { return };
     let section = design.channel.section();
-    let discharges = hydrograph.rows.iter().map(|row| section.area(row.depth) * row.velocity);
+    let mut discharges = hydrograph.rows.iter().map(|row| section.area(row.depth) * row.velocity);
     let largest = discharges.clone().fold(0.0, f64::max);
-    let last = discharges.last().unwrap_or(0.0);
+    let last = discharges.next_back().unwrap_or(0.0);
     // Asked as "ended", so that what is not a number has not.
     let ended = last <= ENDED * largest;
     // A larger event is told of by its volume: what comes later has rules of its own.
