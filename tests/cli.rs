@@ -23,7 +23,8 @@ fn a_small_design_gives_a_whole_report_and_repeats_bit_for_bit() {
     let [one, two] = [("one", "1"), ("two", "2")].map(|(name, threads)| {
         let out = folder(name);
         let started = std::time::Instant::now();
-        let output = run(&["designs/small_net.yaml", "--threads", threads, "--out", out.to_str().expect("path")]);
+        let path = out.to_str().expect("path");
+        let output = run(&["designs/small_net.yaml", "--seeds", "5", "--threads", threads, "--out", path]);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         // One line every ten seconds, where a busy machine takes so long.
         let lines = String::from_utf8_lossy(&output.stderr).lines().count() as u64;
