@@ -198,7 +198,7 @@ mod tests {
             let flow = |design: &mut Design| {
                 (design.flow.bulk_density, design.flow.solid_density) = (1850.0, 2650.0);
                 let fluid = PoreFluid { density: 1300.0, pressure_ratio: 0.72, drains_in: 60.0, drains_to: 0.72 };
-                design.flow.pore_fluid = Some(fluid);
+                (design.flow.pore_fluid, design.flow.event_volume) = (Some(fluid), design.flow.volume());
                 (design.limits.retained_of, design.limits.retained_mass) = (of, limit);
             };
             verdict(flow, 1.0)
