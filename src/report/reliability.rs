@@ -6,7 +6,6 @@ use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PAC
 use crate::checks::not_covered::context::AtOnce;
 use crate::design::{BarrierDesign, BarrierModel};
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::larger::larger_or_nan;
 use crate::pipeline::{Run, Verdict, at_once};
 use crate::program::COMMIT;
 use crate::report::numbers::with_unit;
@@ -244,7 +243,7 @@ fn peaks_row(run: &Simulated) -> Option<Row> {
         ("anchors", anchors),
         ("bolts", bolts),
     ];
-    let most = parts.iter().map(|(_, over)| *over).fold(1.0, larger_or_nan);
+    let most = parts.iter().map(|(_, over)| *over).fold(1.0, f64::max);
     let told: Vec<String> = parts.iter().map(|(name, over)| format!("{name} {over:.2}")).collect();
     let of_a_net = run.facts.barrier_nodes > 0;
     of_a_net.then(|| {

@@ -196,9 +196,9 @@ mod tests {
         assert_eq!(Measure::Dissipators.of(&several), 24.0);
         assert_relative_eq!(Measure::DissipatorEnergy.of(&several), 6.0 * energy, max_relative = 1e-9);
         // Ropes of 0.663 times a rod of steel, 7850 kg/m³: three main ropes of 28 mm over 2.86 m, two lateral ropes of 24 mm over 1.8 m, and ten by six
-        // meshes of 286 by 300 mm, with 240 sides of 207 mm of 18 mm: 0.663 (41.5 + 12.8 + 99.4) = 101.9 kg.
+        // meshes of 286 by 300 mm, with 240 sides of 207 mm of 20 mm: 0.663 (41.5 + 12.8 + 122.7) = 117.4 kg.
         let steel = Measure::SteelMass.of(&design);
-        assert_relative_eq!(steel, 101.9, max_relative = 0.05);
+        assert_relative_eq!(steel, 117.4, max_relative = 0.05);
         let prices = Prices {
             currency: String::new(),
             items: vec![
