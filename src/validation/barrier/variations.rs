@@ -34,7 +34,7 @@ pub const OPENINGS: Case = Case {
 pub const ORIENTATION: Case = Case {
     id: "FS5",
     suite: Suite::FullScale,
-    title: "Vertical net (fbG), net normal to the bed (fbN), rigid wall (rigW)",
+    title: "Plumb net (fbG), net normal to the bed (fbN), rigid wall (rigW)",
     source: "Albaba 2015, sections 5.3 and 5.5: fbN holds much less under a like force; rigW, plumb as well, is loaded most, 4400 kN \
              and 2650 kN at rest, and soonest",
     tier: Tier::SecondHand,
