@@ -192,8 +192,8 @@ fn least_shares(design: &Design) -> [f64; 2] {
     [net.dissipators.as_ref(), of_posts].map(|given| given.and_then(|given| given.lower_bound).unwrap_or(1.0))
 }
 
-/// The flow of each surge, or of each of the hardest rows of a hydrograph: the first as it is asked, later ones with their own depth and velocity, changed as those of the first are from the
-/// design's; so is the height to which they fill the barrier.
+/// The flow of each surge, or of each of the governing rows of a hydrograph: the first as given here, later ones with their own depth and velocity, scaled by the same
+/// ratios to the design as the first; so is the height to which they fill the barrier.
 pub fn flows(design: &Design, first: GuidelineInput) -> Vec<GuidelineInput> {
     flows_with(design, &EventFill::of(design), first)
 }
@@ -203,7 +203,7 @@ fn flows_with(design: &Design, event: &EventFill, first: GuidelineInput) -> Vec<
     let fills = first.fill_height / event.filled(design, first).fill_height;
     let surges = design.flow.later.iter().map(|later| [later.surge.depth, later.surge.velocity]);
     let rows = design.flow.hydrograph.iter().flat_map(|hydrograph| hydrograph.governing.iter().skip(1));
-    let later = surges.chain(rows.map(|hard| [hard.moment.depth, hard.moment.velocity])).map(|own| {
+    let later = surges.chain(rows.map(|row| [row.moment.depth, row.moment.velocity])).map(|own| {
         let [depth, velocity] = [own[0] * first.depth / depth, own[1] * first.velocity / velocity];
         let flow = event.filled(design, GuidelineInput { depth, velocity, ..first });
         GuidelineInput { fill_height: (flow.fill_height * fills).min(flow.barrier_height), ..flow }
@@ -271,9 +271,9 @@ impl EventFill {
         // The smaller the last surge is, the more lies there already.
         let later = design.flow.later.iter().map(|later| later.volume);
         let last = later.chain(design.flow.last_of_the_event()).fold(design.flow.volume(), f64::min);
-        // Before the last of the hardest moments of a hydrograph lies what has come until then, and more where the event is larger.
+        // Before the last of the governing moments of a hydrograph lies what has come until then, and more where the event is larger.
         let to_come = design.flow.hydrograph.as_ref().map_or(last, |hydrograph| {
-            design.flow.volume() - hydrograph.governing.iter().map(|hard| hard.before).fold(0.0, larger_or_nan)
+            design.flow.volume() - hydrograph.governing.iter().map(|row| row.before).fold(0.0, larger_or_nan)
         });
         let before = (event - to_come / width).max(0.0);
         Self {
@@ -354,7 +354,7 @@ pub fn point_load(design: &Design, flow: &GuidelineInput) -> Option<Hit> {
 
 /// Share of the elastic force of a boulder where the design gives none: a tenth in the practice of Hong Kong (from memory, so that no check
 /// passes by it).
-pub const USUAL_IMPACT_REDUCTION: f64 = 0.1;
+const USUAL_IMPACT_REDUCTION: f64 = 0.1;
 
 /// Elastic force (Hertz) with which the largest grain or boulder of the flow hits a wall (N); NaN where the grains are not given.
 pub fn elastic_hit(design: &Design, velocity: f64) -> f64 {
@@ -425,7 +425,7 @@ pub fn earth_pressure_by_weight(design: &Design, guideline: &Guideline) -> Optio
     })
 }
 
-/// Plumb depth of the ground over the downstream edge of a base (m). Where the ground falls more steeply than at the barrier within that depth
+/// Vertical depth of the ground over the downstream edge of a base (m). Where the ground falls more steeply than at the barrier within that depth
 /// of the edge, it counts as if it did so with the slope of the bed from there on.
 fn in_front(channel: &Channel, stability: &Stability, base_slope: f64) -> f64 {
     let (sine, cosine) = libm::sincos(base_slope);

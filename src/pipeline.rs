@@ -19,7 +19,9 @@ use crate::guideline::{Guideline, earth_pressure_by_weight, guideline};
 use crate::larger::larger_or_nan;
 use crate::quantities::observed::Observed;
 use crate::quantities::quantity::Quantity;
-use crate::quantities::{anchor_load, bed, boulder, earth_pressure, other_ropes, rope_tension, total_force, wall};
+use crate::quantities::{
+    anchor_load, bed, boulder, earth_pressure, other_ropes, posts, rope_tension, total_force, wall,
+};
 use crate::scene::estimate::estimate;
 use crate::scene::event::{ProgressReport, RunControl};
 use crate::sensitivity::simulated::{swings, variants};
@@ -341,6 +343,18 @@ fn shown_by(rung: &Rung, design: &Design, number: usize, guideline: &Guideline, 
     }
 }
 
+/// A largest load at an instant over the largest mean, at least 1. Where no mean presses, an instant that does is more by any ratio; what is not a
+/// number stays so, or is infinite.
+fn above(instant: f64, mean: f64) -> f64 {
+    if instant <= mean {
+        1.0
+    } else if mean > 0.0 {
+        instant / mean
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// By how much what bears a net is loaded more at an instant than in the mean over a sample, as the next packing may exceed both with a
 /// probability of 5 %.
 pub fn at_once(simulated: &Simulated) -> AtOnce {
@@ -353,8 +367,7 @@ pub fn at_once(simulated: &Simulated) -> AtOnce {
                 if spread.starts > 1 { spread.upper() } else { spread.mean }
             };
             let [instant, mean] = [instant, sample].map(largest);
-            // What nothing loads has no ratio.
-            if mean == 0.0 && instant == 0.0 { 1.0 } else { instant / mean }
+            above(instant, mean)
         });
         ratios.fold(1.0, larger_or_nan)
     };
@@ -364,6 +377,10 @@ pub fn at_once(simulated: &Simulated) -> AtOnce {
         lateral_ropes: ratio(&other_ropes::LATERAL_AT_ONCE, &other_ropes::LATERAL),
         anchors: ratio(&anchor_load::AT_ONCE, &anchor_load::PEAK),
         bolts: ratio(&bed::BOLT_AT_ONCE, &bed::BOLT),
+        posts: larger_or_nan(
+            ratio(&posts::COMPRESSION_AT_ONCE, &posts::COMPRESSION),
+            ratio(&posts::RETAINING_AT_ONCE, &posts::RETAINING),
+        ),
     }
 }
 
@@ -397,6 +414,16 @@ mod tests {
         let demand = Demand { guideline: Some(guideline), simulation: Some(simulation), ..Demand::default() };
         let resistance = Resistance { characteristic: 1.0, factor: 1.0 };
         Outcome::at_most(CheckName::new("x", "x", Unit::Newton, "x"), demand, resistance, 1.0)
+    }
+
+    #[test]
+    fn an_instant_is_never_less_than_the_mean() {
+        assert_eq!([(3.0, 2.0), (0.0, 0.0), (1.0, 2.0)].map(|(instant, mean)| above(instant, mean)), [1.5, 1.0, 1.0]);
+        assert_eq!(
+            [(1.0, 0.0), (1.0, -2.0), (1.0, f64::NAN)].map(|(instant, mean)| above(instant, mean)),
+            [f64::INFINITY; 3]
+        );
+        assert!(above(f64::NAN, 1.0).is_nan());
     }
 
     #[test]

@@ -42,6 +42,8 @@ pub enum Kind {
     Any,
     /// The load of the anchors of a main rope.
     Anchors,
+    /// What a post, its foundation, its retaining ropes and their anchors bear.
+    Posts,
     /// The share of the mass that is held.
     MassHeld,
     /// The share of its height that the barrier keeps.

@@ -28,7 +28,10 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
                 .chain(uplift(design, given, number, demands))
                 .chain(stroke(design, given, number, demands))
                 .chain([anchor(design, given, number, demands)])
-                .map(|outcome| outcome.of_rope(uppermost))
+                .map(|outcome| Outcome {
+                    kind: if outcome.kind == Kind::Stroke { Kind::Stroke } else { Kind::Posts },
+                    ..outcome.of_rope(uppermost)
+                })
         })
         .chain(against_plateau(design, given))
         .collect()

@@ -13,7 +13,11 @@ use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = CheckName::new("retained_mass", "Mass retained by the barrier", Unit::Share, DESIGN_LIMIT);
+    let title = match design.limits.retained_of {
+        RetainedOf::Mixture => "Mass retained by the barrier",
+        RetainedOf::Grains => "Mass of grains retained by the barrier",
+    };
+    let name = CheckName::new("retained_mass", title, Unit::Share, DESIGN_LIMIT);
     let mut outcome = Outcome::at_least(name, demands.one(&mass::RETAINED), design.limits.retained_mass);
     outcome.kind = Kind::MassHeld;
     if matches!(outcome.verdict, CheckVerdict::Pass | CheckVerdict::Warn)

@@ -31,8 +31,8 @@ pub struct Hydrograph {
 /// Parts of an interval over which what passes is summed, by Simpson's rule in each: exact in a rectangle.
 const PARTS: usize = 8;
 
-/// Hard moments at the most: beyond that those of like depth are taken together, with the largest depth and velocity of them.
-const MOST_HARD: usize = 16;
+/// Governing moments at the most: beyond that those of like depth are taken together, with the largest depth and velocity of them.
+const MOST_GOVERNING: usize = 16;
 
 impl Hydrograph {
     /// Of rows in a section.
@@ -138,7 +138,7 @@ impl Hydrograph {
         });
         let momentum = |moment: &HydrographPoint| section.area(moment.depth) * moment.velocity * moment.velocity;
         let leads = all.iter().copied().max_by(|a, b| momentum(a).total_cmp(&momentum(b)));
-        let alike = all.len().div_ceil(MOST_HARD).max(1);
+        let alike = all.len().div_ceil(MOST_GOVERNING).max(1);
         let together = |some: &[HydrographPoint]| HydrographPoint {
             depth: some[0].depth,
             velocity: some[some.len() - 1].velocity,
@@ -235,7 +235,7 @@ mod tests {
         let long: Vec<HydrographPoint> =
             (0..1000).map(|n| row(f64::from(n), 0.1 + 1e-3 * f64::from(n), 9.0 - 8e-3 * f64::from(n))).collect();
         let found = governing(&long);
-        assert!(found.len() <= MOST_HARD + 1, "{}", found.len());
+        assert!(found.len() <= MOST_GOVERNING + 1, "{}", found.len());
         for row in long {
             assert!(
                 found

@@ -512,7 +512,7 @@ pub struct OtherLoads {
     pub to_the_top: bool,
     /// K and density (kg/m³) of the drained deposit.
     pub drained: Option<(f64, f64)>,
-    /// Force (N) and height above the bed (m) of a boulder or log.
+    /// Force (N) and height above the bed (m) of a boulder or log; without a height it comes at the surface of the flow.
     pub point_load: Option<(f64, Option<f64>)>,
     /// Pa
     pub snow_pressure: Option<f64>,

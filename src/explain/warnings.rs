@@ -66,7 +66,7 @@ pub const WARNINGS: &[Text] = &[
     },
     Text {
         id: "level_over_the_barrier",
-        meaning: "By the equations run-up or deposit of the event go over the barrier, and no freeboard is asked for: that the barrier is overtopped must be wanted.",
+        meaning: "By the equations run-up or deposit of the event go over the barrier, or how high they reach is not known, and no freeboard is asked for: that the barrier is overtopped must be wanted.",
         formula: "level of the event > height of the barrier",
         source: "",
     },

@@ -100,6 +100,8 @@ pub const QUANTITIES: &[&Quantity] = &[
     &posts::FOOT_UP,
     &posts::RETAINING,
     &posts::STROKE,
+    &posts::COMPRESSION_AT_ONCE,
+    &posts::RETAINING_AT_ONCE,
     &anchor_load::EACH,
     &anchor_load::ALONG,
     &anchor_load::ACROSS,

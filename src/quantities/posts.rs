@@ -64,6 +64,21 @@ pub const RETAINING: Quantity =
     .told(Told::WhereLoaded)
     .demanded(Demanded::LoadOfPost(|post| post.head.tension, OverPlateau::Adds));
 
+/// Both at any instant; the others are largest means over a sample.
+pub const COMPRESSION_AT_ONCE: Quantity =
+    Quantity::new("post_compression_at_once", "Compression at any instant of post", Newton, Of::EachPost, |run| {
+        run.peaks(&of_posts::COMPRESSION_AT_ONCE)
+    })
+    .json("post_compression_at_once_n");
+pub const RETAINING_AT_ONCE: Quantity = Quantity::new(
+    "retaining_tension_at_once",
+    "Tension at any instant of the retaining ropes of post",
+    Newton,
+    Of::EachPost,
+    |run| run.peaks(&of_posts::RETAINING_AT_ONCE),
+)
+.json("retaining_tension_at_once_n");
+
 /// Largest stroke used by the dissipators of the ropes that retain each post.
 pub const STROKE: Quantity =
     Quantity::new("retaining_stroke", "Stroke of the dissipators of post", Metre, Of::EachPost, |run| {

@@ -235,16 +235,19 @@ fn validation_row() -> Row {
 
 /// What bears a net is judged by means over a sample; how much more it bears at an instant.
 fn peaks_row(run: &Simulated) -> Option<Row> {
-    let AtOnce { main_ropes, net, lateral_ropes, anchors, bolts } = at_once(run);
+    let AtOnce { main_ropes, net, lateral_ropes, anchors, bolts, posts } = at_once(run);
     let parts = [
         ("main ropes", main_ropes),
         ("net", net),
         ("lateral ropes", lateral_ropes),
         ("anchors", anchors),
         ("bolts", bolts),
+        ("posts", posts),
     ];
     let most = parts.iter().map(|(_, over)| *over).fold(1.0, f64::max);
-    let told: Vec<String> = parts.iter().map(|(name, over)| format!("{name} {over:.2}")).collect();
+    // What the design does not have, or nothing loads, is at 1 exactly.
+    let loaded = parts.iter().filter(|(_, over)| *over != 1.0);
+    let told: Vec<String> = loaded.map(|(name, over)| format!("{name} {over:.2}")).collect();
     let of_a_net = run.facts.barrier_nodes > 0;
     of_a_net.then(|| {
         row(

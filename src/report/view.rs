@@ -601,8 +601,8 @@ fn hydrograph_rows(run: &Run) -> Vec<Row> {
     };
     let section = design.channel.section();
     let most = |of: &dyn Fn(&HydrographPoint) -> f64| hydrograph.rows.iter().map(of).fold(0.0, f64::max);
-    let moment = |hard: &GoverningPoint| {
-        let HydrographPoint { time, depth, velocity } = hard.moment;
+    let moment = |point: &GoverningPoint| {
+        let HydrographPoint { time, depth, velocity } = point.moment;
         format!("{} with {} at {}", with_unit(depth, "m"), with_unit(velocity, "m/s"), with_unit(time, "s"))
     };
     vec![

@@ -191,9 +191,15 @@ fn run_up_over_the_banks(run: &Run) -> Option<String> {
 fn level_over_the_barrier(run: &Run) -> Option<String> {
     let design = &run.file.design;
     let (level, height) = (run.guideline.level, height_over_bed(design));
+    if design.limits.freeboard.is_some() {
+        return None;
+    }
+    if !run.guideline.level_is_known {
+        return Some("The deposit of the event reaches beyond what is known of the channel upstream: its level at the barrier is not known, nor whether it goes over, and no check asks about that (limits.freeboard has it checked).".to_string());
+    }
     // Asked as "below", so that what is not a number is not.
     let below = level <= height;
-    (design.limits.freeboard.is_none() && !below).then(|| {
+    (!below).then(|| {
         format!(
             "By the equations the event reaches {}, measured normal to the bed, and the barrier is {} high: it is overtopped by run-up or deposit, and no check asks about that (limits.freeboard has it checked).",
             with_unit(level, "m"),

@@ -272,7 +272,7 @@ impl NetForces {
         [self.lost_ropes, self.lost_rings, self.lost_dissipators]
     }
 
-    /// Forces and tensions, mean over the parts of a step.
+    /// Forces and tensions, mean over the substeps of a step.
     pub fn mean(parts: &[Self]) -> Self {
         let share = 1.0 / parts.len() as f64;
         let of_each = |of: fn(&Self) -> &Vec<f64>| {

@@ -48,11 +48,12 @@ pub struct AtOnce {
     pub lateral_ropes: f64,
     pub anchors: f64,
     pub bolts: f64,
+    pub posts: f64,
 }
 
 impl Default for AtOnce {
     fn default() -> Self {
-        Self { main_ropes: 1.0, net: 1.0, lateral_ropes: 1.0, anchors: 1.0, bolts: 1.0 }
+        Self { main_ropes: 1.0, net: 1.0, lateral_ropes: 1.0, anchors: 1.0, bolts: 1.0, posts: 1.0 }
     }
 }
 
@@ -65,6 +66,7 @@ impl AtOnce {
             Kind::LateralRopes => Some(self.lateral_ropes),
             Kind::Anchors => Some(self.anchors),
             Kind::Bolts | Kind::BetweenBolts => Some(self.bolts),
+            Kind::Posts => Some(self.posts),
             _ => None,
         }
     }

@@ -93,6 +93,7 @@ pub fn used_under_more(outcome: &Outcome, more: f64, seen: FirstSurge) -> Option
         }
         Kind::Any
         | Kind::Anchors
+        | Kind::Posts
         | Kind::WallStrength
         | Kind::Bolts
         | Kind::BetweenBolts

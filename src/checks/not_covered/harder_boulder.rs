@@ -17,7 +17,8 @@ pub fn leave_open(CheckContext { design, guideline, seen }: CheckContext, outcom
         return;
     }
     let mut struck = design.clone();
-    struck.loads.point_load = Some((seen.boulder, hit.height));
+    // It may come with any surge.
+    struck.loads.point_load = Some((seen.boulder, None));
     let asked = guideline_for(&struck, guideline.input);
     let then = check_all(&struck, &Demands::by_equations(&asked, &design.factors));
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {

@@ -34,7 +34,7 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
         None => larger_or_nan(hit(design, velocity), on_the_base),
     };
     let told =
-        Told { given: given.map(|(force, _)| force), velocity, unreduced: design.loads.impact_reduction.is_none() };
+        Stone { given: given.map(|(force, _)| force), velocity, unreduced: design.loads.impact_reduction.is_none() };
     let then = struck(context, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
@@ -61,26 +61,28 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     }
 }
 
-/// Whether a point load that the design gives stands for the stone: it is no smaller, and acts no lower than the surface of the flow.
+/// Whether a point load that the design gives stands for the stone: it is no smaller, and its moment is no less where the stone comes with a surge
+/// over the highest deposit.
 fn stands_for(
     CheckContext { design, guideline, .. }: CheckContext,
     force: f64,
     height: Option<f64>,
     stone: f64,
 ) -> bool {
-    let surface = guideline.input.depth.min(height_over_bed(design));
-    force >= stone && height.is_none_or(|height| force * height >= stone * surface)
+    let surfaces = flows(design, guideline.input).into_iter().map(|flow| larger_or_nan(flow.fill_height, flow.depth));
+    let highest = surfaces.fold(0.0, larger_or_nan).min(height_over_bed(design));
+    force >= stone && height.is_none_or(|height| force * height >= stone * highest)
 }
 
-/// What the words of a reason depend on.
-struct Told {
+/// What is told of the stone.
+struct Stone {
     given: Option<f64>,
     velocity: f64,
     /// Whether the whole elastic force is asked with, as the design gives no share of it.
     unreduced: bool,
 }
 
-impl Told {
+impl Stone {
     fn reason(&self, place: &str, force: f64, part: &str, or: &str) -> String {
         let more =
             self.given.map_or(String::new(), |given| format!(", where loads.point_load is {:.1} kN", given / 1e3));
@@ -89,8 +91,11 @@ impl Told {
         } else {
             "reduced by loads.impact_reduction"
         };
-        let give =
-            if self.given.is_some() { "give as much at the surface of the flow" } else { "give loads.point_load" };
+        let give = if self.given.is_some() {
+            "give as much at the surface of the highest surge"
+        } else {
+            "give loads.point_load"
+        };
         format!(
             "the largest stone of the flow may hit {place} with up to {:.0} kN at {:.1} m/s ({by}){more}, and {part} would not hold it ({give}, loads.impact_reduction with its source, or {or})",
             force / 1e3,
@@ -157,6 +162,21 @@ mod tests {
         (design.flow.modulus, design.flow.solid_density) = (1e8, 2650.0);
         design.flow.sizes = crate::design::sizes::SizeCurve::through(&[(0.0, 0.3), (1.0, 0.6)]);
         assert_relative_eq!(hit(&design, 6.0), 568.9e3, max_relative = 1e-3);
+    }
+
+    /// The stone may come with a surge over the highest deposit: a load of its force that acts at the depth of the flow does not stand for it, one at
+    /// that surface does, and so does one that is as much larger as it acts lower.
+    #[test]
+    fn a_load_that_acts_too_low_does_not_stand_for_the_stone() {
+        let design = read_design("x", include_bytes!("../../../designs/gravity_wall.yaml")).unwrap().design;
+        let guideline = guideline(&design);
+        let context = CheckContext { design: &design, guideline: &guideline, seen: None };
+        let [depth, highest] = [guideline.input.depth, guideline.input.fill_height];
+        assert!(highest > 2.0 * depth, "{highest} {depth}");
+        let stands = |force: f64, height: Option<f64>| stands_for(context, force, height, 1e5);
+        assert_eq!([Some(highest), None].map(|height| stands(1e5, height)), [true; 2]);
+        assert!(!stands(1e5, Some(depth)) && stands(1.001e5 * highest / depth, Some(depth)));
+        assert!(!stands(0.99e5, None) && !stands(f64::NAN, None));
     }
 
     /// A wide wall that holds the flow as a whole, and its metres no stone.

@@ -141,9 +141,9 @@ impl LawConstants {
         }
     }
 
-    /// The law in each of so many parts of a step.
-    pub fn of_substep(self, parts: u32) -> Self {
-        Self { time_step: self.time_step / f64::from(parts), ..self }
+    /// The law in each of the substeps of a step.
+    pub fn of_substep(self, substeps: u32) -> Self {
+        Self { time_step: self.time_step / f64::from(substeps), ..self }
     }
 
     /// γ of a contact (N s/m).

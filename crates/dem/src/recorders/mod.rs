@@ -24,7 +24,7 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 37] = [
+pub const CHANNELS: [&Channel; 39] = [
     &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
@@ -62,4 +62,6 @@ pub const CHANNELS: [&Channel; 37] = [
     &of_ropes::LATERAL_AT_ONCE,
     &of_anchors::LOAD_AT_ONCE,
     &of_anchors::BOLT_AT_ONCE,
+    &of_posts::COMPRESSION_AT_ONCE,
+    &of_posts::RETAINING_AT_ONCE,
 ];

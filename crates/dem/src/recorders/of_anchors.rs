@@ -24,10 +24,9 @@ pub const EACH: [Channel; 3] = [
 ];
 /// Force on what holds the lowest main rope to the bed.
 pub const BED: Channel = Channel { name: "bed_force", unit: "n", rows: Rows::One };
-/// Largest force on one of the bolts that hold the lowest main rope to the bed, and the largest lift of one; not recorded where their
-/// distance is not known.
+/// Largest force on one of the bolts that hold the lowest main rope to the bed, the same at any instant of a sample, and the largest lift of one;
+/// not recorded where their distance is not known.
 pub const BOLT: Channel = Channel { name: "bolt_largest", unit: "n", rows: Rows::One };
-/// Largest force on one of them in any step of a sample.
 pub const BOLT_AT_ONCE: Channel = Channel { name: "bolt_largest_at_once", unit: "n", rows: Rows::One };
 pub const BOLT_LIFT: Channel = Channel { name: "bolt_lift", unit: "n", rows: Rows::One };
 
@@ -60,7 +59,10 @@ impl BodyRecorder for OfAnchors {
             let loads = bolt_loads(barrier, setup, forces);
             self.bolts.resize(loads.len(), Vec3::zeros());
             self.bolts.iter_mut().zip(&loads).for_each(|(sum, load)| *sum += load);
-            self.bolt_at_once = loads.iter().map(Vec3::norm).fold(self.bolt_at_once, larger_or_nan);
+            for net in substeps {
+                let loads = bolt_loads(barrier, setup, &net.forces);
+                self.bolt_at_once = loads.iter().map(Vec3::norm).fold(self.bolt_at_once, larger_or_nan);
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use crate::Vec3;
 use crate::elements::post::Post;
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
-use crate::recorders::body::{BodyRecorder, add_rows, add_shares, means};
+use crate::recorders::body::{BodyRecorder, add_rows, add_shares, keep_larger, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -25,6 +25,9 @@ pub const FOOT: [Channel; 3] = [
 ];
 /// Largest tension of the ropes that retain each post, their dissipators included.
 pub const RETAINING: Channel = Channel { name: "retaining_largest", unit: "n", rows: Rows::EachPost };
+/// Both at any instant of a sample; no less than 0.
+pub const COMPRESSION_AT_ONCE: Channel = Channel { name: "post_at_once", unit: "n", rows: Rows::EachPost };
+pub const RETAINING_AT_ONCE: Channel = Channel { name: "retaining_largest_at_once", unit: "n", rows: Rows::EachPost };
 /// Stroke used by the dissipators of the ropes that retain each post, the largest of them.
 pub const STROKE: Channel = Channel { name: "retaining_stroke", unit: "m", rows: Rows::EachPost };
 
@@ -34,6 +37,8 @@ pub struct OfPosts {
     moment: Vec<f64>,
     feet: Vec<Vec3>,
     retaining: Vec<f64>,
+    /// Largest at any instant: compression, and tension of the retaining ropes.
+    at_once: [Vec<f64>; 2],
 }
 
 impl BodyRecorder for OfPosts {
@@ -59,6 +64,10 @@ impl BodyRecorder for OfPosts {
                 }
             });
             add_shares(&mut self.retaining, &largest, substeps.len());
+            let pressed: Vec<f64> = net.posts.iter().map(|tension| -tension).collect();
+            let [compression, retaining] = &mut self.at_once;
+            keep_larger(compression, &pressed);
+            keep_larger(retaining, &largest);
         }
     }
 
@@ -72,6 +81,9 @@ impl BodyRecorder for OfPosts {
             channels.push(channel, &means(&along, steps));
         }
         channels.push(&RETAINING, &means(&done.retaining, steps));
+        let [compression, retaining] = &done.at_once;
+        channels.push(&COMPRESSION_AT_ONCE, compression);
+        channels.push(&RETAINING_AT_ONCE, retaining);
         let mut strokes = vec![0.0_f64; barrier.posts.len()];
         for dissipator in &barrier.dissipators {
             if let SegmentKind::Retaining(post) = dissipator.kind {

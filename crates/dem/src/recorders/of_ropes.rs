@@ -15,16 +15,16 @@ use crate::tables::barrier::Barrier;
 pub const MEAN: Channel = Channel { name: "rope_mean", unit: "n", rows: Rows::EachRope };
 /// Largest tension along each main rope, its dissipators included.
 pub const LARGEST: Channel = Channel { name: "rope_largest", unit: "n", rows: Rows::EachRope };
-/// The same at any instant of a sample: of main ropes, net and lateral ropes. The others are means over a sample.
-pub const LARGEST_AT_ONCE: Channel = Channel { name: "rope_largest_at_once", unit: "n", rows: Rows::EachRope };
-pub const NET_AT_ONCE: Channel = Channel { name: "net_largest_at_once", unit: "n", rows: Rows::One };
-pub const LATERAL_AT_ONCE: Channel = Channel { name: "lateral_largest_at_once", unit: "n", rows: Rows::One };
 /// How far downstream the furthest point of each main rope is from where the rope hung at first.
 pub const EXTENSION: Channel = Channel { name: "rope_extension", unit: "m", rows: Rows::EachRope };
 /// Largest tension in the lateral ropes.
 pub const LATERAL: Channel = Channel { name: "lateral_largest", unit: "n", rows: Rows::One };
 /// Largest tension in the net's ropes; of a ring net, the force of a leg as that of a chain that is as near to breaking.
 pub const NET: Channel = Channel { name: "net_largest", unit: "n", rows: Rows::One };
+/// Largest tension in main ropes, net and lateral ropes at any instant of a sample; the others are means over it.
+pub const LARGEST_AT_ONCE: Channel = Channel { name: "rope_largest_at_once", unit: "n", rows: Rows::EachRope };
+pub const NET_AT_ONCE: Channel = Channel { name: "net_largest_at_once", unit: "n", rows: Rows::One };
+pub const LATERAL_AT_ONCE: Channel = Channel { name: "lateral_largest_at_once", unit: "n", rows: Rows::One };
 /// Pieces of rope, and rings of the net, that have broken so far.
 pub const BROKEN: Channel = Channel { name: "broken_pieces", unit: "", rows: Rows::One };
 /// Largest permanent elongation of a piece of rope so far, over its first length.
@@ -77,7 +77,7 @@ impl BodyRecorder for OfRopes {
 }
 
 impl OfRopes {
-    /// Takes in one of so many parts of a step.
+    /// Takes in one of the substeps of a step.
     fn add_substep(&mut self, net: &NetForces, barrier: &Barrier, setup: &RecorderSetup, substeps: usize) {
         let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
         let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
