@@ -1,18 +1,17 @@
 //! `barrier-check DESIGN`: from a design file to a report and an exit code.
 
-use crate::commands::Failure;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::checkpoint::file::CheckpointError;
 use crate::checkpoint::{self, CheckpointStore, Request};
-use crate::commands::ExitCode;
 use crate::commands::input;
 use crate::commands::messages::Format;
 use crate::commands::output::{exit_code, hand_over, write_report};
 use crate::commands::printed::Browser;
 use crate::commands::progress::{Audience, Progress, duration};
 use crate::commands::signals::{listen, listen_to_whoever_started_it, stop};
+use crate::commands::{ExitCode, Failure};
 use crate::design::FidelityWish;
 use crate::design::attached::within;
 use crate::design::entries::Purpose;
@@ -181,6 +180,10 @@ fn run_kept(file: DesignFile, mut folder: Folder, options: Options, store: &Chec
                 terminal::warn(format_args!(
                     "note: `barrier-check resume {}` goes on where the run was kept last",
                     as_typed(folder.path())
+                ));
+            } else if matches!(error.downcast_ref(), Some(RunError::Interrupted)) {
+                terminal::warn(format_args!(
+                    "note: nothing of this run has been kept yet: run it again from the start"
                 ));
             }
             tell_of_earlier_run(folder.path());

@@ -142,7 +142,7 @@ pub fn anchors(e: &Entries) -> Option<AnchorDesigns> {
     let all = of(&place, None)?;
     let one = |place: &String| {
         let level = e.number(&format!("{place}.level"))? as usize - 1;
-        let bank = if e.text(&format!("{place}.bank"))? == "left" { Bank::Left } else { Bank::Right };
+        let bank = e.chosen(&format!("{place}.bank"), &[("left", Bank::Left), ("right", Bank::Right)])?;
         Some((level, bank, of(place, Some(&all))?))
     };
     let each: Option<Vec<_>> = each(e).iter().map(one).collect();

@@ -1,6 +1,6 @@
 //! The curve of a dissipator as a table: stroke or travel and force, under a head that names them and their units.
 
-use crate::design::table_file::{Asked, Wrong, factor, name_and_unit, without_unit};
+use crate::design::table_file::{TableFormat, Wrong, factor, name_and_unit, without_unit};
 use crate::units::Dimension;
 
 /// Points at the most.
@@ -23,7 +23,7 @@ const WAYS: [(Way, &[&str]); 2] =
 pub fn parse(bytes: &[u8]) -> Result<(Way, Vec<[f64; 2]>), Wrong> {
     let too_many = "thin the test's record: some dozens of points tell a curve";
     let mut way = Way::Stroke;
-    let rows = Asked { most_rows: MOST_POINTS, example: EXAMPLE, too_many }.rows(bytes, |head| {
+    let rows = TableFormat { most_rows: MOST_POINTS, example: EXAMPLE, too_many }.rows(bytes, |head| {
         let [first, second] = head else {
             return Err((format!("whose head has {} column(s), not two", head.len()), EXAMPLE.to_string()));
         };

@@ -120,6 +120,13 @@ impl Entries {
         }
     }
 
+    /// What the word of a choice stands for. `None` for a word that has no meaning here, so that one that is new in the schema is not taken for
+    /// another.
+    pub fn chosen<T: Copy>(&self, path: &str, meanings: &[(&str, T)]) -> Option<T> {
+        let word = self.text(path)?;
+        meanings.iter().find(|(name, _)| *name == word).map(|(_, meaning)| *meaning)
+    }
+
     /// Whether the key was typed in the file, even with a value that cannot be used.
     pub fn mentions(&self, path: &str) -> bool {
         self.mentioned.iter().any(|mentioned| mentioned == path)

@@ -54,7 +54,7 @@ pub fn boulders(e: &Entries) -> Option<Vec<Boulders>> {
         Some(Boulders {
             diameter: value("diameter")?,
             number: value("number")? as u32,
-            at_front: e.text(&format!("flow.boulders.{number}.where")) != Some("spread"),
+            at_front: e.chosen(&format!("flow.boulders.{number}.where"), &[("front", true), ("spread", false)])?,
             density: value("density").or_else(|| e.number("flow.solid_density")).unwrap_or(f64::NAN),
         })
     };

@@ -2,7 +2,7 @@
 //!
 //! DebrisFrame writes `timestep,thickness,velocity`, RAMMS a table of t and Q; what has no unit in the head is in s, m, m/s and m³/s.
 
-use crate::design::table_file::{Asked, Wrong, factor, name_and_unit, without_unit};
+use crate::design::table_file::{TableFormat, Wrong, factor, name_and_unit, without_unit};
 use crate::units::Dimension;
 
 /// Rows at the most.
@@ -39,7 +39,7 @@ pub type Columns = Vec<(Column, Vec<f64>)>;
 pub fn parse(bytes: &[u8]) -> Result<Columns, Wrong> {
     let too_many = "thin the table: some hundreds of rows tell a hydrograph";
     let mut kinds = Vec::new();
-    let rows = Asked { most_rows: MOST_ROWS, example: EXAMPLE, too_many }.rows(bytes, |head| {
+    let rows = TableFormat { most_rows: MOST_ROWS, example: EXAMPLE, too_many }.rows(bytes, |head| {
         let columns = head.iter().map(|name| column(name)).collect::<Result<Vec<_>, _>>()?;
         for (index, (kind, _)) in columns.iter().enumerate() {
             if columns[..index].iter().any(|(before, _)| before == kind) {

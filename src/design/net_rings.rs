@@ -2,6 +2,7 @@
 
 use crate::design::entries::Entries;
 use crate::design::rope::Rope;
+use crate::design::rope_entries::breaks;
 use crate::design::show::at;
 use crate::lattice::Lattice;
 use crate::ring_law::{Chain, LOWEST_OF_TESTS, RingLaw, Wires, chain_of, is_known};
@@ -137,6 +138,6 @@ pub fn net_rings(e: &Entries) -> Option<NetRings> {
         wires,
         chain: if given { tested? } else { chain_of(&wires) },
         tested: given,
-        breaks: e.text(&ring_key("at_breaking_load"))? == "breaks",
+        breaks: breaks(e, &ring_key("at_breaking_load"))?,
     })
 }

@@ -4,7 +4,7 @@ use crate::design::MeshShape;
 use crate::design::channel_entries::{height_of_barrier, section};
 use crate::design::entries::Entries;
 use crate::design::net_rings::{net_rings, ring_key};
-use crate::design::rope_entries::{LEVELS, levels};
+use crate::design::rope_entries::{LEVELS, breaks, levels};
 use crate::design::show::{at, length};
 use crate::lattice::Lattice;
 use crate::problem::Problem;
@@ -255,7 +255,7 @@ fn draws_out_or_breaks(e: &Entries, part: &str) -> Option<Problem> {
             format!("{} with a breaking load of {}", Dimension::Force.show(elastic), Dimension::Force.show(breaking));
         return Some(Problem::new(path, found, "less than the breaking load"));
     }
-    (e.text(&at(&format!("{part}.at_breaking_load")))? == "breaks").then(|| {
+    breaks(e, &path)?.then(|| {
         Problem::new(path, "an elastic limit and `at_breaking_load: breaks`", "one of the two")
             .hint("a rope that draws out at its elastic limit never reaches its breaking load")
     })

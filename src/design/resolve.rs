@@ -240,7 +240,6 @@ fn rigid_wall(e: &Entries) -> Option<RigidWall> {
 fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
     let value = |key: &str| e.number(&format!("barrier.flexible_net.{key}"));
     let dissipators = e.has_section(OF_MAIN_ROPES).then(|| dissipators(e, OF_MAIN_ROPES));
-    let tied_to = e.text("barrier.flexible_net.lateral_ropes.tied_to")?;
     let rings = match e.mentions("barrier.flexible_net.net") {
         true => Some(net_rings(e)?),
         false => None,
@@ -269,7 +268,14 @@ fn flexible_net(e: &Entries) -> Option<FlexibleNet> {
             element_length: value("main_ropes.element_length")?,
         },
         lateral_rope: rope(e, &["lateral_ropes"])?,
-        lateral_to: if tied_to == "anchors" { LateralTo::Anchors } else { LateralTo::RopeEnds },
+        lateral_to: e.chosen(
+            "barrier.flexible_net.lateral_ropes.tied_to",
+            &[
+                ("rope_ends", LateralTo::RopeEnds),
+                ("dissipators", LateralTo::RopeEnds),
+                ("anchors", LateralTo::Anchors),
+            ],
+        )?,
         dissipators: match dissipators {
             Some(dissipators) => Some(dissipators?),
             None => None,
@@ -303,24 +309,19 @@ fn limits(e: &Entries) -> Option<Limits> {
     let value = |key: &str| e.number(&format!("limits.{key}"));
     Some(Limits {
         retained_mass: value("retained_mass")?,
-        retained_of: match e.text("limits.retained_of")? {
-            "grains" => RetainedOf::Grains,
-            _ => RetainedOf::Mixture,
-        },
+        retained_of: e
+            .chosen("limits.retained_of", &[("mixture", RetainedOf::Mixture), ("grains", RetainedOf::Grains)])?,
         residual_height: value("residual_height")?,
         freeboard: value("freeboard"),
-        run_up: match e.text("limits.run_up")? {
-            "momentum_jump" => RunUp::MomentumJump,
-            "energy" => RunUp::Energy,
-            _ => RunUp::Larger,
-        },
+        run_up: e.chosen(
+            "limits.run_up",
+            &[("larger", RunUp::Larger), ("momentum_jump", RunUp::MomentumJump), ("energy", RunUp::Energy)],
+        )?,
         rope_utilisation: value("rope_utilisation")?,
         anchor_utilisation: value("anchor_utilisation")?,
         dissipator_utilisation: value("dissipator_utilisation")?,
-        outside_range: match e.text("limits.outside_range")? {
-            "warn" => OutsideRange::Warn,
-            _ => OutsideRange::Undecided,
-        },
+        outside_range: e
+            .chosen("limits.outside_range", &[("undecided", OutsideRange::Undecided), ("warn", OutsideRange::Warn)])?,
     })
 }
 
@@ -348,7 +349,7 @@ fn loads(e: &Entries) -> Option<OtherLoads> {
     Some(OtherLoads {
         overflow_depth: value("overflow_depth"),
         overflow_drag: value("overflow_friction").map(libm::tan).zip(value("overflow_length")),
-        to_the_top: e.text("loads.filling")? == "to_the_top",
+        to_the_top: e.chosen("loads.filling", &[("to_the_top", true), ("one_event", false)])?,
         drained: pair("drained.earth_pressure_k", "drained.density"),
         point_load: pair("point_load.force", "point_load.height").map(|(force, height)| (force, Some(height))),
         snow_pressure: value("snow_pressure"),
@@ -361,19 +362,23 @@ fn loads(e: &Entries) -> Option<OtherLoads> {
 }
 
 fn simulation(e: &Entries) -> Option<SimulationWishes> {
-    let fidelity = match e.text("simulation.fidelity")? {
-        "fast" => FidelityWish::Fast,
-        "standard" => FidelityWish::Standard,
-        "fine" => FidelityWish::Fine,
-        "auto" => FidelityWish::Auto,
-        _ => return None,
-    };
-    let barrier_model = match e.text("simulation.barrier_model")? {
-        "pinned_ropes" => BarrierModel::PinnedRopes,
-        "sliding_ropes" => BarrierModel::SlidingRopes,
-        "cylinders" => BarrierModel::Cylinders,
-        _ => return None,
-    };
+    let fidelity = e.chosen(
+        "simulation.fidelity",
+        &[
+            ("fast", FidelityWish::Fast),
+            ("standard", FidelityWish::Standard),
+            ("fine", FidelityWish::Fine),
+            ("auto", FidelityWish::Auto),
+        ],
+    )?;
+    let barrier_model = e.chosen(
+        "simulation.barrier_model",
+        &[
+            ("pinned_ropes", BarrierModel::PinnedRopes),
+            ("sliding_ropes", BarrierModel::SlidingRopes),
+            ("cylinders", BarrierModel::Cylinders),
+        ],
+    )?;
     let seed = e.number("simulation.seed")? as u64;
     Some(SimulationWishes { fidelity, barrier_model, seed, longest: e.number("simulation.longest")? })
 }

@@ -37,16 +37,20 @@ pub fn told_in<'a>(e: &Entries, parts: &[&'a str], key: &str) -> Option<&'a str>
     parts.iter().copied().find(|part| e.number(&at(&format!("{part}.{key}"))).is_some())
 }
 
+/// Whether what carries breaks at its breaking load, or holds beyond it and is checked.
+pub fn breaks(e: &Entries, path: &str) -> Option<bool> {
+    e.chosen(path, &[("holds", false), ("breaks", true)])
+}
+
 /// The rope that is told by the first of these parts, and as far as it is silent by the next.
 pub fn rope(e: &Entries, parts: &[&str]) -> Option<Rope> {
     let value = |key: &str| e.number(&at(&format!("{}.{key}", told_in(e, parts, key)?)));
-    let beyond = parts.iter().find_map(|part| e.text(&at(&format!("{part}.at_breaking_load"))))?;
     Some(Rope {
         diameter: value("diameter")?,
         modulus: value("modulus")?,
         breaking_load: value("breaking_load")?,
         elastic_limit: value("elastic_limit"),
-        breaks: beyond == "breaks",
+        breaks: parts.iter().find_map(|part| breaks(e, &at(&format!("{part}.at_breaking_load"))))?,
     })
 }
 

@@ -1,6 +1,6 @@
 //! A surveyed section as a table: two columns under a head that names their units.
 
-use crate::design::table_file::{Asked, Wrong, factor, name_and_unit, without_unit};
+use crate::design::table_file::{TableFormat, Wrong, factor, name_and_unit, without_unit};
 use crate::units::Dimension;
 
 /// Points at the most.
@@ -11,7 +11,7 @@ const EXAMPLE: &str = "the file is a table like `distance (m),height (m)` / `-9.
 /// Points of distance and height (m).
 pub fn parse(bytes: &[u8]) -> Result<Vec<[f64; 2]>, Wrong> {
     let too_many = "thin the survey: some dozens of points tell a section";
-    let rows = Asked { most_rows: MOST_POINTS, example: EXAMPLE, too_many }.rows(bytes, |head| {
+    let rows = TableFormat { most_rows: MOST_POINTS, example: EXAMPLE, too_many }.rows(bytes, |head| {
         if head.len() != 2 {
             return Err((format!("whose head has {} column(s), not two", head.len()), EXAMPLE.to_string()));
         }
@@ -52,9 +52,16 @@ mod tests {
             ("a (m),b (m)\n1,5,2,5\n", "whose line 2 has 4 value(s), not two"),
             ("a (m),b (m)\n1,nan\n", "whose line 2 holds `nan`, which is not a number"),
             ("", "whose head has 0 column(s), not two"),
+            (
+                "a (m),b (m)\n1,x\n2\n",
+                "whose line 2 holds `x`, which is not a number; whose line 3 has 1 value(s), not two",
+            ),
         ] {
             assert_eq!(parse(text.as_bytes()).unwrap_err().0, found, "{text}");
         }
+        let (found, hint) = parse(format!("a (m),b (m)\n{}", "1,x\n".repeat(9)).as_bytes()).unwrap_err();
+        assert!(found.contains("line 6 holds") && found.ends_with("; and 4 more line(s) like these"), "{found}");
+        assert_eq!(hint, EXAMPLE, "each hint is given once");
         assert!(parse(&[0xff, 0xfe]).unwrap_err().0.contains("UTF-8"));
         let long = "a (m),b (m)\n".to_string() + &"1,2\n".repeat(MOST_POINTS + 1);
         assert!(parse(long.as_bytes()).is_err());

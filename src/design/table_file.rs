@@ -5,23 +5,25 @@ use crate::units::{self, Dimension};
 /// What is wrong, and what would be right.
 pub type Wrong = (String, String);
 
-/// What a table is to be.
-pub struct Asked<'a> {
+/// What a table must look like.
+pub struct TableFormat<'a> {
     pub most_rows: usize,
     /// What a good file looks like.
     pub example: &'a str,
-    /// Told of a table with more rows.
+    /// Advice for a table with more rows.
     pub too_many: &'a str,
 }
 
 /// Numbers of columns in words.
 const COUNTS: [&str; 7] = ["no", "one", "two", "three", "four", "five", "six"];
+/// Lines with a fault that an error names.
+const NAMED: usize = 5;
 
-impl Asked<'_> {
+impl TableFormat<'_> {
     /// The rows, each value by the factor that `head` gives its column.
     ///
     /// # Errors
-    /// What is wrong, with its line, and what would be right.
+    /// What is wrong, with the lines, and what would be right.
     pub fn rows(
         &self,
         bytes: &[u8],
@@ -33,41 +35,59 @@ impl Asked<'_> {
             let names = table.headers().map_err(|error| wrong(format!("whose head cannot be read: {error}")))?;
             head(&names.iter().collect::<Vec<_>>())?
         };
-        let columns = COUNTS.get(factors.len()).map_or(factors.len().to_string(), |word| (*word).to_string());
         let mut rows = Vec::new();
-        for row in table.records() {
-            let row = row.map_err(|error| wrong(format!("which cannot be read: {error}")))?;
-            let line = row.position().map_or(0, csv::Position::line);
-            if row.len() != factors.len() {
-                let hint = match delimiter {
-                    b',' if row.len() > factors.len() => {
-                        "numbers have a decimal point, and the columns are parted by a comma or a semicolon".into()
-                    }
-                    _ => self.example.to_string(),
-                };
-                return Err((format!("whose line {line} has {} value(s), not {columns}", row.len()), hint));
-            }
-            let mut values = Vec::new();
-            for (text, factor) in row.iter().zip(&factors) {
-                values.push(match text.parse::<f64>() {
-                    Ok(number) if number.is_finite() => number * factor,
-                    _ => {
-                        let hint = if text.contains(',') {
-                            "numbers have a decimal point".to_string()
-                        } else {
-                            self.example.to_string()
-                        };
-                        return Err((format!("whose line {line} holds `{text}`, which is not a number"), hint));
-                    }
-                });
-            }
-            rows.push(values);
-            if rows.len() > self.most_rows {
+        let mut faults = Vec::new();
+        for (number, row) in table.records().enumerate() {
+            if number == self.most_rows {
                 return Err((format!("of more than {} rows", self.most_rows), self.too_many.to_string()));
             }
+            let row = row.map_err(|error| wrong(format!("which cannot be read: {error}")))?;
+            let line = row.position().map_or(0, csv::Position::line);
+            match self.values(&row, &factors, delimiter) {
+                Ok(values) => rows.push(values),
+                Err((found, hint)) => faults.push((format!("line {line} {found}"), hint)),
+            }
         }
-        Ok(rows)
+        if faults.is_empty() { Ok(rows) } else { Err(together(&faults)) }
     }
+
+    fn values(&self, row: &csv::StringRecord, factors: &[f64], delimiter: u8) -> Result<Vec<f64>, Wrong> {
+        if row.len() != factors.len() {
+            let hint = match delimiter {
+                b',' if row.len() > factors.len() => {
+                    "numbers have a decimal point, and the columns are parted by a comma or a semicolon"
+                }
+                _ => self.example,
+            };
+            let columns = COUNTS.get(factors.len()).map_or(factors.len().to_string(), |word| (*word).to_string());
+            return Err((format!("has {} value(s), not {columns}", row.len()), hint.to_string()));
+        }
+        let value = |(text, factor): (&str, &f64)| match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number * factor),
+            _ => {
+                let hint = if text.contains(',') { "numbers have a decimal point" } else { self.example };
+                Err((format!("holds `{text}`, which is not a number"), hint.to_string()))
+            }
+        };
+        row.iter().zip(factors).map(value).collect()
+    }
+}
+
+/// Faults of lines as one, with the hints that they have, each once.
+fn together(faults: &[Wrong]) -> Wrong {
+    let named = &faults[..faults.len().min(NAMED)];
+    let found: Vec<&str> = named.iter().map(|(found, _)| found.as_str()).collect();
+    let mut hints: Vec<&str> = Vec::new();
+    for (_, hint) in named {
+        if !hints.contains(&hint.as_str()) {
+            hints.push(hint);
+        }
+    }
+    let more = match faults.len() - named.len() {
+        0 => String::new(),
+        more => format!("; and {more} more line(s) like these"),
+    };
+    (format!("whose {}{more}", found.join("; whose ")), hints.join("; "))
 }
 
 /// Reads a table whose columns are parted by a semicolon, a tab or a comma, and which of them it is; `flexible` takes rows of any length.
