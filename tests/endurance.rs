@@ -44,7 +44,6 @@ fn heap(parts: u32) -> Simulation {
             mass: 0.4,
             fixed: number == 0 || number == nodes - 1,
             radius: 0.0,
-            lines: Vec::new(),
         })
         .collect();
     let piece = (place(1) - place(0)).norm();

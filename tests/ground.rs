@@ -25,7 +25,6 @@ fn rope(height: f64, speed: f64, slope: f64) -> Simulation {
         mass: 1.0,
         fixed: false,
         radius: 0.0,
-        lines: Vec::new(),
     };
     let segment = Segment {
         nodes: [0, 1],

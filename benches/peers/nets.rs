@@ -18,7 +18,7 @@ use dem::elements::net_ring::{NetRing, RingStrength};
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::sliding::Chain;
 use dem::elements::strength::Strength;
-use dem::net::{NetForces, pull_all, slide_all};
+use dem::net::{NetForces, slide_and_pull};
 use dem::tables::barrier::Barrier;
 use dem::tables::nodes::Node;
 use dem::time::integrate::move_nodes;
@@ -161,8 +161,9 @@ impl Stand {
 
     /// One step of length `step` (s), with a share of the loads.
     fn step(&mut self, step: f64, share: f64) -> NetForces {
-        slide_all(&mut self.barrier, step);
-        let mut net = pull_all(&self.barrier, &LawConstants::new(1.0, 2.0 / 7.0, step));
+        let mut segments = std::mem::take(&mut self.barrier.segments);
+        let mut net = slide_and_pull(&self.barrier, &mut segments, &LawConstants::new(1.0, 2.0 / 7.0, step));
+        self.barrier.segments = segments;
         for (node, load) in &self.loads {
             net.forces[*node] += load * share;
         }

@@ -225,7 +225,7 @@ const ROPE_MODULUS: f64 = 4e9;
 
 fn node(position: Vec3, mass: f64, fixed: bool, number: usize) -> Node {
     let velocity = if fixed { Vec3::zeros() } else { nudge(number) };
-    Node { position, velocity, mass, fixed, radius: 0.0, lines: Vec::new() }
+    Node { position, velocity, mass, fixed, radius: 0.0 }
 }
 
 /// A rope of 2.1 m along y, stretched by a hundredth, `ropes` of them between the same nodes.

@@ -15,7 +15,7 @@ use dem::tables::nodes::Node;
 pub const AXIAL_STIFFNESS: f64 = 3.21699e6;
 
 pub fn node(position: Vec3, mass: f64, fixed: bool) -> Node {
-    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: 0.016, lines: Vec::new() }
+    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: 0.016 }
 }
 
 pub fn segment(nodes: [u32; 2], rest_length: f64, damping: f64) -> Segment {

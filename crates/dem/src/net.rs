@@ -7,9 +7,10 @@ use crate::elements::cylinder::{Cylinder, strain_all};
 use crate::elements::dissipator::Dissipator;
 use crate::elements::ground::Footing;
 use crate::elements::ring::{RingContext, RingForce, RingSide};
-use crate::elements::rope::{Overload, pull};
-use crate::elements::segment::AxialMember;
+use crate::elements::rope::{self, Overload};
+use crate::elements::segment::{AxialMember, Segment};
 use crate::tables::barrier::Barrier;
+use crate::tables::nodes::Node;
 
 /// Forces on the nodes and tensions of the elements.
 #[derive(Clone, Debug, Default)]
@@ -53,16 +54,30 @@ pub struct NetForces {
 
 /// Stretches every element to the present places of the nodes; `law` holds the barrier's own step.
 pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
+    pull(barrier, &barrier.segments, law)
+}
+
+/// The same after ropes have slid through their rings at those places, with what they have lost since the barrier's last step. The `segments`
+/// are those of the barrier, taken out of it: meanwhile others may press grains on its lines, which needs no rest lengths.
+pub fn slide_and_pull(barrier: &Barrier, segments: &mut [Segment], law: &LawConstants) -> NetForces {
+    let slid = barrier.chains.iter().map(|chain| chain.slide(segments, &barrier.nodes, law.time_step));
+    let lost: f64 = slid.sum();
+    let mut net = pull(barrier, segments, law);
+    net.lost_rings += lost;
+    net
+}
+
+fn pull(barrier: &Barrier, segments: &[Segment], law: &LawConstants) -> NetForces {
     let mut net = NetForces {
         forces: vec![Vec3::zeros(); barrier.nodes.len()],
         torques: vec![Vec3::zeros(); barrier.frames.len()],
-        tensions: Vec::with_capacity(barrier.segments.len()),
+        tensions: Vec::with_capacity(segments.len()),
         axial: Vec::with_capacity(barrier.cylinders.len()),
         slipped: barrier.dissipators.clone(),
         let_go: barrier.holds.clone(),
         ..NetForces::default()
     };
-    net.pull_segments(barrier, law.time_step);
+    net.pull_segments(segments, &barrier.nodes, law.time_step);
     net.pull_rings(barrier, law.time_step);
     net.pull_dissipators(barrier);
     net.push_posts(barrier, law.time_step);
@@ -81,18 +96,11 @@ pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
     net
 }
 
-/// Lets ropes slide through their rings at the present places, before they pull; returns the energy lost since the barrier's last
-/// step, which was of length `step` (J).
-pub fn slide_all(barrier: &mut Barrier, step: f64) -> f64 {
-    let Barrier { nodes, segments, chains, .. } = barrier;
-    chains.iter().map(|chain| chain.slide(segments, nodes, step)).sum()
-}
-
 impl NetForces {
-    fn pull_segments(&mut self, barrier: &Barrier, step: f64) {
-        for (number, segment) in barrier.segments.iter().enumerate() {
+    fn pull_segments(&mut self, segments: &[Segment], nodes: &[Node], step: f64) {
+        for (number, segment) in segments.iter().enumerate() {
             let [a, b] = segment.nodes.map(|node| node as usize);
-            let result = pull(segment, &barrier.nodes[a], &barrier.nodes[b], step);
+            let result = rope::pull(segment, &nodes[a], &nodes[b], step);
             let force = result.direction * result.tension;
             self.forces[a] += force;
             self.forces[b] -= force;
@@ -218,13 +226,18 @@ impl NetForces {
     /// Calls `take` for all that pulls or pushes along a line, in the order of [`Barrier::axial_members`], with its tension (N); that of one rope where
     /// several share it.
     pub fn each_axial_member(&self, barrier: &Barrier, mut take: impl FnMut(AxialMember, f64)) {
-        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators);
-        let mut all = all.chain(&self.posts);
+        let mut all = self.axial_tensions();
         barrier.axial_members().for_each(|member| {
             if let Some(tension) = all.next() {
                 take(member, tension / barrier.sharing(member.kind));
             }
         });
+    }
+
+    /// Tension of each (N), in the same order; where several ropes share it, that of all.
+    pub fn axial_tensions(&self) -> impl Iterator<Item = f64> {
+        let all = self.tensions.iter().chain(&self.axial).chain(&self.rings).chain(&self.dissipators);
+        all.chain(&self.posts).copied()
     }
 
     /// Adds the force of a grain on a line.
@@ -314,22 +327,14 @@ impl NetForces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elements::segment::{Segment, SegmentKind};
+    use crate::elements::segment::SegmentKind;
     use crate::elements::strength::Strength;
-    use crate::tables::nodes::Node;
 
     /// Two ropes side by side that are stretched by a millimetre with 1 MN/m each: 2 kN together, 1 kN of each; the lateral rope is one.
     #[test]
     fn of_ropes_side_by_side_the_tension_of_one_is_told() {
-        let node = |x: f64| Node {
-            position: Vec3::x() * x,
-            velocity: Vec3::zeros(),
-
-            mass: 1.0,
-            fixed: false,
-            radius: 0.01,
-            lines: Vec::new(),
-        };
+        let node =
+            |x: f64| Node { position: Vec3::x() * x, velocity: Vec3::zeros(), mass: 1.0, fixed: false, radius: 0.01 };
         let rope = |nodes: [u32; 2], kind: SegmentKind| Segment {
             nodes,
             kind,

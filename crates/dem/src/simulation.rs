@@ -9,8 +9,8 @@ use crate::contact::surfaces::SurfaceForces;
 use crate::ledger::{ContactSums, Ledger, MotionEnergy};
 use crate::model::Model;
 use crate::neighbours::renew::{Bodies, Neighbours};
-use crate::net::{NetForces, slide_all};
-use crate::sweep::sweep;
+use crate::net::NetForces;
+use crate::sweep::{Stepping, sweep};
 use crate::tables::barrier::Barrier;
 use crate::tables::fixed::FixedTouch;
 use crate::tables::grain_table::GrainTable;
@@ -462,9 +462,6 @@ impl Simulation {
     fn advance(&mut self, account: bool) {
         let time = StepInterval { step: self.time_step, drag: self.drag, gravity: self.model.gravity };
         let (law, own) = (self.law(), self.barrier_law());
-        if let Some(barrier) = &mut self.model.barrier {
-            self.ledger.lost_friction += slide_all(barrier, own.time_step);
-        }
         let during = During { time: self.time, step: self.time_step, gravity: self.model.gravity };
         if let Some(inlet) = &mut self.model.inlet {
             inlet.carry(&mut self.grains, &mut self.ledger, &during);
@@ -473,8 +470,13 @@ impl Simulation {
         if substeps > 1 {
             self.grains.ahead.resize(self.grains.len(), [Vec3::zeros(); 2]);
         }
+        let mut segments =
+            self.model.barrier.as_mut().map_or(Vec::new(), |barrier| std::mem::take(&mut barrier.segments));
+        let stepping = Stepping { law, substeps, time };
         let (net, mut paces) =
-            sweep(&self.model, &mut self.grains, &self.sheets, &mut self.neighbours, law, substeps, &time);
+            sweep(&self.model, &mut segments, &mut self.grains, &self.sheets, &mut self.neighbours, &stepping);
+        let time = stepping.time;
+        self.model.barrier.iter_mut().for_each(|barrier| barrier.segments = std::mem::take(&mut segments));
         self.gather_sums();
         let fastest_node = self.advance_barrier(net, &mut paces, &own, &time, account);
         if let Some(inlet) = &mut self.model.inlet {

@@ -12,10 +12,11 @@ use crate::contact::grain_touch::PairConstants;
 use crate::contact::law::LawConstants;
 use crate::contact::ropes::{OnBarrier, RopeContext};
 use crate::contact::surfaces::{SurfaceContext, load_surfaces};
+use crate::elements::segment::Segment;
 use crate::model::Model;
 use crate::neighbours::blocks::{Block, OutgoingLoads};
 use crate::neighbours::renew::Neighbours;
-use crate::net::{NetForces, pull_all};
+use crate::net::{NetForces, slide_and_pull};
 use crate::simd::eight::LANES;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::{GrainRows, Prefetcher, RowsInMotion};
@@ -25,18 +26,26 @@ use crate::time::at_barrier::{Moving, Substepping};
 use crate::time::integrate::{Pace, StepInterval};
 use crate::workers;
 
-/// Loads all grains and moves them through one step of theirs, that of `law`; pulls at the barrier, which stays where it is,
-/// as at the start of its own step, of which it takes so many `substeps` in one. Where they are several, the ropes load the grains at the barrier
-/// for the first of these alone. Returns the forces within the barrier, without those of the grains, and the pace of each block.
+/// The step that is made.
+pub struct Stepping {
+    pub law: LawConstants,
+    /// Steps of the barrier in it.
+    pub substeps: u32,
+    pub time: StepInterval,
+}
+
+/// Loads all grains and moves them through one step; lets the ropes of the barrier slide and pulls at the barrier, which stays where it is, as at the
+/// start of its own step. `segments` are those of the barrier, taken out of it. Where the step has several substeps, the ropes load the grains at
+/// the barrier for the first of these alone. Returns the forces within the barrier, without those of the grains, and the pace of each block.
 pub fn sweep(
     model: &Model,
+    segments: &mut [Segment],
     grains: &mut GrainTable,
     sheets: &LoadSheets,
     neighbours: &mut Neighbours,
-    law: LawConstants,
-    substeps: u32,
-    time: &StepInterval,
+    stepping: &Stepping,
 ) -> (NetForces, Vec<Pace>) {
+    let Stepping { law, substeps, ref time } = *stepping;
     let Neighbours { blocks, outgoing, drift, .. } = neighbours;
     let outgoing = &*outgoing;
     let barrier_law = law.of_substep(substeps);
@@ -56,7 +65,7 @@ pub fn sweep(
     };
     let mut net = None;
     let mut paces = vec![Pace::default(); blocks.len()];
-    let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, &barrier_law, &mut net));
+    let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, segments, &mut net));
     let turns = blocks.iter_mut().zip(&mut paces).enumerate();
     let turns = turns.map(|(number, (block, pace))| {
         let prefetcher = Prefetcher::none(rows.seen());
@@ -65,7 +74,7 @@ pub fn sweep(
     workers::wave(
         elements.into_iter().chain(turns),
         |part| match part {
-            Part::Elements(barrier, own, net) => **net = Some(pull_all(barrier, own)),
+            Part::Elements(barrier, segments, net) => **net = Some(slide_and_pull(barrier, segments, &barrier_law)),
             Part::Block(turn) => {
                 let mut outgoing = outgoing[turn.number].write().unwrap_or_else(PoisonError::into_inner);
                 turn.loads = sheets.take(turn.block.grains.len());
@@ -90,7 +99,7 @@ pub fn sweep(
 
 /// A part of the work of a step.
 enum Part<'a> {
-    Elements(&'a Barrier, &'a LawConstants, &'a mut Option<NetForces>),
+    Elements(&'a Barrier, &'a mut [Segment], &'a mut Option<NetForces>),
     Block(Turn<'a>),
 }
 

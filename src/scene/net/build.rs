@@ -151,14 +151,7 @@ impl Builder<'_> {
     }
 
     pub(super) fn add_node(&mut self, position: Vec3, fixed: bool) -> u32 {
-        self.barrier.nodes.push(Node {
-            position,
-            velocity: Vec3::zeros(),
-            mass: 0.0,
-            fixed,
-            radius: 0.0,
-            lines: Vec::new(),
-        });
+        self.barrier.nodes.push(Node { position, velocity: Vec3::zeros(), mass: 0.0, fixed, radius: 0.0 });
         if self.model == BarrierModel::Cylinders {
             self.barrier.frames.push(Frame {
                 orientation: UnitQuaternion::identity(),

@@ -91,7 +91,7 @@ mod tests {
                 let [pin, knot] = hold.nodes.map(|node| &wide.barrier.nodes[node as usize]);
                 assert!(pin.fixed && !knot.fixed && pin.position == knot.position);
                 assert!(knot.position.y == 0.0 || knot.position.y == design.channel.width);
-                assert!(knot.mass > 0.0 && !knot.lines.is_empty());
+                assert!(knot.mass > 0.0 && !wide.barrier.line_ends.at(hold.nodes[1]).is_empty());
             }
             let strips: usize =
                 wide.screen_rows.iter().zip(&wide.rows).map(|(wide, rows)| wide.len() - rows.len()).sum();

@@ -85,14 +85,7 @@ fn cycle() -> Result<Vec<Finding>, Broken> {
 
 /// A mass at the end of a dissipator, moving away from its anchor.
 fn thrown(mass: f64, speed: f64, dissipator: Dissipator) -> Stand {
-    let node = |x: f64, fixed| Node {
-        position: Vec3::x() * x,
-        velocity: Vec3::zeros(),
-        mass,
-        fixed,
-        radius: 0.016,
-        lines: Vec::new(),
-    };
+    let node = |x: f64, fixed| Node { position: Vec3::x() * x, velocity: Vec3::zeros(), mass, fixed, radius: 0.016 };
     let mut barrier = Barrier { nodes: vec![node(0.0, true), node(1.0, false)], ..Barrier::default() };
     barrier.nodes[1].velocity.x = speed;
     barrier.dissipators = vec![dissipator];

@@ -35,14 +35,8 @@ const STEP: f64 = 1e-5;
 
 /// A post from the origin to its head, `up` or hanging; its head has the given stiffness EA of ropes (N) to the two anchors, if any.
 pub fn post(head: Vec3, gravity: Vec3, axial: Option<f64>) -> Barrier {
-    let node = |position: Vec3, mass: f64, fixed: bool| Node {
-        position,
-        velocity: Vec3::zeros(),
-        mass,
-        fixed,
-        radius: 0.0,
-        lines: Vec::new(),
-    };
+    let node =
+        |position: Vec3, mass: f64, fixed: bool| Node { position, velocity: Vec3::zeros(), mass, fixed, radius: 0.0 };
     let mass = DENSITY * AREA * LENGTH;
     let mut barrier = Barrier { friction: 0.3, contact_modulus: 1e10, ..Barrier::default() };
     barrier.nodes = vec![node(Vec3::zeros(), mass, true), node(head, MASS_AT_HEAD * mass, false)];

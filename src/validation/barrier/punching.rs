@@ -155,7 +155,7 @@ impl Panel {
 }
 
 fn knot(position: Vec3, fixed: bool) -> Node {
-    Node { position, velocity: Vec3::zeros(), mass: 0.0, fixed, radius: ROPE_RADIUS, lines: Vec::new() }
+    Node { position, velocity: Vec3::zeros(), mass: 0.0, fixed, radius: ROPE_RADIUS }
 }
 
 /// Force (N) on the body of a radius (m) above the point `at` of the plane, as a mean over the last millimetre, at each of the

@@ -45,7 +45,7 @@ fn wires(windings: u32) -> Wires {
 }
 
 pub(super) fn contact(position: Vec3, fixed: bool) -> Node {
-    Node { position, velocity: Vec3::zeros(), mass: 0.0, fixed, radius: 0.006, lines: Vec::new() }
+    Node { position, velocity: Vec3::zeros(), mass: 0.0, fixed, radius: 0.006 }
 }
 
 /// Adds a ring through some contacts, which breaks as a chain of it does.

@@ -89,7 +89,7 @@ impl Stand {
 }
 
 fn node(position: Vec3, mass: f64, fixed: bool) -> Node {
-    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: RADIUS, lines: Vec::new() }
+    Node { position, velocity: Vec3::zeros(), mass, fixed, radius: RADIUS }
 }
 
 /// Masses of the nodes of a line cut into `parts` equal parts.

@@ -47,7 +47,6 @@ fn measured(mode: u32, expected: f64) -> Result<f64, Broken> {
             mass: MASS,
             fixed,
             radius: 0.01,
-            lines: Vec::new(),
         });
     }
     for index in 0..=MASSES as u32 {

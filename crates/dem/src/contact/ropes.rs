@@ -21,13 +21,17 @@ use crate::geometry::point_segment::{OnSegment, nearest_on_segment};
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::{Clock, STEPS_AHEAD};
 use crate::simd::quad::Quad;
-use crate::tables::barrier::Barrier;
+use crate::tables::barrier::{Barrier, LineEnd};
 use crate::tables::grain_rows::{GrainRows, Member};
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::nodes::Node;
+use crate::tables::prefetch::prefetch;
 
 /// Gap over the grain's radius up to which grain and line are followed from the start of a step, whatever their velocities.
 const ALWAYS_AHEAD: f64 = 0.01;
+
+/// How many pairs ahead the nodes of a line are asked for: another thread may just have moved them.
+const PAIRS_AHEAD: usize = 6;
 
 /// Candidate pairs (member, line) of one block, and the forces they put on nodes in this step.
 #[derive(Clone, Debug, Default)]
@@ -158,6 +162,14 @@ impl RopeContacts {
         touches.clear();
         list.ended.clear();
         for (place, &[index, line]) in pairs.iter().enumerate() {
+            if let Some([_, next]) = pairs.get(place + PAIRS_AHEAD) {
+                let nodes = barrier.lines[*next as usize].nodes;
+                for node in nodes.map(|node| &barrier.nodes[node as usize]) {
+                    // It may lie across two lines of the cache.
+                    prefetch(&node.position.x);
+                    prefetch(&node.velocity.z);
+                }
+            }
             let (centre, radius) = context.grains.sphere(index as usize);
             let nearest = Nearest::of(&centre, line, barrier);
             let reach = radius + barrier.lines[line as usize].thickness;
@@ -325,27 +337,27 @@ fn turning(of_centres: &Vec3, normal: &Vec3, distance: f64, ends: [(&Vec3, &Vec3
 fn given_up(member: &Member, line_index: u32, barrier: &Barrier) -> f64 {
     let line = &barrier.lines[line_index as usize];
     let at_node = |node: u32| {
-        let here = &barrier.nodes[node as usize];
-        let from_node = member.centre - here.position;
+        let here = barrier.nodes[node as usize].position;
+        let from_node = member.centre - here;
         let bare = member.radius - from_node.norm();
         let mine = bare + line.radius;
         if mine <= 0.0 {
             return 0.0;
         }
-        let leading = here.lines.iter().filter(|&&other| leads_to(other, node, &from_node, barrier));
-        let overlaps = leading.map(|&other| (bare + barrier.lines[other as usize].radius).max(0.0));
-        let (most, sum) =
-            overlaps.fold((0.0, 0.0), |(most, sum): (f64, f64), overlap| (most.max(overlap), sum + overlap));
+        let (mut most, mut sum) = (0.0_f64, 0.0);
+        for end in barrier.line_ends.at(node).iter().filter(|end| leads_to(end, &here, &from_node, barrier)) {
+            let overlap = (bare + end.radius).max(0.0);
+            most = most.max(overlap);
+            sum += overlap;
+        }
         if sum > 0.0 { mine * (1.0 - most / sum) } else { 0.0 }
     };
     line.nodes.into_iter().map(at_node).sum()
 }
 
-/// Whether a line runs on from its end `node` towards a point that lies `from_node` off it.
-fn leads_to(line: u32, node: u32, from_node: &Vec3, barrier: &Barrier) -> bool {
-    let [a, b] = barrier.lines[line as usize].nodes;
-    let far = if a == node { b } else { a };
-    from_node.dot(&(barrier.nodes[far as usize].position - barrier.nodes[node as usize].position)) > 0.0
+/// Whether a line runs on from its end, at the place `here`, towards a point that lies `from_node` off it.
+fn leads_to(end: &LineEnd, here: &Vec3, from_node: &Vec3, barrier: &Barrier) -> bool {
+    from_node.dot(&(barrier.nodes[end.far as usize].position - here)) > 0.0
 }
 
 /// 1/m felt at the point that divides a line as (1−share):share; a fixed node counts as infinitely heavy.
@@ -357,7 +369,8 @@ fn inverse_mass_at(a: &Node, b: &Node, share: f64) -> f64 {
 /// Whether `line` stands for its end `node` towards a sphere at `centre`: every line at the node must
 /// have the node as its nearest point, and this one must be the first of them.
 fn owns_node(line: u32, node: u32, centre: &Vec3, barrier: &Barrier) -> bool {
-    let here = &barrier.nodes[node as usize];
-    let from_node = centre - here.position;
-    here.lines.first() == Some(&line) && here.lines.iter().all(|&other| !leads_to(other, node, &from_node, barrier))
+    let here = barrier.nodes[node as usize].position;
+    let (from_node, ends) = (centre - here, barrier.line_ends.at(node));
+    ends.first().is_some_and(|first| first.line == line)
+        && ends.iter().all(|end| !leads_to(end, &here, &from_node, barrier))
 }

@@ -115,7 +115,7 @@ impl Ground {
         let mut known = before;
         let mut parts = Vec::new();
         for (index, node) in nodes.iter().enumerate() {
-            let here = known.partition_point(|footing| footing.node <= index as u32);
+            let here = known.iter().take_while(|footing| footing.node as usize == index).count();
             let (own, rest) = known.split_at(here);
             known = rest;
             if node.fixed || own.is_empty() && self.is_clear(index, node) {
@@ -136,12 +136,16 @@ impl Ground {
     }
 
     /// Whether a node surely touches no part of the ground; as most do in most steps, it is asked first.
+    #[inline]
     fn is_clear(&self, index: usize, node: &Node) -> bool {
         let Shape::Planes { planes, reaches } = &self.shape else { return false };
-        // What is not a number is not clear.
-        let clear =
-            |(plane, reach): (&Plane, &f64)| node.position.z > plane.top || reach - plane.height(&node.position) <= 0.0;
-        planes.iter().zip(&reaches[index]).all(clear)
+        let reaches = &reaches[index];
+        // Asked together, so that no branch is in the way; what is not a number is not clear.
+        let clear = std::array::from_fn::<bool, PLANES, _>(|part| {
+            let plane = &planes[part];
+            (node.position.z > plane.top) | (reaches[part] - plane.height(&node.position) <= 0.0)
+        });
+        clear.into_iter().fold(true, |all, one| all & one)
     }
 
     /// The planes or facets that a node may touch or has touched, rising.

@@ -225,15 +225,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn node(x: f64, y: f64) -> Node {
-        Node {
-            position: Vec3::new(x, y, 0.0),
-            velocity: Vec3::zeros(),
-
-            mass: 1.0,
-            fixed: false,
-            radius: 0.0,
-            lines: Vec::new(),
-        }
+        Node { position: Vec3::new(x, y, 0.0), velocity: Vec3::zeros(), mass: 1.0, fixed: false, radius: 0.0 }
     }
 
     fn ring(contacts: u32) -> NetRing {

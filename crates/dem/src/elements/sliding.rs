@@ -38,7 +38,7 @@ impl Chain {
     pub fn slide(&self, segments: &mut [Segment], nodes: &[Node], step: f64) -> f64 {
         let mut pieces: Vec<Piece> =
             self.segments.iter().map(|&index| Piece::of(&segments[index as usize], nodes)).collect();
-        let before: Vec<[f64; 2]> = pieces.iter().map(|piece| [piece.tension(), piece.energy()]).collect();
+        let before: Vec<[f64; 2]> = pieces.iter().map(|piece| [piece.tension, piece.energy()]).collect();
         let mut holds = vec![None; pieces.len()];
         for sweep in 0..SWEEPS {
             let joints = 1..pieces.len();
@@ -57,14 +57,14 @@ impl Chain {
             segment.set_rest_length(piece.rest_length);
             let [a, b] = segment.nodes.map(|node| nodes[node as usize].velocity);
             let stretched = (b - a).dot(&piece.direction) * step;
-            lost += energy - piece.energy() - 0.5 * (tension - piece.tension()) * stretched;
+            lost += energy - piece.energy() - 0.5 * (tension - piece.tension) * stretched;
         }
         lost
     }
 
     /// Slides the rope through the ring between pieces `joint − 1` and `joint`; `holds` keeps e^(μθ) of rings looked at before.
     fn slide_at(&self, joint: usize, pieces: &mut [Piece], holds: &mut [Option<f64>]) {
-        let [first, second] = [pieces[joint - 1].tension(), pieces[joint].tension()];
+        let [first, second] = [pieces[joint - 1].tension, pieces[joint].tension];
         let (taut, slack) = if first > second { (joint - 1, joint) } else { (joint, joint - 1) };
         let (high, low) = (first.max(second), first.min(second));
         let friction = self.frictions[joint - 1];
@@ -85,18 +85,18 @@ impl Chain {
         for _ in 0..NEWTON_STEPS {
             let [giver, taker] = [&pieces[slack], &pieces[taut]];
             // Tension falls by EA L/l² per rest length given to the taut side, and rises likewise on the other.
-            let wanted = (taker.tension() - hold * giver.tension()) / (taker.slope() + hold * giver.slope());
+            let wanted = (taker.tension - hold * giver.tension) / (taker.slope() + hold * giver.slope());
             if giver.axial == 0.0 {
                 // The rope has broken there: it runs out through the ring.
-                pieces[taut].rest_length += wanted;
+                pieces[taut].lengthen(wanted);
                 continue;
             }
             let moved = wanted.min(giver.rest_length - self.shortest);
             if moved == 0.0 || taker.rest_length + moved < self.shortest {
                 break;
             }
-            pieces[taut].rest_length += moved;
-            pieces[slack].rest_length -= moved;
+            pieces[taut].lengthen(moved);
+            pieces[slack].lengthen(-moved);
         }
     }
 }
@@ -108,6 +108,8 @@ struct Piece {
     rest_length: f64,
     length: f64,
     direction: Vec3,
+    /// N
+    tension: f64,
 }
 
 impl Piece {
@@ -116,19 +118,26 @@ impl Piece {
         let line = b - a;
         let length = line.norm();
         let axial = segment.stiffness * segment.rest_length;
-        Self { axial, rest_length: segment.rest_length, length, direction: line / length }
+        let piece = Self { axial, rest_length: segment.rest_length, length, direction: line / length, tension: 0.0 };
+        Self { tension: piece.pulls(), ..piece }
+    }
+
+    /// Lets more rope into it, or out where that is negative (m).
+    fn lengthen(&mut self, by: f64) {
+        self.rest_length += by;
+        self.tension = self.pulls();
     }
 
     fn stretch(&self) -> f64 {
         (self.length - self.rest_length).max(0.0)
     }
 
-    fn tension(&self) -> f64 {
+    fn pulls(&self) -> f64 {
         self.axial * self.stretch() / self.rest_length
     }
 
     fn energy(&self) -> f64 {
-        0.5 * self.tension() * self.stretch()
+        0.5 * self.tension * self.stretch()
     }
 
     /// −dT/dl, with l the rest length (N/m).

@@ -1,15 +1,17 @@
 //! What main, net and lateral ropes bear, and what shape the net takes.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::elements::segment::SegmentKind;
-use crate::larger_or_nan;
 use crate::net::NetForces;
 use crate::recorders::body::{BodyRecorder, add_shares, keep_larger, means};
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
 use crate::tables::barrier::Barrier;
+use crate::{larger_or_nan, largest_or_nan};
 
 /// Mean tension along each main rope; of one where several run side by side, here and below.
 pub const MEAN: Channel = Channel { name: "rope_mean", unit: "n", rows: Rows::EachRope };
@@ -41,13 +43,52 @@ pub struct OfRopes {
     /// Largest at any instant: of each rope, of the net and the lateral ropes.
     at_once: Vec<f64>,
     net_and_lateral_at_once: [f64; 2],
+    /// What pulls or pushes along a line, made anew for each sample.
+    #[serde(skip)]
+    groups: Vec<Group>,
+}
+
+/// Neighbours in the order of [`Barrier::axial_members`] that belong to the same part of the barrier.
+#[derive(Clone, Debug)]
+struct Group {
+    kind: SegmentKind,
+    members: Range<usize>,
+    /// Unloaded length of each, of main ropes (m); 0 for a dissipator, which is no part of its rope.
+    lengths: Vec<f64>,
+}
+
+impl Group {
+    /// Takes the lengths anew, which change as ropes slide through their rings.
+    fn measure(&mut self, barrier: &Barrier) {
+        if matches!(self.kind, SegmentKind::Main(_)) {
+            self.lengths.clear();
+            self.lengths.extend(self.members.clone().map(|member| barrier.rest_length(member).unwrap_or(0.0)));
+        }
+    }
+}
+
+fn groups_of(barrier: &Barrier) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (place, member) in barrier.axial_members().enumerate() {
+        match groups.last_mut().filter(|last| last.kind == member.kind) {
+            Some(last) => last.members.end += 1,
+            None => groups.push(Group { kind: member.kind, members: place..place + 1, lengths: Vec::new() }),
+        }
+    }
+    groups
 }
 
 impl BodyRecorder for OfRopes {
     fn add_step(&mut self, simulation: &Simulation, setup: &RecorderSetup) {
         let Some(barrier) = &simulation.model.barrier else { return };
+        let mut groups = std::mem::take(&mut self.groups);
+        if groups.is_empty() {
+            groups = groups_of(barrier);
+        }
+        groups.iter_mut().for_each(|group| group.measure(barrier));
         let substeps = simulation.sums.net_in_substeps();
-        substeps.iter().for_each(|net| self.add_substep(net, barrier, setup, substeps.len()));
+        substeps.iter().for_each(|net| self.add_substep(net, barrier, &groups, setup.ropes, substeps.len()));
+        self.groups = groups;
     }
 
     fn sample(&mut self, simulation: &Simulation, setup: &RecorderSetup, steps: u32, channels: &mut Channels) {
@@ -78,22 +119,26 @@ impl BodyRecorder for OfRopes {
 
 impl OfRopes {
     /// Takes in one of the substeps of a step.
-    fn add_substep(&mut self, net: &NetForces, barrier: &Barrier, setup: &RecorderSetup, substeps: usize) {
-        let (mut mean, mut largest) = (vec![[0.0, 0.0]; setup.ropes], vec![0.0_f64; setup.ropes]);
+    fn add_substep(&mut self, net: &NetForces, barrier: &Barrier, groups: &[Group], ropes: usize, substeps: usize) {
+        let (mut mean, mut largest) = (vec![[0.0, 0.0]; ropes], vec![0.0_f64; ropes]);
         let (mut net_largest, mut lateral) = (0.0_f64, 0.0_f64);
-        net.each_axial_member(barrier, |member, tension| match member.kind {
-            SegmentKind::Main(rope) => {
-                if let Some(rest_length) = member.rest_length {
+        let all: Vec<f64> = net.axial_tensions().collect();
+        for Group { kind, members, lengths } in groups {
+            let (tensions, sharing) = (&all[members.clone()], barrier.sharing(*kind));
+            let most = match *kind {
+                SegmentKind::Main(rope) => {
                     let [weighted, length] = &mut mean[rope as usize];
-                    *weighted += tension * rest_length;
-                    *length += rest_length;
+                    *weighted +=
+                        tensions.iter().zip(lengths).map(|(tension, length)| tension * length).sum::<f64>() / sharing;
+                    *length += lengths.iter().sum::<f64>();
+                    &mut largest[rope as usize]
                 }
-                largest[rope as usize] = larger_or_nan(largest[rope as usize], tension);
-            }
-            SegmentKind::Net => net_largest = larger_or_nan(net_largest, tension),
-            SegmentKind::Lateral => lateral = larger_or_nan(lateral, tension),
-            SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => {}
-        });
+                SegmentKind::Net => &mut net_largest,
+                SegmentKind::Lateral => &mut lateral,
+                SegmentKind::Ring | SegmentKind::Retaining(_) | SegmentKind::Post(_) => continue,
+            };
+            *most = larger_or_nan(*most, largest_or_nan(tensions) / sharing);
+        }
         let mean: Vec<f64> = mean.iter().map(|[weighted, length]| weighted / length).collect();
         add_shares(&mut self.mean, &mean, substeps);
         add_shares(&mut self.largest, &largest, substeps);

@@ -26,6 +26,48 @@ pub struct Line {
     pub broken: bool,
 }
 
+/// The end of a line at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LineEnd {
+    pub line: u32,
+    /// The node at its other end.
+    pub far: u32,
+    /// Of the line (m).
+    pub radius: f64,
+}
+
+/// For each node the lines that end there; grains that touch the very node are found through it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LineEnds {
+    /// Where the ends at each node begin, and after the last where they all end.
+    starts: Vec<u32>,
+    ends: Vec<LineEnd>,
+}
+
+impl LineEnds {
+    /// Those of lines that are not broken, in their order.
+    fn of(lines: &[Line], nodes: usize) -> Self {
+        let mut at_nodes = vec![Vec::new(); nodes];
+        for (index, line) in lines.iter().enumerate().filter(|(_, line)| !line.broken) {
+            let [a, b] = line.nodes;
+            for [here, far] in [[a, b], [b, a]] {
+                at_nodes[here as usize].push(LineEnd { line: index as u32, far, radius: line.radius });
+            }
+        }
+        let mut table = Self { starts: vec![0], ends: Vec::new() };
+        for ends in at_nodes {
+            table.ends.extend(ends);
+            table.starts.push(table.ends.len() as u32);
+        }
+        table
+    }
+
+    pub fn at(&self, node: u32) -> &[LineEnd] {
+        let node = node as usize;
+        &self.ends[self.starts[node] as usize..self.starts[node + 1] as usize]
+    }
+}
+
 /// An anchor point with the rope it holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Anchor {
@@ -48,8 +90,9 @@ pub struct Barrier {
     /// Equal ropes that run side by side at each level of main ropes: its segments, cylinders and dissipators stand for all of them. What is
     /// not listed is one rope.
     pub bundles: Vec<u16>,
-    /// What grains can touch; made by [`Self::connect`].
+    /// What grains can touch, and where it ends; made by [`Self::connect`].
     pub lines: Vec<Line>,
+    pub line_ends: LineEnds,
     /// Ropes that slide through their rings; empty where rings are pinned.
     pub chains: Vec<Chain>,
     /// Rings of a ring net.
@@ -77,6 +120,18 @@ impl Barrier {
             .chain(self.net_rings.iter().flat_map(NetRing::axial_members))
             .chain(self.dissipators.iter().map(Dissipator::member))
             .chain(self.posts.iter().map(Post::member))
+    }
+
+    /// Unloaded length of one of these, by its place in that order (m); nothing for a dissipator.
+    pub fn rest_length(&self, member: usize) -> Option<f64> {
+        let segments = self.segments.len();
+        match self.segments.get(member) {
+            Some(segment) => Some(segment.rest_length),
+            None => match self.cylinders.get(member - segments) {
+                Some(cylinder) => Some(cylinder.rest_length),
+                None => self.axial_members().nth(member)?.rest_length,
+            },
+        }
     }
 
     /// Ropes that share what an element of this kind bears.
@@ -116,9 +171,7 @@ impl Barrier {
     pub fn lose_line(&mut self, nodes: [u32; 2]) {
         let Some(index) = self.lines.iter().position(|line| line.nodes == nodes) else { return };
         self.lines[index].broken = true;
-        for node in nodes {
-            self.nodes[node as usize].lines.retain(|&line| line as usize != index);
-        }
+        self.line_ends = LineEnds::of(&self.lines, self.nodes.len());
     }
 
     /// Lets a ring of the net break.
@@ -148,14 +201,11 @@ impl Barrier {
         touched.extend(self.posts.iter().map(|post| (post.nodes, post.radius)));
         let line = |(nodes, radius)| Line { nodes, radius, thickness: radius, broken: false };
         self.lines = touched.into_iter().map(line).collect();
-        for node in &mut self.nodes {
-            node.lines.clear();
-            node.radius = 0.0;
-        }
-        for (index, line) in self.lines.iter().enumerate() {
+        self.line_ends = LineEnds::of(&self.lines, self.nodes.len());
+        self.nodes.iter_mut().for_each(|node| node.radius = 0.0);
+        for line in &self.lines {
             for node in line.nodes {
                 let node = &mut self.nodes[node as usize];
-                node.lines.push(index as u32);
                 node.radius = node.radius.max(line.radius);
             }
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
 
-/// A point mass of the net or of a rope.
+/// A point mass of the net or of a rope. Every step of the barrier changes it and other threads read it then: what does not change is kept apart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Node {
     pub position: Vec3,
@@ -17,8 +17,6 @@ pub struct Node {
     pub fixed: bool,
     /// Radius with which grains touch the node (m): the thickest line that ends there; made by [`crate::tables::barrier::Barrier::connect`].
     pub radius: f64,
-    /// Lines that end here; grains that touch the very node are found through it.
-    pub lines: Vec<u32>,
 }
 
 /// How a node is turned, where cylinders meet in it.

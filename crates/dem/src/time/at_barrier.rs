@@ -221,6 +221,11 @@ impl AtBarrier {
         &self.rows
     }
 
+    /// Number of pairs of them and ropes that may touch.
+    pub fn pairs(&self) -> usize {
+        self.pairs.len()
+    }
+
     /// Takes the grains into the account at a substep of the given weight. Their energies of place are where they stand for their neighbours,
     /// x(t). The forces F that are the same in all substeps have done their work for neighbours up to x(t), and for the grain up to where the substep
     /// has it, x: F·(x − x(t)) more, which is left out of its energy of motion.

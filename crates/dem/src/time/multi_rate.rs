@@ -14,9 +14,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::ropes::OnBarrier;
+use crate::elements::segment::Segment;
 use crate::ledger::{ContactSums, MotionEnergy};
 use crate::neighbours::blocks::Block;
-use crate::net::{NetForces, pull_all, slide_all};
+use crate::net::{NetForces, slide_and_pull};
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::nodes::{Frame, Node};
@@ -146,7 +147,6 @@ pub fn step_barrier(
         in_substeps.push(net);
         for substep in 1..substeps {
             let mut lost = Lost::default();
-            lost.barrier[1] += slide_all(barrier, own.step);
             let net = pull_and_press(barrier, blocks, on_barrier, &course, substep);
             course.see_blocks(substep, blocks);
             blocks.iter().for_each(|block| lost.in_contacts(&block.at_barrier.sums));
@@ -204,28 +204,34 @@ impl Course {
 
 /// A share of the work of a substep.
 enum Work<'a> {
-    Elements(&'a mut Option<NetForces>),
+    Elements(&'a mut [Segment], &'a mut Option<NetForces>),
     Block(&'a mut Block),
 }
 
 /// Forces within the barrier and those of the grains on it, at the present places; the grains are loaded with what the barrier does to them, and
 /// moved.
 fn pull_and_press(
-    barrier: &Barrier,
+    barrier: &mut Barrier,
     blocks: &mut [Block],
     on_barrier: &OnBarrier,
     course: &Course,
     substep: u32,
 ) -> NetForces {
     let mut net = None;
-    let work = std::iter::once(Work::Elements(&mut net)).chain(blocks.iter_mut().map(Work::Block));
+    let mut segments = std::mem::take(&mut barrier.segments);
+    let seen = &*barrier;
+    // The longest work first.
+    let mut busy: Vec<&mut Block> = blocks.iter_mut().filter(|block| !block.at_barrier.rows().is_empty()).collect();
+    busy.sort_by_key(|block| std::cmp::Reverse(block.at_barrier.pairs()));
+    let work = std::iter::once(Work::Elements(&mut segments, &mut net)).chain(busy.into_iter().map(Work::Block));
     workers::for_each(work, |_, work| match work {
-        Work::Elements(net) => *net = Some(pull_all(barrier, &on_barrier.law)),
+        Work::Elements(segments, net) => *net = Some(slide_and_pull(seen, segments, &on_barrier.law)),
         Work::Block(Block { at_barrier, ropes, .. }) => {
-            at_barrier.press(ropes, barrier, on_barrier);
+            at_barrier.press(ropes, seen, on_barrier);
             at_barrier.go(&course.own, course.noted(substep));
         }
     });
+    barrier.segments = segments;
     let mut net = net.unwrap_or_default();
     blocks.iter().flat_map(|block| &block.at_barrier.pushes).for_each(|push| net.push(push));
     net
