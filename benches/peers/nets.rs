@@ -128,8 +128,8 @@ struct Stand {
 
 impl Stand {
     fn add_node(&mut self, position: Vec3, fixed: bool) -> usize {
-        let (velocity, lines) = (Vec3::zeros(), Vec::new());
-        self.barrier.nodes.push(Node { position, velocity, mass: 0.0, fixed, radius: 0.0, lines });
+        let velocity = Vec3::zeros();
+        self.barrier.nodes.push(Node { position, velocity, mass: 0.0, fixed, radius: 0.0 });
         self.barrier.nodes.len() - 1
     }
 

@@ -52,12 +52,14 @@ pub struct NetForces {
     torn: Vec<usize>,
 }
 
-/// Stretches every element to the present places of the nodes; `law` holds the barrier's own step.
+/// Stretches every element to the present places of the nodes, and rests them on the ground; `law` holds the barrier's own step.
 pub fn pull_all(barrier: &Barrier, law: &LawConstants) -> NetForces {
-    pull(barrier, &barrier.segments, law)
+    let mut net = pull(barrier, &barrier.segments, law);
+    net.rest(OnGround::of(barrier, law));
+    net
 }
 
-/// The same after ropes have slid through their rings at those places, with what they have lost since the barrier's last step. The `segments`
+/// The same without the ground, after ropes have slid through their rings at those places, with what they have lost since the barrier's last step. The `segments`
 /// are those of the barrier, taken out of it: meanwhile others may press grains on its lines, which needs no rest lengths.
 pub fn slide_and_pull(barrier: &Barrier, segments: &mut [Segment], law: &LawConstants) -> NetForces {
     let slid = barrier.chains.iter().map(|chain| chain.slide(segments, &barrier.nodes, law.time_step));
@@ -82,7 +84,6 @@ fn pull(barrier: &Barrier, segments: &[Segment], law: &LawConstants) -> NetForce
     net.pull_dissipators(barrier);
     net.push_posts(barrier, law.time_step);
     net.hold(barrier);
-    net.rest_on_ground(barrier, law);
     net.strain_cylinders(barrier, law.time_step);
     let context = RingContext {
         nodes: &barrier.nodes,
@@ -94,6 +95,35 @@ fn pull(barrier: &Barrier, segments: &[Segment], law: &LawConstants) -> NetForce
         net.touch_ring(ring, &ring.force(&context, law), barrier);
     }
     net
+}
+
+/// What the ground does to a barrier at one instant.
+#[derive(Clone, Debug, Default)]
+pub struct OnGround {
+    /// Nodes and the forces on them (N).
+    forces: Vec<(u32, Vec3)>,
+    /// J
+    stored: f64,
+    lost: f64,
+    /// Where the barrier lies now.
+    lies: Vec<Footing>,
+}
+
+impl OnGround {
+    /// At the present places of the nodes; `law` holds the barrier's own step.
+    pub fn of(barrier: &Barrier, law: &LawConstants) -> Self {
+        let mut here = Self::default();
+        let Some(ground) = &barrier.ground else { return here };
+        ground.touch(&barrier.nodes, &barrier.footings, law, |footing, response| {
+            here.forces.push((footing.node, Vec3::from(response.force)));
+            here.stored += response.stored;
+            here.lost += response.lost_friction + response.lost_damping;
+            if ground.holds(&footing, &barrier.nodes) {
+                here.lies.push(footing);
+            }
+        });
+        here
+    }
 }
 
 impl NetForces {
@@ -159,16 +189,14 @@ impl NetForces {
         }
     }
 
-    fn rest_on_ground(&mut self, barrier: &Barrier, law: &LawConstants) {
-        let Some(ground) = &barrier.ground else { return };
-        ground.touch(&barrier.nodes, &barrier.footings, law, |footing, response| {
-            self.forces[footing.node as usize] += Vec3::from(response.force);
-            self.stored += response.stored;
-            self.lost_rings += response.lost_friction + response.lost_damping;
-            if ground.holds(&footing, &barrier.nodes) {
-                self.lies.push(footing);
-            }
-        });
+    /// Takes in what the ground does to the barrier.
+    pub fn rest(&mut self, on_ground: OnGround) {
+        for (node, force) in &on_ground.forces {
+            self.forces[*node as usize] += force;
+        }
+        self.stored += on_ground.stored;
+        self.lost_rings += on_ground.lost;
+        self.lies = on_ground.lies;
     }
 
     fn strain_cylinders(&mut self, barrier: &Barrier, step: f64) {

@@ -398,6 +398,10 @@ impl Simulation {
         if ratio.value > 1.0 {
             self.time_step *= STEP_AFTER_CUT / ratio.value;
             self.step_cuts += 1;
+            // The shorter step may need fewer substeps.
+            if self.barrier_substeps > 1 && ratio.value.is_finite() {
+                self.choose_substeps();
+            }
         }
         if self.time_step < SHORTEST_STEP * self.first_time_step || !ratio.value.is_finite() {
             return Err(Unstable::Step { time: self.time, step: self.time_step });

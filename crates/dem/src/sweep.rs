@@ -16,7 +16,7 @@ use crate::elements::segment::Segment;
 use crate::model::Model;
 use crate::neighbours::blocks::{Block, OutgoingLoads};
 use crate::neighbours::renew::Neighbours;
-use crate::net::{NetForces, slide_and_pull};
+use crate::net::{NetForces, OnGround, slide_and_pull};
 use crate::simd::eight::LANES;
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_rows::{GrainRows, Prefetcher, RowsInMotion};
@@ -63,18 +63,21 @@ pub fn sweep(
         grip: &grip,
         workers: workers::count(),
     };
-    let mut net = None;
+    let (mut net, mut on_ground) = (NetForces::default(), OnGround::default());
     let mut paces = vec![Pace::default(); blocks.len()];
-    let elements = model.barrier.as_ref().map(|barrier| Part::Elements(barrier, segments, &mut net));
+    let barrier = model.barrier.as_ref();
+    let elements = barrier.map(|barrier| Part::Elements(barrier, segments, &mut net));
+    let ground = barrier.map(|barrier| Part::Ground(barrier, &mut on_ground));
     let turns = blocks.iter_mut().zip(&mut paces).enumerate();
     let turns = turns.map(|(number, (block, pace))| {
         let prefetcher = Prefetcher::none(rows.seen());
         Part::Block(Turn { number, block, loads: Vec::new(), prefetcher, pace })
     });
     workers::wave(
-        elements.into_iter().chain(turns),
+        elements.into_iter().chain(turns).chain(ground),
         |part| match part {
-            Part::Elements(barrier, segments, net) => **net = Some(slide_and_pull(barrier, segments, &barrier_law)),
+            Part::Elements(barrier, segments, net) => **net = slide_and_pull(barrier, segments, &barrier_law),
+            Part::Ground(barrier, on_ground) => **on_ground = OnGround::of(barrier, &barrier_law),
             Part::Block(turn) => {
                 let mut outgoing = outgoing[turn.number].write().unwrap_or_else(PoisonError::into_inner);
                 turn.loads = sheets.take(turn.block.grains.len());
@@ -94,12 +97,14 @@ pub fn sweep(
         },
     );
     (grains.grip, grains.ahead) = (grip, ahead);
-    (net.unwrap_or_default(), paces)
+    net.rest(on_ground);
+    (net, paces)
 }
 
 /// A part of the work of a step.
 enum Part<'a> {
-    Elements(&'a Barrier, &'a mut [Segment], &'a mut Option<NetForces>),
+    Elements(&'a Barrier, &'a mut [Segment], &'a mut NetForces),
+    Ground(&'a Barrier, &'a mut OnGround),
     Block(Turn<'a>),
 }
 

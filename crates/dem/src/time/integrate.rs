@@ -14,6 +14,7 @@ use crate::tables::grain_rows::Prefetcher;
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::moving_rows::MovingRows;
 use crate::tables::nodes::{Frame, Node};
+use crate::tables::prefetch::prefetch_to_write;
 use crate::{Vec3, larger_or_nan};
 
 /// The stretch of time a step covers, with what acts on all grains alike.
@@ -239,11 +240,20 @@ pub fn turn_axes(axes: &mut [Quad], spins: &[Quad], time: f64) {
     }
 }
 
+/// How many nodes ahead their rows are asked for: other threads have read them since they were moved last.
+const NODES_AHEAD: usize = 16;
+
 /// Moves the nodes of a barrier through one step.
 pub fn move_nodes(nodes: &mut [Node], forces: &[Vec3], gravity: &Vec3, step: f64) {
-    for (node, force) in nodes.iter_mut().zip(forces).filter(|(node, _)| !node.fixed) {
-        node.velocity += (force / node.mass + gravity) * step;
-        node.position += node.velocity * step;
+    for number in 0..nodes.len() {
+        if let Some(next) = nodes.get(number + NODES_AHEAD) {
+            prefetch_to_write(&next.velocity);
+        }
+        let (node, force) = (&mut nodes[number], &forces[number]);
+        if !node.fixed {
+            node.velocity += (force / node.mass + gravity) * step;
+            node.position += node.velocity * step;
+        }
     }
 }
 

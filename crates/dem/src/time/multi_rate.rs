@@ -17,7 +17,7 @@ use crate::contact::ropes::OnBarrier;
 use crate::elements::segment::Segment;
 use crate::ledger::{ContactSums, MotionEnergy};
 use crate::neighbours::blocks::Block;
-use crate::net::{NetForces, slide_and_pull};
+use crate::net::{NetForces, OnGround, slide_and_pull};
 use crate::tables::barrier::Barrier;
 use crate::tables::grain_table::GrainTable;
 use crate::tables::nodes::{Frame, Node};
@@ -204,7 +204,8 @@ impl Course {
 
 /// A share of the work of a substep.
 enum Work<'a> {
-    Elements(&'a mut [Segment], &'a mut Option<NetForces>),
+    Elements(&'a mut [Segment], &'a mut NetForces),
+    Ground(&'a mut OnGround),
     Block(&'a mut Block),
 }
 
@@ -217,22 +218,23 @@ fn pull_and_press(
     course: &Course,
     substep: u32,
 ) -> NetForces {
-    let mut net = None;
+    let (mut net, mut on_ground) = (NetForces::default(), OnGround::default());
     let mut segments = std::mem::take(&mut barrier.segments);
     let seen = &*barrier;
     // The longest work first.
     let mut busy: Vec<&mut Block> = blocks.iter_mut().filter(|block| !block.at_barrier.rows().is_empty()).collect();
     busy.sort_by_key(|block| std::cmp::Reverse(block.at_barrier.pairs()));
     let work = std::iter::once(Work::Elements(&mut segments, &mut net)).chain(busy.into_iter().map(Work::Block));
-    workers::for_each(work, |_, work| match work {
-        Work::Elements(segments, net) => *net = Some(slide_and_pull(seen, segments, &on_barrier.law)),
+    workers::for_each(work.chain([Work::Ground(&mut on_ground)]), |_, work| match work {
+        Work::Elements(segments, net) => *net = slide_and_pull(seen, segments, &on_barrier.law),
+        Work::Ground(on_ground) => *on_ground = OnGround::of(seen, &on_barrier.law),
         Work::Block(Block { at_barrier, ropes, .. }) => {
             at_barrier.press(ropes, seen, on_barrier);
             at_barrier.go(&course.own, course.noted(substep));
         }
     });
     barrier.segments = segments;
-    let mut net = net.unwrap_or_default();
+    net.rest(on_ground);
     blocks.iter().flat_map(|block| &block.at_barrier.pushes).for_each(|push| net.push(push));
     net
 }
