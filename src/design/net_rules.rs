@@ -255,7 +255,7 @@ fn draws_out_or_breaks(e: &Entries, part: &str) -> Option<Problem> {
             format!("{} with a breaking load of {}", Dimension::Force.show(elastic), Dimension::Force.show(breaking));
         return Some(Problem::new(path, found, "less than the breaking load"));
     }
-    breaks(e, &path)?.then(|| {
+    breaks(e, &at(&format!("{part}.at_breaking_load")))?.then(|| {
         Problem::new(path, "an elastic limit and `at_breaking_load: breaks`", "one of the two")
             .hint("a rope that draws out at its elastic limit never reaches its breaking load")
     })
