@@ -6,6 +6,7 @@ use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PAC
 use crate::checks::not_covered::context::AtOnce;
 use crate::design::{BarrierDesign, BarrierModel};
 use crate::fidelity::ladder::{RUNGS, Step};
+use crate::larger::larger_or_nan;
 use crate::pipeline::{Run, Verdict, at_once};
 use crate::program::COMMIT;
 use crate::report::numbers::with_unit;
@@ -244,19 +245,19 @@ fn peaks_row(run: &Simulated) -> Option<Row> {
         ("bolts", bolts),
         ("posts", posts),
     ];
-    let most = parts.iter().map(|(_, over)| *over).fold(1.0, f64::max);
+    let most = parts.iter().map(|(_, over)| *over).fold(1.0, larger_or_nan);
     // What the design does not have, or nothing loads, is at 1 exactly.
     let loaded = parts.iter().filter(|(_, over)| *over != 1.0);
     let told: Vec<String> = loaded.map(|(name, over)| format!("{name} {over:.2}")).collect();
+    let told = if told.is_empty() { String::new() } else { format!(" ({})", told.join(", ")) };
     let of_a_net = run.facts.barrier_nodes > 0;
     of_a_net.then(|| {
         row(
             "Loads at an instant",
             format!("up to {most:.2} times"),
             format!(
-                "the largest mean over {:.1} ms, by which checks are judged ({}); a check that would not hold the load at an instant is open",
-                1e3 * run.facts.sampling,
-                told.join(", ")
+                "the largest mean over {:.1} ms, by which checks are judged{told}; a check that would not hold the load at an instant is open",
+                1e3 * run.facts.sampling
             ),
         )
     })

@@ -45,3 +45,25 @@ pub(crate) fn largest_or_nan(values: &[f64]) -> f64 {
 pub fn larger_or_nan(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::largest_or_nan;
+
+    /// At every place, in a row of eight and after the last.
+    #[test]
+    fn the_largest_is_found_wherever_it_stands_and_so_is_what_is_no_number() {
+        assert_eq!(largest_or_nan(&[]), 0.0);
+        for count in [1, 7, 8, 19] {
+            for place in 0..count {
+                let with = |value: f64| {
+                    let mut values = vec![1.0; count];
+                    values[place] = value;
+                    largest_or_nan(&values)
+                };
+                assert_eq!([2.0, f64::INFINITY].map(with), [2.0, f64::INFINITY], "{place} of {count}");
+                assert!(with(f64::NAN).is_nan(), "{place} of {count}");
+            }
+        }
+    }
+}
