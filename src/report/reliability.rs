@@ -6,7 +6,6 @@ use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PAC
 use crate::checks::not_covered::context::AtOnce;
 use crate::design::{BarrierDesign, BarrierModel};
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::larger::larger_or_nan;
 use crate::pipeline::{Run, Verdict, at_once};
 use crate::program::COMMIT;
 use crate::report::numbers::with_unit;
@@ -245,7 +244,8 @@ fn peaks_row(run: &Simulated) -> Option<Row> {
         ("bolts", bolts),
         ("posts", posts),
     ];
-    let most = parts.iter().map(|(_, over)| *over).fold(1.0, larger_or_nan);
+    // What is not a number comes last in this order, and is told.
+    let most = parts.iter().map(|(_, over)| *over).max_by(f64::total_cmp).unwrap_or(1.0);
     // What the design does not have, or nothing loads, is at 1 exactly.
     let loaded = parts.iter().filter(|(_, over)| *over != 1.0);
     let told: Vec<String> = loaded.map(|(name, over)| format!("{name} {over:.2}")).collect();
