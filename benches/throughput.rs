@@ -28,6 +28,7 @@ use barrier_check::validation::barrier::stand::{cantilever, line, rope};
 use criterion::{Criterion, Throughput, criterion_group};
 use dem::Vec3;
 use dem::contact::law::LawConstants;
+use dem::contact::material::Material;
 use dem::neighbours::broad_phase::{Box3, BoxTree};
 use dem::net::pull_all;
 use dem::simulation::Simulation;
@@ -167,7 +168,7 @@ fn tell_elements(count: usize) {
         taut
     });
     let ropes = [rope(&line(Vec3::zeros(), end, count), [true, true], 0.99), cantilever(end.x, count)];
-    let law = LawConstants::new(0.3, 2.0 / 7.0, 1e-5);
+    let law = LawConstants::of(&Material::new(1.0, 0.3, 0.0), 1e-5);
     let cost = |barrier: &Barrier| {
         let count = barrier.segments.len() + barrier.cylinders.len() + barrier.net_rings.len();
         let rounds = ELEMENT_STEPS / count;

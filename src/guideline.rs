@@ -134,7 +134,8 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
     };
     let bed_force = match &design.barrier {
         BarrierDesign::FlexibleNet(net) if net.bottom == Bottom::Fixed => {
-            ropes.first().map(|rope| rope.load * rope.span)
+            // The even load with the moment of a point load P at midspan is 2 P in all.
+            ropes.first().map(|rope| rope.load * rope.span - rope.point)
         }
         _ => None,
     };
@@ -145,7 +146,7 @@ fn with_event(design: &Design, event: &EventFill, input: GuidelineInput) -> Guid
         bolt_force: bed_force.zip(bolt_spaces(design)).map(|(force, spaces)| {
             // A boulder hits one bolt, not all of them.
             let point = ropes.first().map_or(0.0, |rope| rope.point);
-            (force - 2.0 * point) / spaces + point
+            (force - point) / spaces + point
         }),
         rings: ring_load(design, &stages),
         cases: all(&input, &extras_of(&input)),
@@ -339,17 +340,18 @@ fn bolt_spaces(design: &Design) -> Option<f64> {
     Some(net.bed_bolts?.spaces(design.channel.section().bed_length()) as f64)
 }
 
-/// What hits the barrier at one place: as the design gives it, or on a wall the largest of the boulders that a flow brings, at its surface.
+/// What hits the barrier at one place: as the design gives it, and on a wall the largest of the boulders that a flow brings, at its surface.
 pub fn point_load(design: &Design, flow: &GuidelineInput) -> Option<Hit> {
     let over_deposit = larger_or_nan(flow.depth, 0.5 * design.flow.largest()[0]);
-    let of_boulders = || {
-        let on_a_wall = matches!(design.barrier, BarrierDesign::RigidWall(_)) && !design.flow.boulders.is_empty();
-        let reduction = design.loads.impact_reduction.unwrap_or(USUAL_IMPACT_REDUCTION);
-        let force = reduction * elastic_hit(design, flow.velocity);
-        on_a_wall.then_some(Hit { force, height: None, over_deposit })
+    let boulders = matches!(design.barrier, BarrierDesign::RigidWall(_)) && !design.flow.boulders.is_empty();
+    let of_boulder = if boulders {
+        design.loads.impact_reduction.unwrap_or(USUAL_IMPACT_REDUCTION) * elastic_hit(design, flow.velocity)
+    } else {
+        0.0
     };
-    let given = design.loads.point_load.map(|(force, height)| Hit { force, height, over_deposit });
-    given.or_else(of_boulders)
+    let given = design.loads.point_load;
+    let (force, height) = given.unwrap_or((0.0, None));
+    (boulders || given.is_some()).then_some(Hit { force, height, over_deposit, of_boulder })
 }
 
 /// Share of the elastic force of a boulder where the design gives none: a tenth in the practice of Hong Kong (from memory, so that no check
@@ -436,16 +438,36 @@ fn in_front(channel: &Channel, stability: &Stability, base_slope: f64) -> f64 {
     counted.fold(depth, f64::min).max(0.0)
 }
 
+/// What water and ground press with on the buried part of a wall's face, per width (N/m), and its moment about the base (N m/m), with the partial
+/// factor on loads or without. Nothing on a wall that does not go on below the bed.
+pub fn buried_thrust(design: &Design, factored: bool) -> [f64; 2] {
+    let Some(mut wall) = wall_of(design) else { return [0.0; 2] };
+    if !factored {
+        wall.ground.factor = 1.0;
+    }
+    let (water, ground) = (wall.water_thrust(), wall.earth_thrust());
+    [0, 1].map(|index| water[index] + ground[index])
+}
+
 /// The wall of the design, if it stands by its weight.
 pub fn wall_of(design: &Design) -> Option<WallInput> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return None };
     let stability = wall.stability?;
     let (base_slope, bed_slope) = (stability.base_slope.unwrap_or(0.0), design.channel.slope);
     let cosine = libm::cos(base_slope);
-    let flow = input(design);
+    // Of whichever surge lies deepest there, with what flows over the full barrier.
+    let lies = |flow: GuidelineInput| {
+        let height = match (flow.fills(), design.loads.overflow_depth) {
+            (true, given) => flow.barrier_height + given.unwrap_or(0.0).max(flow.depth),
+            (false, Some(given)) => flow.barrier_height + given,
+            (false, None) => flow.fill_height,
+        };
+        flow.density * GRAVITY * height / libm::cos(bed_slope)
+    };
+    let surcharge = flows(design, input(design)).into_iter().map(lies).fold(0.0, larger_or_nan);
     let ground = Ground {
         density: stability.ground_density,
-        surcharge: flow.density * GRAVITY * flow.fill_height / libm::cos(bed_slope),
+        surcharge,
         in_front: in_front(&design.channel, &stability, base_slope) * cosine,
         factor: design.factors.load,
     };
@@ -471,9 +493,17 @@ fn incoming(design: &Design) -> (f64, f64) {
     match design.flow.arrival {
         Arrival::Surge(surge) => (surge.depth, surge.velocity),
         Arrival::DamBreak(block) => (
-            block.depth_at_barrier.unwrap_or(RITTER_DEPTH * block.height),
+            block.depth_at_barrier.unwrap_or_else(|| depth_as_released(design)),
             block.velocity_at_barrier.unwrap_or_else(|| front_velocity(design, &block)),
         ),
+    }
+}
+
+/// Depth of the flow where it is let go (m): of a dam break at the gate, of a surge as given.
+pub fn depth_as_released(design: &Design) -> f64 {
+    match design.flow.arrival {
+        Arrival::DamBreak(block) => RITTER_DEPTH * block.height,
+        Arrival::Surge(surge) => surge.depth,
     }
 }
 
@@ -562,6 +592,31 @@ mod tests {
         assert_relative_eq!(front_velocity(&design, &block(9.0)), 10.506, max_relative = 1e-3);
     }
 
+    /// The ground behind a founded wall carries what lies deepest on it, in whatever order the surges come, and what flows over the full wall.
+    #[test]
+    fn the_ground_behind_a_wall_carries_the_deepest_surge_and_what_flows_over() {
+        let design = read_design("x", include_bytes!("../designs/gravity_wall.yaml")).unwrap().design;
+        let surcharge = |change: &dyn Fn(&mut Design)| {
+            let mut design = design.clone();
+            change(&mut design);
+            wall_of(&design).expect("a wall").ground.surcharge
+        };
+        let full = |depth: f64| {
+            surcharge(&|design| {
+                design.loads.to_the_top = true;
+                design.loads.overflow_depth = Some(depth);
+            })
+        };
+        let deepest = {
+            let mut design = design.clone();
+            design.loads.to_the_top = true;
+            flows(&design, input(&design)).into_iter().map(|flow| flow.depth).fold(0.0, f64::max)
+        };
+        let unit = design.flow.bulk_density * GRAVITY / libm::cos(design.channel.slope);
+        assert_relative_eq!(full(1e-3), unit * (height_over_bed(&design) + deepest), max_relative = 1e-9);
+        assert_relative_eq!(full(3.0), unit * (height_over_bed(&design) + 3.0), max_relative = 1e-9);
+    }
+
     /// On a bed of 45° with a friction of 20° a deposit of V presses with K = 2 V (tan 45° − tan 20°)/(b H²).
     #[test]
     fn the_weight_of_a_deposit_tells_k_where_it_is_not_seen() {
@@ -596,7 +651,7 @@ mod tests {
         let second = held.ropes[1].strip[0] * 2.0;
         let point = 9e3 * (1.0 - 0.2 / second) / libm::cos(design.channel.slope) * design.factors.load;
         assert_relative_eq!(hit.ropes[0].point, point, max_relative = 1e-9);
-        assert_relative_eq!(hit.bed_force.unwrap() - held.bed_force.unwrap(), 2.0 * point, max_relative = 1e-6);
+        assert_relative_eq!(hit.bed_force.unwrap() - held.bed_force.unwrap(), point, max_relative = 1e-6);
         assert_relative_eq!(hit.bolt_force.unwrap() - held.bolt_force.unwrap(), point, max_relative = 1e-6);
         let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };
         net.bottom = Bottom::Opening(0.1);

@@ -57,7 +57,7 @@ impl Drop for Lock {
     }
 }
 
-/// Tells whether a folder has been taken by another program since it was locked.
+/// Tells whether a folder is still the one that was locked.
 #[derive(Clone, Debug)]
 pub struct Watch {
     path: PathBuf,
@@ -65,10 +65,10 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Whether another lock stands in the place of the one that was taken.
-    pub fn another_has_come(&self) -> bool {
+    /// Whether the lock that was taken is no longer in its place: the folder was removed or moved away, and another run may have come and gone there.
+    pub fn is_lost(&self) -> bool {
         let there = fs::metadata(&self.path).ok().and_then(|found| identity(&found));
-        self.own.zip(there).is_some_and(|(own, there)| own != there)
+        self.own.is_some_and(|own| there != Some(own))
     }
 }
 
@@ -107,12 +107,12 @@ mod tests {
         // One whose folder is removed is told from the one that comes there then, and leaves it its lock.
         let first = Lock::take(&folder).expect("a lock").expect("free");
         let watch = first.watch();
-        assert!(first.is_in_place() && !watch.another_has_come());
+        assert!(first.is_in_place() && !watch.is_lost());
         fs::remove_dir_all(&folder).expect("a folder");
-        assert!(!first.is_in_place() && !watch.another_has_come());
+        assert!(!first.is_in_place() && watch.is_lost());
         fs::create_dir(&folder).expect("a folder");
         let second = Lock::take(&folder).expect("a lock").expect("free");
-        assert!(!first.is_in_place() && watch.another_has_come());
+        assert!(!first.is_in_place() && watch.is_lost());
         drop(first);
         assert!(second.is_in_place() && Lock::take(&folder).expect("a look").is_none());
         drop(second);

@@ -370,6 +370,11 @@ fn print(text: String) -> i32 {
     }
 }
 
+/// The exit code of a command whose answer is what it prints: nobody has it where that could not be written.
+fn if_heard(code: i32) -> i32 {
+    if code == 0 && !terminal::was_heard() { 2 } else { code }
+}
+
 /// The command that was given; its exit code.
 fn run() -> i32 {
     let arguments = match Arguments::try_parse() {
@@ -408,9 +413,12 @@ fn run() -> i32 {
         Some(Command::Serve { folder, port, no_open }) => {
             serve(&serve::Options { folder, port, open: !no_open }) as i32
         }
-        Some(Command::Study { file, out, runs }) => study(&file, out.as_deref(), &runs.mode()) as i32,
+        Some(Command::Study { file, out, runs }) => {
+            let (mode, code) = (runs.mode(), |mode| study(&file, out.as_deref(), mode) as i32);
+            if mode == Mode::List { if_heard(code(&mode)) } else { code(&mode) }
+        }
         Some(Command::Validate(ValidateArguments { names, quick, out })) => {
-            validate(&Selection { names: &names, quick_only: quick }, &out) as i32
+            if_heard(validate(&Selection { names: &names, quick_only: quick }, &out) as i32)
         }
         None => {
             let CheckArguments { design, dry_run: only_tell, out, how, keep, format, watched } = arguments.check;
@@ -423,7 +431,7 @@ fn run() -> i32 {
                 return 2;
             }
             match only_tell {
-                true => dry_run(&design, options) as i32,
+                true => if_heard(dry_run(&design, options) as i32),
                 false => check(&design, out.as_deref(), options, keep.every()) as i32,
             }
         }

@@ -35,6 +35,15 @@ impl Problem {
         }
     }
 
+    /// One whose place is told later, by [`Self::under`].
+    pub fn of(found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self::new("", found, allowed)
+    }
+
+    pub fn under(self, path: impl Into<String>) -> Self {
+        Self { path: path.into(), ..self }
+    }
+
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into().into_boxed_str());
         self

@@ -7,9 +7,6 @@
 //!
 //! the area and its first moment about the surface. A rectangle of width b has A = b z and S = ½ b z².
 
-/// Width at the bottom of what is bed, over the whole of the section, below which there is none.
-const NO_BED: f64 = 1e-6;
-
 /// A cross-section; lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Section {
@@ -298,11 +295,6 @@ impl Section {
         }
     }
 
-    /// Whether there is a bed between the banks, rather than a point where they meet.
-    pub fn has_bed(&self) -> bool {
-        self.bed_width() > NO_BED * self.breadth()
-    }
-
     /// From the one end to the other (m).
     pub fn breadth(&self) -> f64 {
         match self {
@@ -381,9 +373,8 @@ mod tests {
     }
 
     #[test]
-    fn a_groove_has_no_bed_and_vertical_walls_have_no_width_of_their_own() {
+    fn a_groove_has_no_width_at_its_foot_and_vertical_walls_have_no_width_of_their_own() {
         let groove = surveyed(&[[-3.0, 3.0], [0.0, 0.0], [3.0, 3.0]]);
-        assert!(!groove.has_bed());
         assert_eq!(groove.width(0.0), 0.0);
         assert_relative_eq!(groove.area(2.0), 4.0, max_relative = 1e-12);
         let walls = surveyed(&[[0.0, 5.0], [0.0, 0.0], [6.0, 0.0], [6.0, 5.0]]);

@@ -360,7 +360,7 @@ impl Facts {
         self.spheres = self.grains * simulation.grains.shape.members();
         if let Some(barrier) = &simulation.model.barrier {
             self.barrier_nodes = barrier.nodes.len();
-            self.barrier_elements = barrier.segments.len() + barrier.cylinders.len() + barrier.dissipators.len();
+            self.barrier_elements = barrier.axial_members().count();
         }
         self.simulated = simulation.time;
         self.steady = event.ending == Ending::Steady;

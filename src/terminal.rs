@@ -3,12 +3,23 @@
 
 use std::fmt::Display;
 use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::problem::harmless;
 
+/// Whether a line to standard output could not be written.
+static LOST: AtomicBool = AtomicBool::new(false);
+
 /// Writes a line to standard output; whether it could be written.
 pub fn say(line: impl Display) -> bool {
-    line_to(std::io::stdout().lock(), line)
+    let written = line_to(std::io::stdout().lock(), line);
+    LOST.fetch_or(!written, Ordering::Relaxed);
+    written
+}
+
+/// Whether all that was said to standard output so far was written.
+pub fn was_heard() -> bool {
+    !LOST.load(Ordering::Relaxed)
 }
 
 /// Writes a line of warning or error to standard error; whether it could be written.

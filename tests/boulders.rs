@@ -112,7 +112,7 @@ fn on_a_wall_the_equations_add_the_largest_boulder() {
     let by_hand = 0.1 * libm::pow(stiffness, 0.4) * libm::pow(1.25 * mass * velocity * velocity, 0.6);
     let hit = point_load(&file.design, &input(&file.design)).expect("a point load");
     assert!(hit.height.is_none(), "it comes at the surface of the flow");
-    let force = hit.force;
+    let force = hit.of_boulder;
     assert!((force / by_hand - 1.0).abs() < 1e-9, "{force} {by_hand}");
     let with_boulders = by_equations(file);
     let without = by_equations(read_design("x.yaml", WALL.as_bytes()).expect("a design"));

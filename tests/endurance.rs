@@ -7,10 +7,11 @@
 use barrier_check::validation::scenes::{floor, free_model};
 use dem::Vec3;
 use dem::contact::law::Memory;
+use dem::contact::material::Material;
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
 use dem::ledger::Ledger;
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::simulation::Simulation;
 use dem::tables::barrier::Barrier;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
@@ -61,7 +62,7 @@ fn heap(parts: u32) -> Simulation {
     barrier.friction = 0.4;
     barrier.contact_modulus = 4e6;
     barrier.connect();
-    let material = Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.6 };
+    let material = Material::new(MODULUS, 0.3, 0.6);
     let model = Model {
         barrier: Some(barrier),
         material,

@@ -150,10 +150,10 @@ fn a_plan_that_is_wrong_is_told_with_all_that_is_wrong() {
     let told = said(&ran);
     assert_eq!(ran.status.code(), Some(2));
     for part in [
-        "inputs.0: found a mean without its scatter",
-        "inputs.1: found 37.5 N, allowed the unit of the values before it, kN",
-        "target: found 7",
-        "samples: found 3, allowed 100 to 100000000",
+        ": inputs.0\n  found:   a mean without its scatter",
+        ": inputs.1\n  found:   37.5 N\n  allowed: the unit of the values before it, kN\n",
+        ": target\n  found:   7\n",
+        ": samples\n  found:   3\n  allowed: 100 to 100000000\n",
     ] {
         assert!(told.contains(part), "{part}: {told}");
     }
@@ -169,7 +169,7 @@ fn a_plan_that_is_wrong_is_told_with_all_that_is_wrong() {
     assert!(!here.join("found/reliability.json").exists());
     let pair = "{between: [barrier.flexible_net.dissipators.plateau_force, barrier.flexible_net.anchors.resistance], rank: 0.5}";
     let ran = study(&here, &format!("{ANCHORS}correlations: [{pair}, {pair}]\n"), "2");
-    assert!(ran.status.code() == Some(2) && said(&ran).contains("found a pair again"), "{}", said(&ran));
+    assert!(ran.status.code() == Some(2) && said(&ran).contains("found:   a pair again"), "{}", said(&ran));
 }
 
 /// A factor that the study gives stays, though all others are 1.

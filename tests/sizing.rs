@@ -121,7 +121,11 @@ fn a_plan_that_is_wrong_is_told_with_all_that_is_wrong() {
     let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "found"]);
     let said = text(&ran.stderr);
     assert_eq!(ran.status.code(), Some(2));
-    for told in ["margin: found much, allowed 0 % to 99 %", "choices.0: found 100 kN to 50 kN", "packings: found 0"] {
+    for told in [
+        "plan.yaml:5:9: margin\n  found:   much\n  allowed: 0 % to 99 %\n",
+        ": choices.0\n  found:   100 kN to 50 kN",
+        ": packings\n  found:   0\n",
+    ] {
         assert!(said.contains(told), "{told}: {said}");
     }
     // Where no value makes a design, that is an error with its reason.

@@ -14,6 +14,7 @@ use std::time::Instant;
 
 use dem::Vec3;
 use dem::contact::law::LawConstants;
+use dem::contact::material::Material;
 use dem::elements::net_ring::{NetRing, RingStrength};
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::sliding::Chain;
@@ -162,7 +163,8 @@ impl Stand {
     /// One step of length `step` (s), with a share of the loads.
     fn step(&mut self, step: f64, share: f64) -> NetForces {
         let mut segments = std::mem::take(&mut self.barrier.segments);
-        let mut net = slide_and_pull(&self.barrier, &mut segments, &LawConstants::new(1.0, 2.0 / 7.0, step));
+        let mut net =
+            slide_and_pull(&self.barrier, &mut segments, &LawConstants::of(&Material::new(1.0, 1.0, 0.0), step));
         self.barrier.segments = segments;
         for (node, load) in &self.loads {
             net.forces[*node] += load * share;

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 use barrier_check::scene::flow::packing::{PackingRoom, pack};
 use dem::Vec3;
-use dem::model::{Material, Model};
+use dem::contact::material::Material;
+use dem::model::Model;
 use dem::simulation::Simulation;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Span, Surface, SurfaceRole};
@@ -206,7 +207,7 @@ impl State {
             surfaces,
             terrain,
             barrier: None,
-            material: Material { modulus: MODULUS, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 1.327 },
+            material: Material::new(MODULUS, 0.3, 1.327),
             pores: None,
             inlet: None,
             gravity: Vec3::new(libm::sin(slope), 0.0, -libm::cos(slope)) * 9.81,

@@ -108,13 +108,13 @@ impl CheckpointStore {
         }
     }
 
-    /// The same, which keeps nothing and throws nothing away once another run has taken the folder.
+    /// The same, which keeps nothing and throws nothing away once the folder is no longer the one that this run has locked.
     pub fn watched(self, watch: Option<Watch>) -> Self {
         Self { watch, ..self }
     }
 
-    fn another_has_come(&self) -> bool {
-        self.watch.as_ref().is_some_and(Watch::another_has_come)
+    fn folder_is_lost(&self) -> bool {
+        self.watch.as_ref().is_some_and(Watch::is_lost)
     }
 
     /// The request of the store in `folder`.
@@ -130,7 +130,7 @@ impl CheckpointStore {
     /// Whether there is something of this run to go on with.
     pub fn can_be_resumed(&self) -> bool {
         let kept = self.kept.load(Ordering::Relaxed) || !self.fresh;
-        kept && !self.another_has_come() && Self::request_in(&self.folder).is_ok()
+        kept && !self.folder_is_lost() && Self::request_in(&self.folder).is_ok()
     }
 
     /// Whether a run that was kept before is still there, because this one ended before it was worth more.
@@ -148,7 +148,7 @@ impl CheckpointStore {
 
     /// Throws everything away: the run is done. A resumed run to which nothing of what lay there belonged has begun anew, which is told.
     pub fn clear(&self) {
-        if self.another_has_come() {
+        if self.folder_is_lost() {
             return;
         }
         let asked = self.asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -188,8 +188,8 @@ impl CheckpointStore {
     }
 
     fn put<T: Serialize>(&self, name: &str, print: [u8; 32], content: &T) {
-        let kept = match self.another_has_come() {
-            true => Err(std::io::Error::other("the folder was removed, and another run has taken its place")),
+        let kept = match self.folder_is_lost() {
+            true => Err(std::io::Error::other("the folder was removed or moved away during the run")),
             false => write(&self.folder.join(name), Kind::Simulation, Some(print), content),
         };
         let result = kept.and_then(|()| self.put_request());

@@ -12,6 +12,9 @@ pub const LARGEST_SAG: f64 = 0.3;
 
 pub const LARGEST_STRAIN: f64 = 0.1;
 
+/// Slope of a channel (deg) above which the equations are not known to hold.
+const STEEPEST_CHANNEL: f64 = 50.0;
+
 /// What hangs on a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bearing {
@@ -132,6 +135,17 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
             advice: "advice only, which leaves no check open: pressures are proportional to the density, and K and λ are chosen in the design; the guideline set them for flows within this range: compare with \"Other models for the first surge\", and with K and λ of the simulation",
             // Pressures are proportional to the density; that K or λ hang on it as well is not known.
             bearing: Bearing::Advice,
+        },
+        Rule {
+            bearing: Bearing::Pressures,
+            ..most(
+                "Slope of the bed at the barrier",
+                design.channel.slope.to_degrees(),
+                STEEPEST_CHANNEL,
+                "deg",
+                "a limit set here: no barrier that the equations were compared with stands in a channel as steep",
+                "what comes down so steep a slope falls onto the barrier rather than flows against it: give the slope of the reach in which the barrier stands",
+            )
         },
         Rule {
             bearing: Bearing::Pressures,

@@ -19,7 +19,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let mut outcome = match design.limits.freeboard {
         None => Outcome::informative(name(NO_LIMIT), demand),
         Some(freeboard) => {
+            // More freeboard than there is barrier leaves no room; asked so that what is not a number stays so.
             let room = height_kept(design, demands) - freeboard;
+            let room = if room < 0.0 { 0.0 } else { room };
             Outcome::at_most(name(DESIGN_LIMIT), demand, Resistance { characteristic: room, factor: 1.0 }, 1.0)
         }
     };

@@ -43,7 +43,7 @@ fn of_flow_and_channel(design: &Design) -> Vec<Usual> {
         usual("channel.base_friction", angle(channel.base_friction), "deg", [5.0, 50.0]),
         usual("flow.grain_friction", angle(flow.grain_friction), "deg", [15.0, 55.0]),
         usual("flow.solid_density", flow.solid_density, "kg/m³", [2200.0, 3200.0]),
-        usual("flow.bulk_density", flow.bulk_density, "kg/m³", [1000.0, 2500.0]),
+        usual("flow.bulk_density", flow.bulk_density, "kg/m³", [1200.0, 2500.0]),
     ];
     let velocity = match flow.arrival {
         Arrival::Surge(surge) => Some((

@@ -1,23 +1,34 @@
-//! Total force on the barrier against the resistance of a rigid wall. A net's force is borne by its parts, which are checked one by
+//! Total force on the barrier against the resistance of a rigid wall; on one that goes on below the bed with what ground and water press with on its
+//! buried face. A net's force is borne by its parts, which are checked one by
 //! one; a wall that stands by its weight is checked against sliding and overturning.
 
-use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, LoadScaling, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
+use crate::guideline::buried_thrust;
 use crate::quantities::quantity::Unit;
 use crate::quantities::total_force;
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    let name = |source| CheckName::new("total_force", "Total force on the barrier", Unit::Newton, source);
-    let demand = demands.one(&total_force::PEAK);
+    let width = design.channel.width;
+    let [own, own_characteristic] = [true, false].map(|factored| width * buried_thrust(design, factored)[0]);
+    let title = if own > 0.0 {
+        "Total force on the wall, with the ground on its buried face"
+    } else {
+        "Total force on the barrier"
+    };
+    let name = |source| CheckName::new("total_force", title, Unit::Newton, source);
+    let demand = demands.one(&total_force::PEAK).with_own(own, own_characteristic);
     let BarrierDesign::RigidWall(wall) = &design.barrier else {
         return vec![Outcome::informative(name(NO_LIMIT), demand)];
     };
     vec![match (wall.resistance, wall.stability) {
         (Some(characteristic), _) => {
             let resistance = Resistance { characteristic, factor: wall.resistance_factor };
-            Outcome { kind: Kind::WallStrength, ..Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0) }
+            let growth = LoadScaling::InProportion { fixed: own };
+            let outcome = Outcome::at_most(name(DESIGN_LIMIT), demand, resistance, 1.0);
+            Outcome { kind: Kind::WallStrength, growth, ..outcome }
         }
         // A plain block bears what it weighs; a foot that reaches out must be able to.
         (None, Some(stability)) if stability.base_width <= stability.thickness => {

@@ -139,13 +139,7 @@ impl Base {
 
 /// A demand with what is there without the flow.
 fn with_own(demand: Demand, own: f64) -> Demand {
-    let with = |value: f64| value + own;
-    Demand {
-        guideline: demand.guideline.map(with),
-        simulation: demand.simulation.map(with),
-        characteristic: demand.characteristic.map(with),
-        cap: None,
-    }
+    demand.with_own(own, own)
 }
 
 fn held(name: CheckName, demand: Demand, characteristic: f64, factor: f64) -> Outcome {
@@ -206,7 +200,7 @@ fn leave_open_untold(stability: &Stability, outcomes: &mut [Outcome]) {
 
 /// A point load spreads no further than to the next joint of the wall, and a short block slides and turns under it where a long one stands.
 fn leave_open_where_joints_are_unknown(design: &Design, stability: &Stability, outcomes: &mut [Outcome]) {
-    if stability.block_length.is_some() || point_load(design, &input(design)).is_none_or(|hit| hit.force == 0.0) {
+    if stability.block_length.is_some() || point_load(design, &input(design)).is_none_or(|hit| hit.hardest() == 0.0) {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {

@@ -1,32 +1,32 @@
 //! What a boulder does to the metre of a wall that it hits: that resists no more than its share of what the whole wall does.
 
-use crate::checks::outcome::{CheckName, Kind, Outcome, Resistance};
+use crate::checks::outcome::{CheckName, Kind, LoadScaling, Outcome, Resistance};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{input, point_load};
+use crate::guideline::{buried_thrust, input, point_load};
 use crate::quantities::quantity::Unit;
 use crate::quantities::total_force;
 use crate::sources::DESIGN_LIMIT;
 
-const OF_A_BOULDER: &str = "limit of the design file; the load is the elastic force of a boulder of flow.boulders (Hertz 1882) times loads.impact_reduction, which is uncertain";
+const OF_A_BOULDER: &str = "limit of the design file; the load is no less than the elastic force of a boulder of flow.boulders (Hertz 1882) times loads.impact_reduction, which is uncertain";
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };
-    let (Some(characteristic), Some(_)) = (wall.resistance, point_load(design, &input(design))) else {
+    let (Some(characteristic), Some(hit)) = (wall.resistance, point_load(design, &input(design))) else {
         return Vec::new();
     };
     let name = CheckName::new(
         "wall_local_force",
         "Force on the metre of the wall that the point load hits, per width",
         Unit::NewtonPerMetre,
-        if design.loads.point_load.is_some() { DESIGN_LIMIT } else { OF_A_BOULDER },
+        if hit.of_boulder > 0.0 { OF_A_BOULDER } else { DESIGN_LIMIT },
     );
     let resistance =
         Resistance { characteristic: characteristic / design.channel.width, factor: wall.resistance_factor };
-    vec![Outcome {
-        kind: Kind::WallStrength,
-        ..Outcome::at_most(name, demands.one(&total_force::ON_A_METRE), resistance, 1.0)
-    }]
+    let own = buried_thrust(design, true)[0];
+    let demand = demands.one(&total_force::ON_A_METRE).with_own(own, buried_thrust(design, false)[0]);
+    let growth = LoadScaling::InProportion { fixed: own };
+    vec![Outcome { kind: Kind::WallStrength, growth, ..Outcome::at_most(name, demand, resistance, 1.0) }]
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ fn tell_what_auto_leaves_out(file: &DesignFile, options: Options) {
 
 /// Goes on with a run that was interrupted, whose report was to go to `folder`.
 pub fn resume(folder: &Path, threads: Option<usize>, audience: Audience, keep_every: Duration) -> ExitCode {
-    let claimed = match folder.is_dir().then(|| claim(folder, None, Named::Explicitly, Kind::Simulation)).transpose() {
+    let claimed = match folder.is_dir().then(|| claim(folder)).transpose() {
         Ok(claimed) => claimed,
         Err(code) => return code,
     };
@@ -299,7 +299,18 @@ fn prepare(
     match load_for(purpose, path) {
         Ok(file) => {
             let named = if out.is_some() { Named::Explicitly } else { Named::ByDefault };
-            let folder = claim(&folder_of(&file.name), Some(path), named, kind)?;
+            let folder =
+                Folder::claim(&folder_of(&file.name), Some(path), named).and_then(|folder| folder.for_kind(kind));
+            let folder = folder.map_err(|refusal| {
+                format.tell_refusal(&file.name, &refusal);
+                ExitCode::Undecided
+            })?;
+            if folder.holds_anothers_report() {
+                terminal::warn(format_args!(
+                    "note: {} holds the report of another design file, whose place this one takes",
+                    folder.path().display()
+                ));
+            }
             Ok((file, folder))
         }
         Err(problems) => {
@@ -310,9 +321,10 @@ fn prepare(
     }
 }
 
-/// Takes the folder of a report before the run, so that nobody waits for what cannot be kept.
-pub fn claim(folder: &Path, source: Option<&Path>, named: Named, kind: Kind) -> Result<Folder, ExitCode> {
-    Folder::claim(folder, source, named).and_then(|folder| folder.for_kind(kind)).map_err(|refusal| {
+/// Takes the folder of a run that is kept, before it goes on, so that nobody waits for what cannot be kept.
+fn claim(folder: &Path) -> Result<Folder, ExitCode> {
+    let claimed = Folder::claim(folder, None, Named::Explicitly);
+    claimed.and_then(|folder| folder.for_kind(Kind::Simulation)).map_err(|refusal| {
         terminal::warn(format_args!("error: {refusal}"));
         ExitCode::Undecided
     })

@@ -10,6 +10,7 @@ use crate::design::read::stem;
 use crate::exports::Exports;
 use crate::pipeline::Run;
 use crate::problem::{Problem, Problems};
+use crate::report::folder::Refusal;
 use crate::report::view::View;
 use crate::report::{drawing, vtk, workbook};
 use crate::scene::estimate::Estimate;
@@ -118,6 +119,19 @@ impl Format {
         }
     }
 
+    /// Why the report of a design, by its name, may not be written where it should be.
+    pub fn tell_refusal(self, design: &str, refusal: &Refusal) {
+        terminal::warn(format_args!("error: {refusal}"));
+        if self == Self::Json {
+            let problem = Problem::new(
+                "",
+                refusal.to_string(),
+                "a folder that is new, empty, or of an earlier run of this design",
+            );
+            MessagesFile { problems: vec![ProblemPart::from(&problem)], ..MessagesFile::of(design) }.say();
+        }
+    }
+
     /// How a run ended, whose report was written into `folder`.
     pub fn tell_verdict(self, run: &Run, view: &View, folder: &Path, exports: Exports) {
         match self {
@@ -166,6 +180,10 @@ fn summarise(view: &View, folder: &Path, exports: Exports) {
     for doubt in &view.doubts {
         say(format!("  {doubt}"));
     }
+    if !view.warnings.is_empty() {
+        let ids: Vec<&str> = view.warnings.iter().map(|warning| warning.id).collect();
+        say(format!("  points for the reviewer, told at the top of the report: {}", ids.join(", ")));
+    }
     for reason in &view.open {
         say(format!("  open, because {}: {}", reason.why, reason.checks));
     }
@@ -175,7 +193,8 @@ fn summarise(view: &View, folder: &Path, exports: Exports) {
         (exports.dxf, "drawing", drawing::FILE),
         (exports.pdf, "pdf", printed::FILE),
     ] {
-        if asked {
+        // A browser may have failed to print.
+        if asked && folder.join(file).exists() {
             say(format!("{name}: {}", folder.join(file).display()));
         }
     }

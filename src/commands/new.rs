@@ -34,6 +34,9 @@ pub fn new(given: &Given) -> ExitCode {
 
 fn written(given: &Given) -> Result<(), Failure> {
     let file = &given.file;
+    if file.as_os_str() == "-" {
+        return Err("error: `-` is no name of a file; name the one that the design is to be written to".into());
+    }
     if file.symlink_metadata().is_ok() {
         return Err(format!("error: {} is there already; name another file", file.display()).into());
     }

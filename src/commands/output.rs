@@ -66,7 +66,15 @@ pub fn write_report_for(
         printing.print(for_paper(&mut view)?);
     }
     let files = files(run, &view, exports);
-    let printed = printing.map(Printing::take).transpose()?.map(|pdf| ReportFile::new(printed::FILE, pdf));
+    // A report is not lost because it could not be printed as well.
+    let printed = printing.map(Printing::take).transpose().unwrap_or_else(|error| {
+        terminal::warn(format_args!(
+            "warning: there is no {}: {error}; the rest of the report is written",
+            printed::FILE
+        ));
+        None
+    });
+    let printed = printed.map(|pdf| ReportFile::new(printed::FILE, pdf));
     files.and_then(|files| put(folder, &files.into_iter().chain(printed).collect::<Vec<_>>())).map_err(|error| {
         Failure::from(format!("the report could not be written to {}: {error}", folder.path().display()))
     })?;

@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
 
 use crate::report::glimpse::Picture;
+use crate::report::numbers::with_unit;
 use crate::scene::event::ProgressReport;
 use crate::terminal;
 
@@ -167,7 +168,7 @@ impl Told {
 fn words(report: &ProgressReport) -> String {
     let which =
         if report.of > 1 { format!("simulation {} of {}, ", report.number + 1, report.of) } else { String::new() };
-    format!("{which}simulated {:.2} s, force {:.4} kN", report.time, report.force / 1e3)
+    format!("{which}simulated {:.2} s, force {}", report.time, with_unit(report.force, "N"))
 }
 
 /// Time that a run of which a share is done may still take (s); nothing while too little of it is done.

@@ -16,6 +16,7 @@ use crate::commands::size::size;
 use crate::commands::steps::Steps;
 use crate::commands::sweep::sweep;
 use crate::design::read::DesignFile;
+use crate::problem::Problems;
 use crate::report::folder::{Folder, Named, Refusal, folder_name};
 use crate::report::kind::Kind;
 use crate::report::stability_map::files as map_files;
@@ -40,7 +41,11 @@ pub fn study(path: &Path, out: Option<&Path>, mode: &Mode) -> ExitCode {
             code
         }
         Err(error) => {
-            terminal::warn(format_args!("error: {error}"));
+            match error.downcast_ref::<Problems>() {
+                // Each of them says that it is an error.
+                Some(problems) => terminal::warn(problems.to_string().trim_end()),
+                None => terminal::warn(format_args!("error: {error}")),
+            };
             ExitCode::Undecided
         }
     }
@@ -50,7 +55,9 @@ pub fn study(path: &Path, out: Option<&Path>, mode: &Mode) -> ExitCode {
 fn run(path: &Path, out: Option<&Path>, mode: &Mode) -> Result<(Option<PathBuf>, ExitCode), Failure> {
     let bytes = input::read(path, LONGEST_TEXT, b"").map_err(|error| format!("{}: {error}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{}: it is not text in UTF-8", path.display()))?;
-    let study = Study::read(&text).map_err(|wrong| format!("{}:\n  {}", path.display(), wrong.join("\n  ")))?;
+    let beside = path.parent().unwrap_or(Path::new("."));
+    let exists = |design: &Path| beside.join(design).is_file();
+    let study = Study::read(&text, &exists).map_err(|list| Problems { file: path.display().to_string(), list })?;
     let place_of =
         |name: &str| out.map_or_else(|| Path::new("out").join("studies").join(folder_name(name)), PathBuf::from);
     let folder_of = |name: &str| {
@@ -59,7 +66,6 @@ fn run(path: &Path, out: Option<&Path>, mode: &Mode) -> Result<(Option<PathBuf>,
         tell_of_replaced(&folder, Kind::Study);
         Ok::<_, Refusal>(folder)
     };
-    let beside = path.parent().unwrap_or(Path::new("."));
     if !matches!(study, Study::Sweep(_)) && *mode != Mode::On(Engine::Local) {
         return Err(
             "only the runs of a study of the kind sweep are known beforehand: the others decide on their next runs by the last ones, and run here"

@@ -111,7 +111,9 @@ impl Meeting<'_> {
 
     /// A share that must be kept, in the characteristic and in the factored case.
     fn kept(&self, read: Read) -> Demand {
-        let lower = |observed: &[&Observed]| spread(observed, read).map(|spread| spread.lower());
+        // No less than nothing is kept, whatever the scatter makes of it.
+        let share = |lower: f64| if lower < 0.0 { 0.0 } else { lower };
+        let lower = |observed: &[&Observed]| spread(observed, read).map(|spread| share(spread.lower()));
         let smaller = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) };
         let both = lower(self.governing).into_iter().chain(lower(&self.seen.characteristic));
         let characteristic = lower(&self.seen.characteristic).filter(|_| !self.seen.factored.is_empty());

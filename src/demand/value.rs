@@ -26,6 +26,16 @@ impl Demand {
         Self { simulation, cap: self.cap.zip(other.cap).map(|(a, b)| a.max(b)), ..*self }
     }
 
+    /// The same with what is there without the flow, with partial factors and without.
+    pub fn with_own(&self, own: f64, characteristic: f64) -> Self {
+        Self {
+            guideline: self.guideline.map(|value| value + own),
+            simulation: self.simulation.map(|value| value + own),
+            characteristic: self.characteristic.map(|value| value + characteristic),
+            cap: self.cap.map(|cap| cap + own),
+        }
+    }
+
     /// The larger of the two; NaN if either is.
     pub fn largest(&self) -> Option<f64> {
         self.guideline.into_iter().chain(self.simulation).reduce(larger_or_nan)

@@ -83,6 +83,11 @@ impl Boulders {
         [aspect * self.diameter, self.diameter]
     }
 
+    /// Way that one of them may lie aside within a share of the width (m), with the length over breadth of the grains.
+    pub fn room_aside(&self, share: f64, aspect: f64) -> f64 {
+        (share - PITCH * self.extent(aspect)[0]).max(0.0)
+    }
+
     /// How many of a length and breadth lie side by side across a width, and how long all their rows are along the bed (m).
     pub fn rows(&self, width: f64, [length, breadth]: [f64; 2]) -> (u32, f64) {
         let abreast = ((width / (PITCH * length)).floor() as u32).clamp(1, self.number.max(1));
@@ -153,6 +158,12 @@ impl Flow {
             self.boulders.iter().map(|boulders| [boulders.diameter, boulders.mass() / f64::from(boulders.number)]);
         // A grain that is not known is none.
         boulders.fold(grain, |largest, boulder| if largest[1] >= boulder[1] { largest } else { boulder })
+    }
+
+    /// Whether that is known: the sizes of the grains are given up to their coarse end, or a boulder is larger than they seem to be.
+    pub fn tells_the_largest(&self) -> bool {
+        let seems = self.sizes.quantile(1.0);
+        self.sizes.tells_the_largest() || self.boulders.iter().any(|boulders| boulders.diameter >= seems)
     }
 
     /// Volume of the flow with its pores, of the first surge where there are several (m³).

@@ -78,13 +78,27 @@ pub fn times_rise(e: &Entries) -> Option<Problem> {
 
 /// What a file gives is within the bounds of what may be typed.
 pub fn values_are_within_bounds(e: &Entries) -> Option<Problem> {
-    BOUNDS.iter().find_map(|&(name, dimension, most)| {
-        let values = e.numbers(&key(name))?;
-        let outside = values.iter().find(|value| !(0.0..=most).contains(*value))?;
-        let allowed = format!("0 to {}", dimension.show(most));
-        Some(Problem::new(key(name), dimension.show(*outside), allowed))
-    })
+    let of_column = |&(name, dimension, most): &(&'static str, Dimension, f64)| {
+        let values = e.numbers(&key(name)).unwrap_or_default().iter().enumerate();
+        let outside = values.filter(move |(_, value)| !(0.0..=most).contains(*value));
+        outside.map(move |(row, value)| (name, row + 1, dimension.show(*value), dimension.show(most)))
+    };
+    let outside: Vec<_> = BOUNDS.iter().flat_map(of_column).collect();
+    let (first, _, _, _) = outside.first()?;
+    let in_a_row =
+        |(name, row, value, _): &(&str, usize, String, String)| format!("{value} in row {row} of the {name}");
+    let mut found: Vec<String> = outside.iter().take(NAMED).map(in_a_row).collect();
+    if outside.len() > NAMED {
+        found.push(format!("and {} more", outside.len() - NAMED));
+    }
+    let mut allowed: Vec<String> = outside.iter().map(|(name, _, _, most)| format!("{name} of 0 to {most}")).collect();
+    allowed.dedup();
+    let place = if e.mentions(&key("file")) { "file" } else { first };
+    Some(Problem::new(key(place), found.join(", "), allowed.join(", ")))
 }
+
+/// Values outside their bounds that an error names.
+const NAMED: usize = 5;
 
 /// A row with a discharge has what carries it.
 pub fn discharges_are_carried(e: &Entries) -> Option<Problem> {

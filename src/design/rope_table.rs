@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use crate::design::table_file::{Wrong, factor, name_and_unit, reader, without_unit};
+use crate::design::table_file::{Wrong, factor, name_and_unit, reader, together, without_unit};
+use crate::problem::harmless;
 use crate::units::Dimension;
 
 /// A rope of the table.
@@ -102,29 +103,26 @@ pub fn parse(bytes: &[u8]) -> Result<Vec<Listed>, Wrong> {
         }
     }
     let mut ropes: Vec<Listed> = Vec::new();
+    let mut faults = Vec::new();
     for row in table.records() {
         let row = row.map_err(|error| wrong(format!("which cannot be read: {error}")))?;
         let line = row.position().map_or(0, csv::Position::line);
-        let rope = listed(&row, &columns, &heads).map_err(|(head, why)| {
-            let hint = match why.contains(',') {
-                true => "numbers have a decimal point",
-                false => EXAMPLE,
-            };
-            (format!("whose line {line} holds {why} in the column `{head}`"), hint.to_string())
-        })?;
-        if ropes.iter().any(|other| plain(&other.name) == plain(&rope.name)) {
-            return Err(wrong(format!("whose line {line} has the name `{}` again", rope.name)));
+        match listed(&row, &columns, &heads) {
+            Err((head, why, hint)) => faults.push((format!("line {line} holds {why} in the column `{head}`"), hint)),
+            Ok(rope) if ropes.iter().any(|other| plain(&other.name) == plain(&rope.name)) => {
+                faults.push((format!("line {line} has the name `{}` again", rope.name), EXAMPLE.to_string()));
+            }
+            Ok(rope) => ropes.push(rope),
         }
-        ropes.push(rope);
         if ropes.len() > MOST_ROPES {
             return Err(wrong(format!("of more than {MOST_ROPES} ropes")));
         }
     }
-    Ok(ropes)
+    if faults.is_empty() { Ok(ropes) } else { Err(together(&faults)) }
 }
 
-/// A row as a rope, or the head of a column and what is wrong with its value.
-fn listed(row: &csv::StringRecord, columns: &[Column], heads: &[String]) -> Result<Listed, (String, String)> {
+/// A row as a rope, or the head of a column, what is wrong with its value and what would be right.
+fn listed(row: &csv::StringRecord, columns: &[Column], heads: &[String]) -> Result<Listed, (String, String, String)> {
     let mut rope = Listed {
         name: String::new(),
         diameter: 0.0,
@@ -137,18 +135,27 @@ fn listed(row: &csv::StringRecord, columns: &[Column], heads: &[String]) -> Resu
     for ((text, column), head) in row.iter().zip(columns).zip(heads) {
         let number = |factor: f64, [low, high]: [f64; 2]| match text.parse::<f64>() {
             Ok(number) if (low..=high).contains(&(number * factor)) => Ok(number * factor),
-            Ok(_) => Err((head.clone(), format!("`{text}`, which no rope has"))),
-            Err(_) => Err((head.clone(), format!("`{text}`, which is no number"))),
+            Ok(_) => {
+                let [low, high] = [low, high].map(|bound| (bound / factor * 1e6).round() / 1e6);
+                let hint = format!("{low} to {high} is allowed there; check the unit in the head of the column");
+                Err((head.clone(), format!("`{text}`, which no rope has"), hint))
+            }
+            Err(_) => {
+                let hint = if text.contains(',') { "numbers have a decimal point" } else { EXAMPLE };
+                Err((head.clone(), format!("`{text}`, which is no number"), hint.to_string()))
+            }
         };
         match column {
-            Column::Name if text.is_empty() => return Err((head.clone(), "no name".into())),
-            Column::Name => rope.name = text.to_string(),
+            Column::Name if text.is_empty() => {
+                return Err((head.clone(), "no name".into(), EXAMPLE.to_string()));
+            }
+            Column::Name => rope.name = harmless(text),
             Column::Diameter(factor) => rope.diameter = number(*factor, DIAMETERS)?,
             Column::BreakingLoad(factor) => rope.breaking_load = number(*factor, BREAKING_LOADS)?,
             Column::Modulus(factor) => rope.modulus = number(*factor, MODULI)?,
             Column::Other if text.is_empty() => {}
-            Column::Other if head == "source" => remarks.push(text.to_string()),
-            Column::Other => remarks.push(format!("{head} {text}")),
+            Column::Other if head == "source" => remarks.push(harmless(text)),
+            Column::Other => remarks.push(harmless(&format!("{head} {text}"))),
         }
     }
     rope.remark = remarks.join("; ");
@@ -173,6 +180,21 @@ mod tests {
             let stress = rope.breaking_load / (std::f64::consts::FRAC_PI_4 * rope.diameter.powi(2));
             assert!((0.5e9..1.3e9).contains(&stress), "{}", rope.name);
         }
+    }
+
+    /// All lines at once, each with its own hint; and nothing of a table steers a terminal or a page.
+    #[test]
+    fn all_lines_of_a_table_are_told() {
+        let head = "name,diameter (mm),breaking_load (kN),modulus (GPa),source\n";
+        let (found, hint) =
+            parse(format!("{head}a,28x,305,60,\nb,22,3e12,60,\nc,22,305,60,\n").as_bytes()).unwrap_err();
+        assert!(
+            found.starts_with("whose line 2 holds `28x`") && found.contains("; whose line 3 holds `3e12`"),
+            "{found}"
+        );
+        assert!(hint.contains("0.001 to 1000000 is allowed there"), "{hint}");
+        let ropes = parse(format!("{head}a\u{1b}[31m,28,305,60,x\u{202e}y\n").as_bytes()).expect("ropes");
+        assert_eq!([&ropes[0].name, &ropes[0].remark], ["a\u{fffd}[31m", "x\u{fffd}y"]);
     }
 
     #[test]

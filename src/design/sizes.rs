@@ -1,12 +1,20 @@
 //! Grain-size distributions.
 
+/// Share of the mass up to which a curve must be given for its coarse end to be continued.
+const COARSE_END: f64 = 0.84;
+
 /// How grain sizes are distributed. Diameters are of the sphere of equal volume (m).
 #[derive(Clone, Debug, PartialEq)]
 pub enum SizeCurve {
     /// Uniform in number between two diameters.
     ByNumber { smallest: f64, largest: f64 },
-    /// Cumulative curve by mass: (share of mass that is finer, diameter), both increasing, from 0 to 1.
-    ByMass(Vec<(f64, f64)>),
+    /// Cumulative curve by mass.
+    ByMass {
+        /// (share of mass that is finer, diameter), both increasing, from 0 to 1.
+        points: Vec<(f64, f64)>,
+        /// Share of the mass that is finer than the coarsest size that is given; beyond it the curve is continued.
+        known_to: f64,
+    },
     /// Nothing is said of the grains, which the equations do not need: every size is NaN.
     Unknown,
 }
@@ -27,7 +35,24 @@ impl SizeCurve {
         if quantiles[count - 1].0 < 1.0 {
             points.push(extend(quantiles[count - 2], quantiles[count - 1], 1.0));
         }
-        Self::ByMass(points)
+        Self::ByMass { points, known_to: quantiles[count - 1].0 }
+    }
+
+    /// Whether the largest grain can be told: the curve is given up to D84 at least, from where on it is continued.
+    pub fn tells_the_largest(&self) -> bool {
+        match self {
+            Self::ByNumber { .. } => true,
+            Self::ByMass { known_to, .. } => *known_to >= COARSE_END,
+            Self::Unknown => false,
+        }
+    }
+
+    /// Share of the mass that is finer than the coarsest size given, where the curve is continued beyond that.
+    pub fn continued_from(&self) -> Option<f64> {
+        match self {
+            Self::ByMass { known_to, .. } if *known_to < 1.0 => Some(*known_to),
+            _ => None,
+        }
     }
 
     /// Diameter below which the given share of the mass lies.
@@ -39,7 +64,7 @@ impl SizeCurve {
                 libm::pow(low + share * (high - low), 0.25)
             }
             Self::Unknown => f64::NAN,
-            Self::ByMass(points) => {
+            Self::ByMass { points, .. } => {
                 let upper = points.iter().position(|point| point.0 >= share).unwrap_or(points.len() - 1).max(1);
                 let ((s0, d0), (s1, d1)) = (points[upper - 1], points[upper]);
                 d0 * libm::pow(d1 / d0, ((share - s0) / (s1 - s0)).clamp(0.0, 1.0))
@@ -53,9 +78,10 @@ impl SizeCurve {
             Self::ByNumber { smallest, largest } => {
                 Self::ByNumber { smallest: smallest * factor, largest: largest * factor }
             }
-            Self::ByMass(points) => {
-                Self::ByMass(points.iter().map(|&(share, diameter)| (share, diameter * factor)).collect())
-            }
+            Self::ByMass { points, known_to } => Self::ByMass {
+                points: points.iter().map(|&(share, diameter)| (share, diameter * factor)).collect(),
+                known_to: *known_to,
+            },
             Self::Unknown => Self::Unknown,
         }
     }
@@ -65,7 +91,7 @@ impl SizeCurve {
     pub fn named(&self, share: f64) -> f64 {
         match self {
             Self::ByNumber { smallest, largest } => smallest + share * (largest - smallest),
-            Self::ByMass(_) | Self::Unknown => self.quantile(share),
+            Self::ByMass { .. } | Self::Unknown => self.quantile(share),
         }
     }
 
@@ -73,7 +99,7 @@ impl SizeCurve {
     pub fn measure(&self) -> &'static str {
         match self {
             Self::ByNumber { .. } => "by number",
-            Self::ByMass(_) | Self::Unknown => "by mass",
+            Self::ByMass { .. } | Self::Unknown => "by mass",
         }
     }
 
@@ -97,7 +123,7 @@ impl SizeCurve {
                 .map(|step| share + (1.0 - share) * f64::from(step) / 20.0)
                 .map(|share| (share, self.quantile(share))),
         );
-        Self::ByMass(points)
+        Self::ByMass { points, known_to: self.continued_from().unwrap_or(1.0) }
     }
 
     /// About how many grains a solid volume (m³) makes.
@@ -179,6 +205,15 @@ mod tests {
         assert_relative_eq!(cut.quantile(0.0), curve.quantile(0.6), max_relative = 1e-6);
         assert!(cut.count(100.0) < 0.5 * curve.count(100.0));
         assert_relative_eq!(curve.finer_than(0.15), 0.5, max_relative = 1e-6);
+    }
+
+    #[test]
+    fn a_curve_given_up_to_its_middle_does_not_tell_its_largest_grain() {
+        let tells = |coarsest: f64| SizeCurve::through(&[(0.1, 0.05), (coarsest, 0.3)]).tells_the_largest();
+        assert_eq!([0.5, 0.7, 0.84, 0.9, 1.0].map(tells), [false, false, true, true, true]);
+        assert!(!SizeCurve::through(&[(0.1, 0.05), (0.5, 0.3)]).scaled(2.0).cut_below(0.2).tells_the_largest());
+        assert_eq!(SizeCurve::through(&[(0.1, 0.05), (0.9, 0.3)]).continued_from(), Some(0.9));
+        assert_eq!(SizeCurve::through(&[(0.1, 0.05), (1.0, 0.3)]).continued_from(), None);
     }
 
     #[test]

@@ -74,7 +74,7 @@ impl TableFormat<'_> {
 }
 
 /// Faults of lines as one, with the hints that they have, each once.
-fn together(faults: &[Wrong]) -> Wrong {
+pub fn together(faults: &[Wrong]) -> Wrong {
     let named = &faults[..faults.len().min(NAMED)];
     let found: Vec<&str> = named.iter().map(|(found, _)| found.as_str()).collect();
     let mut hints: Vec<&str> = Vec::new();

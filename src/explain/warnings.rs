@@ -53,6 +53,18 @@ pub const WARNINGS: &[Text] = &[
         source: "",
     },
     Text {
+        id: "coarsest_grains_not_given",
+        meaning: "The grain-size curve ends below D84: it is continued with its last slope on a logarithmic axis of diameters, and the largest grain is taken from there. What the largest stone does to a wall is left open.",
+        formula: "",
+        source: "",
+    },
+    Text {
+        id: "stone_on_the_wall",
+        meaning: "No point load of the design stands for the largest stone of the flow: how hard it may hit, and what a metre of the wall would use under it, with the loads.impact_reduction that the design gives.",
+        formula: "F = max(c F_Hertz, v √(E r m))",
+        source: "Hertz 1882; loads.impact_reduction is the designer's",
+    },
+    Text {
         id: "escaped",
         meaning: "Grains have gone through the bed or a side wall. They count as lost; beyond a limit the run is not relied on.",
         formula: "",

@@ -319,7 +319,7 @@ mod tests {
 
     #[test]
     fn a_point_load_is_shared_by_the_ropes_beside_it() {
-        let point = Hit { force: 100.0, height: Some(1.25), over_deposit: 0.0 };
+        let point = Hit { force: 100.0, height: Some(1.25), over_deposit: 0.0, of_boulder: 0.0 };
         let input = crate::loads::cases::tests::input();
         let case = crate::loads::cases::point_load::case(&input, point);
         let heights = [0.0, 1.0, 2.0];
@@ -331,7 +331,7 @@ mod tests {
         let uneven = |height: f64| {
             let case = crate::loads::cases::point_load::case(
                 &input,
-                Hit { force: 100.0, height: Some(height), over_deposit: 0.0 },
+                Hit { force: 100.0, height: Some(height), over_deposit: 0.0, of_boulder: 0.0 },
             );
             [0, 1, 2].map(|rope| point_on_rope(&case, &[0.0, 1.0, 3.0], rope, 10.0))
         };

@@ -204,6 +204,11 @@ impl Folder {
         !self.manifest.files.is_empty()
     }
 
+    /// Whether that is of another design file than the one whose report is to be written.
+    pub fn holds_anothers_report(&self) -> bool {
+        self.holds_a_report() && self.manifest.source != self.source
+    }
+
     /// Takes a folder within this one, of a report of its own.
     pub fn claim_inner(&self, name: &str, source: Option<&Path>, kind: Kind) -> Result<Self, Refusal> {
         let path = inner(&self.path, name)

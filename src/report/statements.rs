@@ -302,6 +302,7 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
         BarrierDesign::RigidWall(wall) => (false, false, wall.stability.is_none()),
     };
     let loads = &design.loads;
+    let section_is_held = matches!(&design.barrier, BarrierDesign::RigidWall(wall) if wall.resistance.is_some() && wall.moment_resistance.is_some());
     let ringed = matches!(&design.barrier, BarrierDesign::FlexibleNet(net) if net.rings.is_some());
     let list = [
         (
@@ -309,7 +310,14 @@ pub fn not_checked(design: &Design) -> Vec<&'static str> {
             "scour, abutments, and the ground under foundations (a post's foundation is held against the resistance that is given, no more)",
         ),
         (wall, "sliding, overturning and bearing of the wall (rigid_wall.stability would have them checked)"),
-        (!net, "bending and shear of the wall itself; the segments' pressures are told for that"),
+        (
+            !net && !section_is_held,
+            "bending and shear of the wall itself (rigid_wall.resistance and moment_resistance would have them checked; the segments' pressures are told for that)",
+        ),
+        (
+            section_is_held,
+            "bending and shear of the wall between its metres, its reinforcement and its joints (the resistances given are of whole metres)",
+        ),
         (true, "corrosion, abrasion and maintenance"),
         (net && !ringed, "the rings that join the net to its main ropes; punching of the mesh by a single stone"),
         (ringed, "shackles and clamps of the net; punching of the net by a single stone"),

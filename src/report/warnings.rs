@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::checks::credibility::ESCAPED_LIMIT;
 use crate::checks::detailing::{Bearing, rules};
 use crate::checks::implausible::implausible;
+use crate::checks::not_covered::largest_grain::hit_on_a_metre;
 use crate::checks::outcome::{CheckVerdict, Kind, Outcome};
 use crate::checks::range::rope_outside;
 use crate::demand::USED_UP;
@@ -34,6 +35,8 @@ const WARNINGS: &[(&str, Warning)] = &[
     ("discharge_and_volume", discharge_and_volume),
     ("grains_that_hide_losses", grains_that_hide_losses),
     ("grains_scaled_to_the_mass", grains_scaled_to_the_mass),
+    ("coarsest_grains_not_given", coarsest_grains_not_given),
+    ("stone_on_the_wall", stone_on_the_wall),
     ("escaped", escaped),
     ("run_up_over_the_banks", run_up_over_the_banks),
     ("level_over_the_barrier", level_over_the_barrier),
@@ -337,6 +340,32 @@ fn grains_scaled_to_the_mass(run: &Run) -> Option<String> {
             if scale > 1.0 { "larger" } else { "smaller" }
         )
     })
+}
+
+/// A curve that is continued beyond what is given of it.
+fn coarsest_grains_not_given(run: &Run) -> Option<String> {
+    let flow = &run.file.design.flow;
+    let sizes = &flow.sizes;
+    let share = sizes.continued_from().filter(|_| !flow.tells_the_largest())?;
+    Some(format!(
+        "The grain sizes are given up to D{:.0} = {}: the curve is continued from there, and the largest grain is taken to be {}.",
+        100.0 * share,
+        with_unit(sizes.quantile(share), "m"),
+        with_unit(sizes.quantile(1.0), "m")
+    ))
+}
+
+/// What a share of the elastic force, given as a number alone, makes of the hit of a stone.
+fn stone_on_the_wall(run: &Run) -> Option<String> {
+    let design = &run.file.design;
+    let BarrierDesign::RigidWall(_) = &design.barrier else { return None };
+    let [force, used] = hit_on_a_metre(design, &run.guideline)?;
+    Some(format!(
+        "The largest stone of the flow may hit a metre of the wall with {}, which would then use {:.0} % of what it holds. That rests on loads.impact_reduction of {}, whose source belongs with this report.",
+        with_unit(force, "N"),
+        100.0 * used,
+        figures(design.loads.impact_reduction?)
+    ))
 }
 
 fn escaped(run: &Run) -> Option<String> {

@@ -16,8 +16,9 @@ use crate::scene::surges::farthest_upstream;
 use crate::section::{Section, Survey};
 use crate::units::GRAVITY;
 use dem::Vec3;
+use dem::contact::material::Material;
 use dem::elements::ground::{Ground, Plane};
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::recorders::gauge::GaugeWindow;
 use dem::recorders::passage::WallFace;
 use dem::recorders::setup::RecorderSetup;
@@ -191,12 +192,7 @@ fn stand(design: &Design, fidelity: &Fidelity, grains: Vec<Grain>, block: &Block
         surfaces: surfaces(design, block),
         terrain: design.channel.ground().map(|survey| terrain_of(design, &survey, block)),
         barrier: None,
-        material: Material {
-            modulus: flow.modulus,
-            restitution: flow.restitution,
-            tangential_ratio: 2.0 / 7.0,
-            friction: flow.grain_friction,
-        },
+        material: Material::new(flow.modulus, flow.restitution, flow.grain_friction),
         pores: flow.pore_fluid.map(|fluid| Pores {
             ratio: fluid.pressure_ratio,
             drains_in: fluid.drains_in,

@@ -8,6 +8,7 @@ use serde_yaml::Value;
 
 use crate::design::changes::Changes;
 use crate::design::document::Node;
+use crate::problem::Problem;
 use crate::studies::amount::{Amount, node, shown};
 
 /// One choice as a study file has it: a key with its values or with a range of them, or options that set several keys at once.
@@ -47,25 +48,25 @@ pub const MOST_COMBINATIONS: usize = 200_000;
 
 impl ChoiceText {
     /// The choice, or what is wrong with it.
-    pub fn choice(&self) -> Result<Choice, String> {
+    pub fn choice(&self) -> Result<Choice, Problem> {
         let range = [&self.from, &self.to, &self.step];
         let has_range = range.iter().any(|end| end.is_some());
         match (&self.key, &self.name, &self.values, &self.options) {
             (Some(key), None, Some(values), None) if !has_range => of_values(key, values),
             (Some(key), None, None, None) => match range {
                 [Some(from), Some(to), Some(step)] => of_range(key, [from, to, step]),
-                _ => Err("found a key alone, allowed a key with values, or with from, to and step".into()),
+                _ => Err(Problem::of("a key alone", "a key with values, or with from, to and step")),
             },
             (None, Some(name), None, Some(options)) if !has_range => of_options(name, options),
-            _ => Err(
-                "found another mixture of keys, allowed key with values; key with from, to and step; or name with options"
-                    .into(),
-            ),
+            _ => Err(Problem::of(
+                "another mixture of keys",
+                "key with values; key with from, to and step; or name with options",
+            )),
         }
     }
 }
 
-fn of_values(key: &str, values: &[Value]) -> Result<Choice, String> {
+fn of_values(key: &str, values: &[Value]) -> Result<Choice, Problem> {
     let option = |value: &Value| {
         let node = node(value);
         ChosenOption { label: shown(&node), changes: vec![(key.to_string(), node)] }
@@ -74,25 +75,23 @@ fn of_values(key: &str, values: &[Value]) -> Result<Choice, String> {
 }
 
 /// From one end to the other, both included, in the unit that all three have.
-fn of_range(key: &str, ends: [&str; 3]) -> Result<Choice, String> {
+fn of_range(key: &str, ends: [&str; 3]) -> Result<Choice, Problem> {
     let [Some(first), Some(last), Some(by)] = ends.map(Amount::parse) else {
-        return Err(format!("found {}, {} and {}, allowed numbers with one unit", ends[0], ends[1], ends[2]));
+        return Err(Problem::of(format!("{}, {} and {}", ends[0], ends[1], ends[2]), "numbers with one unit"));
     };
     let (from, to, step, unit) = (first.value, last.value, by.value, first.unit);
     if unit != last.unit || unit != by.unit {
-        return Err(format!("found {}, {} and {}, allowed the same unit in all three", ends[0], ends[1], ends[2]));
+        return Err(Problem::of(format!("{}, {} and {}", ends[0], ends[1], ends[2]), "the same unit in all three"));
     }
     let count = (to - from) / step;
     if !(step > 0.0 && (0.0..=MOST_OF_A_RANGE).contains(&count)) {
-        return Err(format!("found {} to {} by {}, allowed 1 to 1000 rising values", ends[0], ends[1], ends[2]));
+        return Err(Problem::of(format!("{} to {} by {}", ends[0], ends[1], ends[2]), "1 to 1000 rising values"));
     }
     if (count - count.round()).abs() > 1e-6 {
         let last = from + count.floor() * step;
-        let found = format!("found {} to {} by {}", ends[0], ends[1], ends[2]);
-        return Err(format!("{found}, allowed a step that leads to the end: the last value would be {last:.9}")
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_string());
+        let found = format!("{} to {} by {}", ends[0], ends[1], ends[2]);
+        let allowed = format!("a step that leads to the end: the last value would be {last:.9}");
+        return Err(Problem::of(found, allowed.trim_end_matches('0').trim_end_matches('.')));
     }
     let option = |number: usize| {
         // Without the digits that a binary fraction adds.
@@ -108,7 +107,7 @@ fn of_range(key: &str, ends: [&str; 3]) -> Result<Choice, String> {
     named(key, (0..=(count + 1e-9) as usize).map(option).collect())
 }
 
-fn of_options(name: &str, options: &[BTreeMap<String, Value>]) -> Result<Choice, String> {
+fn of_options(name: &str, options: &[BTreeMap<String, Value>]) -> Result<Choice, Problem> {
     let option = |option: &BTreeMap<String, Value>| {
         let changes: Vec<(String, Node)> =
             option.iter().filter(|(key, _)| *key != LABEL).map(|(key, value)| (key.clone(), node(value))).collect();
@@ -119,20 +118,20 @@ fn of_options(name: &str, options: &[BTreeMap<String, Value>]) -> Result<Choice,
     named(name, options.iter().map(option).collect())
 }
 
-fn named(name: &str, options: Vec<ChosenOption>) -> Result<Choice, String> {
+fn named(name: &str, options: Vec<ChosenOption>) -> Result<Choice, Problem> {
     if options.is_empty() {
-        return Err("found no option, allowed one at least".into());
+        return Err(Problem::of("no option", "one at least"));
     }
     // One that only has a label is the design as it is.
     if options.iter().any(|option| option.changes.is_empty() && option.label.is_empty()) {
-        return Err(
-            "found an option that changes nothing, allowed one with keys, or with a label for the design as it is"
-                .into(),
-        );
+        return Err(Problem::of(
+            "an option that changes nothing",
+            "one with keys, or with a label for the design as it is",
+        ));
     }
     let paths = options.iter().flat_map(|option| option.changes.iter().map(|(path, _)| path));
     if let Some(path) = paths.into_iter().find(|path| path.is_empty() || path.split('.').any(str::is_empty)) {
-        return Err(format!("found the key `{path}`, allowed one such as barrier.flexible_net.anchors.resistance"));
+        return Err(Problem::of(format!("the key `{path}`"), "one such as barrier.flexible_net.anchors.resistance"));
     }
     Ok(Choice { name: name.to_string(), options })
 }
@@ -195,7 +194,7 @@ impl Choices {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Choice, String> {
+    fn read(text: &str) -> Result<Choice, Problem> {
         serde_yaml::from_str::<ChoiceText>(text).expect("a choice").choice()
     }
 
@@ -219,6 +218,7 @@ mod tests {
             ("{name: a, values: [1]}", "another mixture"),
         ] {
             let found = read(wrong).unwrap_err();
+            let found = format!("found {}, allowed {}", found.found, found.allowed);
             assert!(found.contains(told), "{wrong}: {found}");
         }
     }

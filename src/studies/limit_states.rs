@@ -262,7 +262,7 @@ mod tests {
     const DESIGN: &[u8] = include_bytes!("../../designs/gravity_wall.yaml");
 
     fn plan() -> ReliabilityPlan {
-        match Study::read(PLAN) {
+        match Study::read(PLAN, &|_| true) {
             Ok(Study::Reliability(plan)) => *plan,
             other => panic!("{other:?}"),
         }
@@ -359,7 +359,7 @@ mod tests {
     #[test]
     fn what_is_not_given_is_not_judged() {
         let text = PLAN.replacen("set:", "set:\n  barrier.rigid_wall.stability.water_head: ~", 1);
-        let plan = match Study::read(&text) {
+        let plan = match Study::read(&text, &|_| true) {
             Ok(Study::Reliability(plan)) => *plan,
             other => panic!("{other:?}"),
         };
@@ -375,7 +375,7 @@ mod tests {
     fn a_sample_that_is_no_design_is_tallied() {
         let text =
             PLAN.replace("normal: {mean: 33 deg, deviation: 3 deg}", "normal: {mean: 33 deg, deviation: 30 deg}");
-        let plan = match Study::read(&text) {
+        let plan = match Study::read(&text, &|_| true) {
             Ok(Study::Reliability(plan)) => *plan,
             other => panic!("{other:?}"),
         };

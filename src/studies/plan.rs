@@ -1,14 +1,14 @@
 //! The file of a study: scenes, knobs and their values.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
 use crate::design::document::{Document, Node};
-use crate::problem::{Problem, nearest};
+use crate::problem::{Position, Problem, harmless, nearest};
 use crate::studies::knobs::Knob;
 use crate::studies::plan_schema::{misfits, of_kind, one_of};
 use crate::studies::reliability_plan::ReliabilityPlan;
@@ -66,29 +66,31 @@ pub fn schema() -> Value {
 const KEYS: &str = "a study with the keys kind, name and those of its kind, as in designs/studies";
 
 impl Study {
-    /// Reads the file's text; tells all that is wrong with it.
-    pub fn read(text: &str) -> Result<Self, Vec<String>> {
+    /// Reads the file's text; tells all that is wrong with it. `exists` tells whether there is a design file of a name.
+    pub fn read(text: &str, exists: &dyn Fn(&Path) -> bool) -> Result<Self, Vec<Problem>> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let document = Document::parse(text.as_bytes(), KEYS).map_err(|problem| vec![told(&problem)])?;
-        let at = |path: &str| document.position(path).map_or(String::new(), |place| format!("line {}, ", place.line));
-        let doubled = doubled("", &document.root);
-        if !doubled.is_empty() {
-            return Err(doubled.iter().map(|path| format!("{}{path}: given twice", at(path))).collect());
-        }
+        let document = Document::parse(text.as_bytes(), KEYS).map_err(|problem| vec![problem])?;
+        let placed = |list: Vec<Problem>| -> Result<(), Vec<Problem>> {
+            let place = |problem: Problem| {
+                let position = document.position(&problem.path);
+                problem.at(position)
+            };
+            if list.is_empty() { Ok(()) } else { Err(list.into_iter().map(place).collect()) }
+        };
+        placed(doubled("", &document.root))?;
+        placed(steering("", &document.root))?;
         if let Node::Map(keys) = &document.root {
             let is_there = |name: &str| keys.iter().any(|(key, _)| key == name);
             if !is_there("kind") && is_there("barrier") && is_there("flow") {
-                return Err(vec![format!("found a design, allowed {KEYS}; run a design with `barrier-check FILE`")]);
+                return Err(vec![Problem::of("a design", KEYS).hint("run a design with `barrier-check FILE`")]);
             }
         }
-        let misread = |error: serde_yaml::Error| vec![plainly(&error.to_string())];
-        // The kind first: the place of a fault is lost where serde has to look ahead for it.
+        // The kind first, which tells what else the file may hold.
         let head: Head = serde_yaml::from_str(text).map_err(misread)?;
         // All at once, and before it is read, which ends at the first.
-        let misfits = misfits(&head.kind.schema(), &document.root);
-        if !misfits.is_empty() {
-            return Err(misfits.into_iter().map(|[path, wrong]| format!("{}{path}: {wrong}", at(&path))).collect());
-        }
+        let mut misfits = misfits(&head.kind.schema(), &document.root);
+        misfits.extend(Self::missing(&document.root, exists));
+        placed(misfits)?;
         let study = match head.kind {
             Kind::SpeedAccuracy => serde_yaml::from_str(text).map(Self::SpeedAccuracy),
             Kind::Stability => serde_yaml::from_str(text).map(Self::Stability),
@@ -97,68 +99,115 @@ impl Study {
             Kind::Sweep => serde_yaml::from_str(text).map(|plan| Self::Sweep(Box::new(plan))),
         };
         let study = study.map_err(misread)?;
-        let wrong = match &study {
+        placed(match &study {
             Self::SpeedAccuracy(plan) => plan.wrong(),
             Self::Stability(plan) => plan.wrong(),
             Self::Size(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
             Self::Reliability(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
             Self::Sweep(plan) => [wrong_name(&plan.name), plan.wrong()].concat(),
+        })?;
+        Ok(study)
+    }
+
+    /// Design files that the study names and that are not there.
+    fn missing(file: &Node, exists: &dyn Fn(&Path) -> bool) -> Vec<Problem> {
+        let Node::Map(keys) = file else { return Vec::new() };
+        let mut list = Vec::new();
+        let mut look = |path: String, node: &Node| {
+            if let Node::Text(name) = node
+                && !exists(Path::new(name))
+            {
+                list.push(Problem::new(
+                    path,
+                    format!("`{name}`, which is not there"),
+                    "a design file, relative to that of the study",
+                ));
+            }
         };
-        if wrong.is_empty() {
-            return Ok(study);
+        for (key, value) in keys.iter().filter(|(key, _)| DESIGNS.contains(&key.as_str())) {
+            match value {
+                Node::List(items) => {
+                    items.iter().enumerate().for_each(|(place, item)| look(format!("{key}.{place}"), item));
+                }
+                one => look(key.clone(), one),
+            }
         }
-        Err(wrong.into_iter().map(|[path, wrong]| format!("{}{path}: {wrong}", at(&path))).collect())
+        list
     }
 }
 
-/// The words of the reader in those of a file.
-fn plainly(error: &str) -> String {
+/// Keys of a study that name design files.
+const DESIGNS: [&str; 3] = ["design", "designs", "scenes"];
+
+/// What the reader finds wrong, in the words of a file.
+#[allow(clippy::needless_pass_by_value)]
+fn misread(error: serde_yaml::Error) -> Vec<Problem> {
     let words = [
-        ("invalid type: ", "found "),
+        ("invalid type: ", ""),
         ("integer `", "the number `"),
         ("floating point `", "the number `"),
         ("string \"", "the text \""),
         ("sequence", "a list"),
         ("a a list", "a list"),
-        ("found map", "found a group of keys"),
-        ("expected a map", "expected a group of keys"),
-        ("expected f64", "expected a number"),
-        ("expected u32", "expected a whole number"),
-        ("expected usize", "expected a whole number"),
-        ("expected struct Head", "expected a group of keys"),
-        ("unknown field", "unknown key"),
-        ("missing field", "missing key"),
-        ("unknown variant", "unknown value"),
-        ("path string", "the name of a file"),
+        ("map", "a group of keys"),
+        ("a a group", "a group"),
+        ("struct Head", "a group of keys"),
+        ("unknown variant", "the unknown value"),
+        ("missing field", "no key"),
     ];
     let text = words.iter().fold(error.to_string(), |text, (from, to)| text.replace(from, to));
-    let near = meant(&text).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
-    text + &near
+    let text = text.split_once(" at line ").map_or(text.as_str(), |(text, _)| text);
+    let (found, allowed) = text.split_once(", expected ").unwrap_or((text, KEYS));
+    let position = error.location().map(|place| Position { line: place.line(), column: place.column() });
+    let problem = Problem::of(found, allowed).at(position);
+    vec![match meant(text) {
+        Some(near) => problem.hint(format!("did you mean `{near}`?")),
+        None => problem,
+    }]
 }
 
 /// The name that an unknown one is nearest to, of those that the same line says are expected.
 fn meant(text: &str) -> Option<String> {
-    let (_, rest) = text.split_once("unknown key `").or_else(|| text.split_once("unknown value `"))?;
+    let (_, rest) = text.split_once("the unknown value `")?;
     let (unknown, rest) = rest.split_once('`')?;
     let expected = rest.split('`').skip(1).step_by(2);
     nearest(unknown, expected).map(String::from)
 }
 
-/// A problem of the whole text in one line.
-fn told(problem: &Problem) -> String {
-    let place = problem.position.map_or(String::new(), |place| format!("line {}: ", place.line));
-    let hint = problem.hint.as_ref().map_or(String::new(), |hint| format!("; {hint}"));
-    format!("{place}found {}, allowed {}{hint}", problem.found, problem.allowed)
+/// Names and texts that hold what a page or a terminal must not show.
+fn steering(path: &str, node: &Node) -> Vec<Problem> {
+    let here = |name: &str| if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+    let steers = |text: &str| harmless(text) != text;
+    let told = |path: String| {
+        vec![Problem::new(
+            path,
+            "a character that steers a terminal or turns text round",
+            "letters, digits and signs that are seen",
+        )]
+    };
+    match node {
+        Node::Map(entries) => {
+            let of = |(name, value): &(String, Node)| {
+                if steers(name) { told(here(name)) } else { steering(&here(name), value) }
+            };
+            entries.iter().flat_map(of).collect()
+        }
+        Node::List(items) => {
+            items.iter().enumerate().flat_map(|(place, item)| steering(&here(&place.to_string()), item)).collect()
+        }
+        Node::Text(text) if steers(text) => told(path.to_string()),
+        Node::Text(_) | Node::Number(_) | Node::Flag(_) | Node::Nothing => Vec::new(),
+    }
 }
 
-/// Paths of keys that stand twice in their group.
-fn doubled(path: &str, node: &Node) -> Vec<String> {
+/// Keys that stand twice in their group.
+fn doubled(path: &str, node: &Node) -> Vec<Problem> {
     let Node::Map(entries) = node else { return Vec::new() };
     let here = |name: &str| if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
     let mut list = Vec::new();
     for (place, (name, value)) in entries.iter().enumerate() {
         if entries[..place].iter().any(|(known, _)| known == name) {
-            list.push(here(name));
+            list.push(Problem::new(here(name), "a key given twice", "each key once").again());
         }
         list.extend(doubled(&here(name), value));
     }
@@ -181,10 +230,10 @@ pub struct StabilityPlan {
 }
 
 impl StabilityPlan {
-    fn wrong(&self) -> Vec<[String; 2]> {
+    fn wrong(&self) -> Vec<Problem> {
         let mut wrong = wrong_name(&self.name);
         if !(100..=10_000_000).contains(&self.steps) {
-            wrong.push(["steps".into(), format!("found {}, allowed 100 to 10000000", self.steps)]);
+            wrong.push(Problem::new("steps", self.steps.to_string(), "100 to 10000000"));
         }
         let rising = self.shares.windows(2).all(|pair| pair[0] < pair[1]);
         if self.shares.is_empty()
@@ -192,10 +241,7 @@ impl StabilityPlan {
             || !rising
             || self.shares.iter().any(|share| !(0.01..=10.0).contains(share))
         {
-            wrong.push([
-                "shares".into(),
-                format!("found {:?}, allowed 1 to 50 rising values of 0.01 to 10", self.shares),
-            ]);
+            wrong.push(Problem::new("shares", format!("{:?}", self.shares), "1 to 50 rising values of 0.01 to 10"));
         }
         wrong
     }
@@ -222,14 +268,10 @@ pub struct Plan {
 }
 
 /// The name becomes that of a folder.
-fn wrong_name(name: &str) -> Vec<[String; 2]> {
+fn wrong_name(name: &str) -> Vec<Problem> {
     let fits = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
     let good = !name.is_empty() && name.len() <= 60 && name.chars().all(fits);
-    if good {
-        Vec::new()
-    } else {
-        vec![["name".into(), format!("found {name:?}, allowed 1 to 60 letters, digits, _ and -")]]
-    }
+    if good { Vec::new() } else { vec![Problem::new("name", format!("{name:?}"), "1 to 60 letters, digits, _ and -")] }
 }
 
 /// Most starts and values, so that a slip of the hand does not run for days.
@@ -237,33 +279,37 @@ const MOST_STARTS: u32 = 100;
 const MOST_VALUES: usize = 20;
 
 impl Plan {
-    fn wrong(&self) -> Vec<[String; 2]> {
+    fn wrong(&self) -> Vec<Problem> {
         let plan = self;
         let mut wrong = wrong_name(&self.name);
         if plan.scenes.is_empty() {
-            wrong.push(["scenes".into(), "found none, allowed one at least".into()]);
+            wrong.push(Problem::new("scenes", "none", "one at least"));
         }
         let names: Vec<_> = plan.scenes.iter().map(|scene| scene.file_stem()).collect();
         if (1..names.len()).any(|place| names[..place].contains(&names[place])) {
-            wrong.push(["scenes".into(), "two have the same file name; their pictures could not be told apart".into()]);
+            wrong.push(Problem::new(
+                "scenes",
+                "two with the same file name",
+                "files of different names, whose pictures can be told apart",
+            ));
         }
         for (key, starts) in [("starts", plan.starts), ("starts_of_knobs", plan.starts_of_knobs)] {
             if !(1..=MOST_STARTS).contains(&starts) {
-                wrong.push([key.into(), format!("found {starts}, allowed 1 to {MOST_STARTS}")]);
+                wrong.push(Problem::new(key, starts.to_string(), format!("1 to {MOST_STARTS}")));
             }
         }
         for (knob, values) in &plan.knobs {
             if values.is_empty() || values.len() > MOST_VALUES {
-                let found = format!("found {} values, allowed 1 to {MOST_VALUES}", values.len());
-                wrong.push([format!("knobs.{}", knob.key()), found]);
+                let path = format!("knobs.{}", knob.key());
+                wrong.push(Problem::new(path, format!("{} values", values.len()), format!("1 to {MOST_VALUES}")));
             }
         }
         let values = |group: &'static str, knob: &Knob, values: &[f64]| {
             let bad = values.iter().copied().filter(|value| !knob.takes(*value));
             let [least, most] = knob.range();
             let told = |value| {
-                let found = format!("found {value}, allowed {least} to {most} ({})", knob.title());
-                [format!("{group}.{}", knob.key()), found]
+                let allowed = format!("{least} to {most} ({})", knob.title());
+                Problem::new(format!("{group}.{}", knob.key()), f64::to_string(&value), allowed)
             };
             bad.map(told).collect::<Vec<_>>()
         };
@@ -277,39 +323,55 @@ impl Plan {
 mod tests {
     use super::*;
 
+    fn read(text: &str) -> Result<Study, Vec<Problem>> {
+        Study::read(text, &|_| true)
+    }
+
+    /// The first that is wrong with a text, in a line.
+    fn first(text: &str) -> String {
+        let wrong = read(text).unwrap_err();
+        let line = wrong[0].position.map_or(0, |position| position.line);
+        let Problem { path, found, allowed, hint, .. } = &wrong[0];
+        format!("{line} {path}: {found}, allowed {allowed} ({})", hint.as_deref().unwrap_or_default())
+    }
+
     #[test]
     fn a_slip_is_told() {
         let text = include_str!("../../designs/studies/speed_accuracy.yaml");
-        assert!(Study::read(text).is_ok());
-        let design = Study::read(include_str!("../../designs/small_net.yaml")).unwrap_err();
-        assert!(design[0].starts_with("found a design") && design[0].contains("`barrier-check FILE`"), "{design:?}");
-        let wrong = Study::read(&text.replace("starts: ", "starts: 1000 # ")).unwrap_err();
-        assert!(wrong.iter().any(|wrong| wrong.contains("1 to 100")), "{wrong:?}");
-        assert!(Study::read(&format!("\u{feff}{text}")).is_ok());
-        assert!(Study::read(&text.replace("step:", "stepp:")).is_err());
+        assert!(read(text).is_ok());
+        let design = read(include_str!("../../designs/small_net.yaml")).unwrap_err();
+        assert!(
+            design[0].found == "a design"
+                && first(include_str!("../../designs/small_net.yaml")).contains("`barrier-check FILE`")
+        );
+        assert!(first(&text.replace("starts: ", "starts: 1000 # ")).ends_with("starts: 1000, allowed 1 to 100 ()"));
+        assert!(read(&format!("\u{feff}{text}")).is_ok());
+        assert!(read(&text.replace("step:", "stepp:")).is_err());
         for (from, to, wanted) in [
-            ("starts: ", "starts: few # ", "starts: found the text \"few\", expected a whole number at line "),
+            ("starts: ", "starts: few # ", "starts: `few`, allowed a whole number ()"),
             ("name: ", "nam: ", "(did you mean `name`?)"),
             (
                 "kind: speed_accuracy",
                 "kind: speed",
-                "kind: unknown value `speed`, expected one of `speed_accuracy`, `stability`, `size`, `reliability`, `sweep` at line ",
+                "the unknown value `speed`, allowed one of `speed_accuracy`, `stability`, `size`, `reliability`, `sweep` ()",
             ),
-            ("step: [", "step: [0.1, fast, ", "knobs.step[1]: found the text \"fast\", expected a number at line "),
+            ("step: [", "step: [0.1, fast, ", "knobs.step.1: `fast`, allowed a number ()"),
         ] {
-            let wrong = Study::read(&text.replacen(from, to, 1)).unwrap_err();
-            assert!(wrong[0].contains(wanted), "{wrong:?}");
+            let told = first(&text.replacen(from, to, 1));
+            assert!(told.contains(wanted), "{told}");
         }
         for (text, found) in [("", "an empty file"), ("- a", "a list")] {
-            let wrong = Study::read(text).unwrap_err();
-            assert!(wrong[0].starts_with(&format!("found {found}, allowed a study with the keys kind")), "{wrong:?}");
+            let told = first(text);
+            assert!(told.contains(&format!(": {found}, allowed a study with the keys kind")), "{told}");
         }
-        assert!(Study::read(&"[".repeat(100_000)).is_err());
-        let wrong = Study::read(&text.replace("knobs:\n", "knobs:\n  step: [0.1]\n")).unwrap_err();
-        assert!(wrong[0].contains("knobs.step: given twice"), "{wrong:?}");
+        assert!(read(&"[".repeat(100_000)).is_err());
+        let steered = first(&text.replacen("name: ", "name: \"a\\e[31m\" # ", 1));
+        assert!(steered.contains("name: a character that steers a terminal"), "{steered}");
+        let doubled = first(&text.replace("knobs:\n", "knobs:\n  step: [0.1]\n"));
+        assert!(doubled.contains("knobs.step: a key given twice"), "{doubled}");
         let line = 1 + text.lines().position(|line| line.trim().starts_with("step: [")).expect("a line");
-        let wrong = Study::read(&text.replacen("step: [", "step: [99, ", 1)).unwrap_err();
-        assert!(wrong[0].starts_with(&format!("line {line}, knobs.step: found 99, allowed 0.005 to 2")), "{wrong:?}");
+        let told = first(&text.replacen("step: [", "step: [99, ", 1));
+        assert!(told.starts_with(&format!("{line} knobs.step: 99, allowed 0.005 to 2")), "{told}");
         for (knob, value) in [
             (Knob::Aspect, 1e9),
             (Knob::CoarseGraining, 0.001),
@@ -318,17 +380,17 @@ mod tests {
             (Knob::Step, -1.0),
             (Knob::Skin, f64::NAN),
         ] {
-            let mut plan: Plan = match Study::read(text) {
+            let mut plan: Plan = match read(text) {
                 Ok(Study::SpeedAccuracy(plan)) => plan,
                 other => panic!("{other:?}"),
             };
-            assert_eq!(plan.wrong(), Vec::<[String; 2]>::new());
+            assert_eq!(plan.wrong(), Vec::<Problem>::new());
             plan.knobs.insert(knob, vec![value]);
             assert_eq!(plan.wrong().len(), 1, "{knob:?} {value}");
         }
         let map = include_str!("../../designs/studies/stability.yaml");
-        assert!(Study::read(map).is_ok());
-        assert!(Study::read(&map.replace("[0.1, ", "[5, ")).is_err());
-        assert!(Study::read(&map.replace("name: stability", "name: ../../outside")).is_err());
+        assert!(read(map).is_ok());
+        assert!(read(&map.replace("[0.1, ", "[5, ")).is_err());
+        assert!(read(&map.replace("name: stability", "name: ../../outside")).is_err());
     }
 }

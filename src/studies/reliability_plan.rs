@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_yaml::Value;
 
 use crate::design::document::Node;
+use crate::problem::Problem;
 use crate::reliability::distribution::{Bounded, Distribution};
 use crate::reliability::inputs::{Correlation, Inputs};
 use crate::studies::amount::{Amount, node, shown};
@@ -168,24 +169,26 @@ pub struct Input {
 struct Units(Option<String>);
 
 impl Units {
-    fn take(&mut self, value: &Value) -> Result<f64, String> {
-        let allowed = || format!("found {}, allowed a number with its unit, as in the design", shown(&node(value)));
+    fn take(&mut self, value: &Value) -> Result<f64, Problem> {
+        let allowed = || Problem::of(shown(&node(value)).to_string(), "a number with its unit, as in the design");
         let amount = Amount::of(value).ok_or_else(allowed)?;
         match self.0.get_or_insert_with(|| amount.unit.clone()) {
             unit if *unit == amount.unit => Ok(amount.value),
             unit if unit.is_empty() => {
-                Err(format!("found {}, allowed a plain number like the values before it", shown(&node(value))))
+                Err(Problem::of(shown(&node(value)).to_string(), "a plain number like the values before it"))
             }
-            unit => Err(format!("found {}, allowed the unit of the values before it, {unit}", shown(&node(value)))),
+            unit => {
+                Err(Problem::of(shown(&node(value)).to_string(), format!("the unit of the values before it, {unit}")))
+            }
         }
     }
 }
 
 impl InputText {
     /// The input, or what is wrong with it.
-    pub fn input(&self) -> Result<Input, String> {
+    pub fn input(&self) -> Result<Input, Problem> {
         if self.key.split('.').any(str::is_empty) {
-            return Err(format!("found the key `{}`, allowed one such as flow.arrival.surge.velocity", self.key));
+            return Err(Problem::of(format!("the key `{}`", self.key), "one such as flow.arrival.surge.velocity"));
         }
         let mut units = Units::default();
         let mut found = Vec::new();
@@ -211,8 +214,9 @@ impl InputText {
         if let Some(text) = &self.table {
             if text.values.len() != text.cumulative.len() {
                 let [values, shares] = [text.values.len(), text.cumulative.len()];
-                return Err(format!(
-                    "found {values} values and {shares} cumulative probabilities, allowed as many of both"
+                return Err(Problem::of(
+                    format!("{values} values and {shares} cumulative probabilities"),
+                    "as many of both",
                 ));
             }
             let values = text.values.iter().map(|value| units.take(value)).collect::<Result<Vec<_>, _>>()?;
@@ -220,15 +224,15 @@ impl InputText {
             found.push(Distribution::Table(rows.collect()));
         }
         let [of] = <[Distribution; 1]>::try_from(found).map_err(|found| {
-            format!(
-                "found {} distributions, allowed one of normal, lognormal, gumbel, uniform, triangular, table",
-                found.len()
+            Problem::of(
+                format!("{} distributions", found.len()),
+                "one of normal, lognormal, gumbel, uniform, triangular, table",
             )
         })?;
         let mut bound = |value: &Option<Value>| value.as_ref().map(|value| units.take(value)).transpose();
         let of = Bounded { of, least: bound(&self.least)?, most: bound(&self.most)? };
         if let Some(allowed) = of.wrong() {
-            return Err(format!("found numbers that make no such distribution, allowed: {allowed}"));
+            return Err(Problem::of("numbers that make no such distribution", allowed.to_string()));
         }
         let unit = units.0.unwrap_or_default();
         Ok(Input { key: self.key.clone(), of, unit, origin: self.origin.clone() })
@@ -237,12 +241,12 @@ impl InputText {
 
 impl MomentsText {
     /// Mean and standard deviation.
-    fn moments(&self, units: &mut Units) -> Result<[f64; 2], String> {
+    fn moments(&self, units: &mut Units) -> Result<[f64; 2], Problem> {
         let mean = units.take(&self.mean)?;
         match (&self.deviation, &self.variation) {
             (Some(deviation), None) => Ok([mean, units.take(deviation)?]),
             (None, Some(variation)) => Ok([mean, share(&shown(&node(variation)))? * mean.abs()]),
-            _ => Err("found a mean without its scatter, or with two, allowed one of deviation and variation".into()),
+            _ => Err(Problem::of("a mean without its scatter, or with two", "one of deviation and variation")),
         }
     }
 }
@@ -292,31 +296,31 @@ impl ReliabilityPlan {
     }
 
     /// What is wrong, by the key where it stands.
-    pub fn wrong(&self) -> Vec<[String; 2]> {
+    pub fn wrong(&self) -> Vec<Problem> {
         let mut wrong = Vec::new();
         if self.inputs.is_empty() || self.inputs.len() > MOST_INPUTS {
-            wrong.push(["inputs".into(), format!("found {}, allowed 1 to {MOST_INPUTS}", self.inputs.len())]);
+            wrong.push(Problem::new("inputs", self.inputs.len().to_string(), format!("1 to {MOST_INPUTS}")));
         }
         for (number, input) in self.inputs.iter().enumerate() {
-            wrong.extend(input.input().err().map(|error| [format!("inputs.{number}"), error]));
+            wrong.extend(input.input().err().map(|problem| problem.under(format!("inputs.{number}"))));
             let within =
                 |key: &str, of: &str| key.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
             let before = self.inputs[..number].iter().map(|before| &before.key);
             if before.into_iter().any(|before| within(before, &input.key) || within(&input.key, before)) {
-                wrong.push([format!("inputs.{number}"), format!("found `{}` twice, allowed each key once", input.key)]);
+                wrong.push(Problem::new(format!("inputs.{number}"), format!("`{}` twice", input.key), "each key once"));
             }
         }
         if let Some(key) = self.set.keys().find(|key| self.inputs.iter().any(|input| input.key == **key)) {
-            wrong.push([format!("set.{key}"), "found an input, allowed a key that does not scatter".into()]);
+            wrong.push(Problem::new(format!("set.{key}"), "an input", "a key that does not scatter"));
         }
         self.wrong_correlations(&mut wrong);
         self.wrong_fragility(&mut wrong);
         if let Some(target) = self.target.filter(|target| !(*target > 0.0 && *target < 1.0)) {
-            wrong.push(["target".into(), format!("found {target}, allowed a probability above 0 and below 1")]);
+            wrong.push(Problem::new("target", format!("{target}"), "a probability above 0 and below 1"));
         }
         let accuracy = self.accuracy.as_deref().map(share);
         if accuracy.as_ref().is_some_and(|share| !share.as_ref().is_ok_and(|share| *share >= 0.01)) {
-            wrong.push(["accuracy".into(), "found no share, allowed 1 % to 99 %".into()]);
+            wrong.push(Problem::new("accuracy", "no share", "1 % to 99 %"));
         }
         // A surrogate with a plane beneath needs more points than the plane has slopes.
         let least = self.packings + 2 * self.inputs.len() + 5;
@@ -327,56 +331,59 @@ impl ReliabilityPlan {
         ];
         for (key, found, least, most) in ranges {
             if !(least..=most).contains(&found) {
-                wrong.push([key.into(), format!("found {found}, allowed {least} to {most}")]);
+                wrong.push(Problem::new(key, found.to_string(), format!("{least} to {most}")));
             }
         }
         wrong
     }
 
-    fn wrong_correlations(&self, wrong: &mut Vec<[String; 2]>) {
+    fn wrong_correlations(&self, wrong: &mut Vec<Problem>) {
         for (number, text) in self.correlations.iter().enumerate() {
             let [one, other_key] = &text.between;
             let known = |key: &String| self.inputs.iter().any(|input| input.key == *key);
             if one == other_key || !known(one) || !known(other_key) {
-                wrong.push([
+                wrong.push(Problem::new(
                     format!("correlations.{number}"),
-                    format!("found {one} and {other_key}, allowed two of the inputs"),
-                ]);
+                    format!("{one} and {other_key}"),
+                    "two of the inputs",
+                ));
             }
             let same = |other: &CorrelationText| other.between.contains(one) && other.between.contains(other_key);
             if self.correlations[..number].iter().any(same) {
-                wrong.push([format!("correlations.{number}"), "found a pair again, allowed each once".into()]);
+                wrong.push(Problem::new(format!("correlations.{number}"), "a pair again", "each once"));
             }
             // Asked so that what is not a number is refused.
             if !(-1.0..=1.0).contains(&text.rank) {
-                wrong.push([format!("correlations.{number}.rank"), format!("found {}, allowed -1 to 1", text.rank)]);
+                wrong.push(Problem::new(format!("correlations.{number}.rank"), text.rank.to_string(), "-1 to 1"));
             }
         }
         if wrong.is_empty() && self.together().is_none() {
-            wrong.push([
-                "correlations".into(),
-                "found correlations that no inputs can have at once, or of two inputs that are one, allowed a positive definite matrix".into(),
-            ]);
+            wrong.push(Problem::new(
+                "correlations",
+                "correlations that no inputs can have at once, or of two inputs that are one",
+                "a positive definite matrix",
+            ));
         }
     }
 
-    fn wrong_fragility(&self, wrong: &mut Vec<[String; 2]>) {
+    fn wrong_fragility(&self, wrong: &mut Vec<Problem>) {
         let Some(fragility) = &self.fragility else { return };
         let Some(Ok(input)) = self.inputs.iter().find(|input| input.key == fragility.key).map(InputText::input) else {
-            wrong.push(["fragility.key".into(), format!("found {}, allowed one of the inputs", fragility.key)]);
+            wrong.push(Problem::new("fragility.key", fragility.key.to_string(), "one of the inputs"));
             return;
         };
         if fragility.values.is_empty() || fragility.values.len() > MOST_EVENTS {
             let found = fragility.values.len();
-            wrong.push(["fragility.values".into(), format!("found {found}, allowed 1 to {MOST_EVENTS}")]);
+            wrong.push(Problem::new("fragility.values", format!("{found}"), format!("1 to {MOST_EVENTS}")));
         }
         for (number, value) in fragility.values.iter().enumerate() {
             let amount = Amount::of(value).filter(|amount| amount.unit == input.unit);
             if amount.is_none_or(|amount| !input.of.score(amount.value).is_finite()) {
                 let found = shown(&node(value));
-                let allowed =
-                    format!("found {found}, allowed a value of its distribution with the unit {}", input.unit);
-                wrong.push([format!("fragility.values.{number}"), allowed]);
+                wrong.push(
+                    Problem::of(found.to_string(), format!("a value of its distribution with the unit {}", input.unit))
+                        .under(format!("fragility.values.{number}")),
+                );
             }
         }
     }

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::design::entries::Purpose;
+use crate::problem::Problem;
 use crate::studies::bill::Prices;
 use crate::studies::choices::{ChoiceText, Choices, MOST_COMBINATIONS};
 use crate::studies::sizing::Wanted;
@@ -67,10 +68,10 @@ fn many() -> usize {
 }
 
 /// A share as 0.1 or 10 %.
-pub fn share(text: &str) -> Result<f64, String> {
+pub fn share(text: &str) -> Result<f64, Problem> {
     let (number, per) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
     let share = number.parse::<f64>().ok().map(|value| value / per);
-    share.filter(|share| (0.0..1.0).contains(share)).ok_or_else(|| format!("found {text}, allowed 0 % to 99 %"))
+    share.filter(|share| (0.0..1.0).contains(share)).ok_or_else(|| Problem::of(text.to_string(), "0 % to 99 %"))
 }
 
 impl SizePlan {
@@ -87,7 +88,7 @@ impl SizePlan {
         }
     }
 
-    fn margin(&self) -> Result<f64, String> {
+    fn margin(&self) -> Result<f64, Problem> {
         self.margin.as_deref().map_or(Ok(0.0), share)
     }
 
@@ -102,41 +103,46 @@ impl SizePlan {
     }
 
     /// What is wrong, by the key where it stands.
-    pub fn wrong(&self) -> Vec<[String; 2]> {
+    pub fn wrong(&self) -> Vec<Problem> {
         let mut wrong = Vec::new();
-        wrong.extend(self.margin().err().map(|error| ["margin".into(), error]));
-        wrong.extend(self.front.iter().filter_map(|text| share(text).err()).map(|error| ["front".into(), error]));
+        wrong.extend(self.margin().err().map(|problem| problem.under("margin")));
+        wrong.extend(self.front.iter().filter_map(|text| share(text).err()).map(|problem| problem.under("front")));
         if self.choices.is_empty() {
-            wrong.push(["choices".into(), "found none, allowed one at least".into()]);
+            wrong.push(Problem::new("choices", "none", "one at least"));
         }
         for (number, choice) in self.choices.iter().enumerate() {
-            wrong.extend(choice.choice().err().map(|error| [format!("choices.{number}"), error]));
+            wrong.extend(choice.choice().err().map(|problem| problem.under(format!("choices.{number}"))));
         }
         if let Some(key) = self.choices().set_twice() {
-            wrong.push(["choices".into(), format!("found `{key}` set by two of them, allowed each key in one")]);
+            wrong.push(Problem::new("choices", format!("`{key}` set by two of them"), "each key in one"));
         }
         if self.choices().count().is_none_or(|count| count > MOST_COMBINATIONS) {
-            wrong.push(["choices".into(), format!("found more ways to combine them than {MOST_COMBINATIONS}")]);
+            wrong.push(Problem::new(
+                "choices",
+                "more ways to combine them",
+                format!("{MOST_COMBINATIONS} at the most"),
+            ));
         }
         if !(1..=100).contains(&self.packings) {
-            wrong.push(["packings".into(), format!("found {}, allowed 1 to 100", self.packings)]);
+            wrong.push(Problem::new("packings", self.packings.to_string(), "1 to 100"));
         }
         if !(1..=10_000).contains(&self.most_simulated) {
-            wrong.push(["most_simulated".into(), format!("found {}, allowed 1 to 10000", self.most_simulated)]);
+            wrong.push(Problem::new("most_simulated", self.most_simulated.to_string(), "1 to 10000"));
         }
         let items = self.prices().items;
         if (1..items.len()).any(|number| items[..number].iter().any(|before| before.of == items[number].of)) {
-            wrong.push(["prices.items".into(), "found a quantity that is priced twice, allowed each once".into()]);
+            wrong.push(Problem::new("prices.items", "a quantity that is priced twice", "each once"));
         }
         for (number, item) in items.iter().enumerate() {
             // Asked so that what is not a number is refused.
             if !(0.0..=1e9).contains(&item.price) {
-                let found = format!("found {}, allowed 0 to 1e9", item.price);
-                wrong.push([format!("prices.items.{number}.price"), found]);
+                wrong.push(
+                    Problem::of(item.price.to_string(), "0 to 1e9").under(format!("prices.items.{number}.price")),
+                );
             }
         }
         if self.prices().items.is_empty() {
-            wrong.push(["prices.items".into(), "found none, allowed one at least".into()]);
+            wrong.push(Problem::new("prices.items", "none", "one at least"));
         }
         wrong
     }

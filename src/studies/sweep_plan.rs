@@ -9,6 +9,7 @@ use serde_yaml::Value;
 
 use crate::design::changes::Changes;
 use crate::design::document::Node;
+use crate::problem::Problem;
 use crate::studies::amount::node;
 use crate::studies::choices::{ChoiceText, Choices, ChosenOption};
 use crate::studies::size_plan::By;
@@ -85,35 +86,39 @@ impl SweepPlan {
     }
 
     /// What is wrong, by the key where it stands.
-    pub fn wrong(&self) -> Vec<[String; 2]> {
+    pub fn wrong(&self) -> Vec<Problem> {
         let mut wrong = Vec::new();
         if self.designs.is_empty() {
-            wrong.push(["designs".into(), "found none, allowed one at least".into()]);
+            wrong.push(Problem::new("designs", "none", "one at least"));
         }
         let names: Vec<_> = self.designs.iter().map(|design| design.file_stem()).collect();
         if (1..names.len()).any(|place| names[..place].contains(&names[place])) {
-            wrong.push(["designs".into(), "two have the same file name; they could not be told apart".into()]);
+            wrong.push(Problem::new(
+                "designs",
+                "two with the same file name",
+                "files of different names, which can be told apart",
+            ));
         }
         if self.vary.is_empty() {
-            wrong.push(["vary".into(), "found nothing, allowed one key at least".into()]);
+            wrong.push(Problem::new("vary", "nothing", "one key at least"));
         }
         for (number, choice) in self.vary.iter().enumerate() {
-            wrong.extend(choice.choice().err().map(|error| [format!("vary.{number}"), error]));
+            wrong.extend(choice.choice().err().map(|problem| problem.under(format!("vary.{number}"))));
         }
         let choices = self.choices();
         if let Some(key) = choices.set_twice() {
-            wrong.push(["vary".into(), format!("found `{key}` set by two of them, allowed each key in one")]);
+            wrong.push(Problem::new("vary", format!("`{key}` set by two of them"), "each key in one"));
         }
         let lengths: Vec<usize> = choices.0.iter().map(|choice| choice.options.len()).collect();
         if self.combine == Combine::List && lengths.windows(2).any(|pair| pair[0] != pair[1]) {
-            wrong.push(["combine".into(), format!("found lists of {lengths:?} values, allowed as many in each")]);
+            wrong.push(Problem::new("combine", format!("lists of {lengths:?} values"), "as many in each"));
         }
         let runs = self.ways(&choices).and_then(|ways| ways.checked_mul(self.designs.len()));
         if runs.is_none_or(|runs| runs > MOST_RUNS) {
-            wrong.push(["vary".into(), format!("found more runs than {MOST_RUNS}")]);
+            wrong.push(Problem::new("vary", "more runs", format!("{MOST_RUNS} at the most")));
         }
         if !(1..=100).contains(&self.packings) {
-            wrong.push(["packings".into(), format!("found {}, allowed 1 to 100", self.packings)]);
+            wrong.push(Problem::new("packings", self.packings.to_string(), "1 to 100"));
         }
         wrong
     }

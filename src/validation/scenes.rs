@@ -1,7 +1,8 @@
 //! Small scenes and steps that several cases share.
 
 use dem::Vec3;
-use dem::model::{Material, Model};
+use dem::contact::material::Material;
+use dem::model::Model;
 use dem::simulation::{Simulation, Unstable};
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Surface, SurfaceRole};
@@ -13,7 +14,7 @@ pub const GRAVITY: f64 = crate::units::GRAVITY;
 pub const MODULUS: f64 = 1e8;
 
 pub fn material(restitution: f64, friction: f64) -> Material {
-    Material { modulus: MODULUS, restitution, tangential_ratio: 2.0 / 7.0, friction }
+    Material::new(MODULUS, restitution, friction)
 }
 
 /// A ball at rest.

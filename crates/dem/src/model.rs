@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Vec3;
+use crate::contact::material::Material;
 use crate::tables::barrier::Barrier;
 use crate::tables::fixed::Fixed;
 use crate::tables::grains::{Grain, GrainShape};
@@ -11,19 +12,6 @@ use crate::tables::surfaces::Surface;
 use crate::tables::terrain::Terrain;
 use crate::tables::wall::WallShape;
 use crate::time::inlet::Inlet;
-
-/// What the grains are made of, as contacts feel it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Material {
-    /// Contact modulus E (Pa): k = 2 E r₁ r₂/(r₁+r₂).
-    pub modulus: f64,
-    /// Normal restitution ε, 0 < ε ≤ 1.
-    pub restitution: f64,
-    /// k_t / k_n, 2/7 by Silbert 2001.
-    pub tangential_ratio: f64,
-    /// Friction coefficient between grains, tan φ.
-    pub friction: f64,
-}
 
 /// Everything that is simulated.
 ///
@@ -64,7 +52,7 @@ impl Model {
             surfaces: Vec::new(),
             terrain: None,
             barrier: None,
-            material: Material { modulus: 1e8, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 },
+            material: Material::new(1e8, 0.3, 0.5),
             pores: None,
             inlet: None,
             gravity: Vec3::zeros(),

@@ -187,7 +187,7 @@ impl Simulation {
             barrier_motion: MotionEnergy::default(),
             lost_since: Lost::default(),
             first_time_step: time_step,
-            law: LawConstants::new(model.material.restitution, model.material.tangential_ratio, time_step),
+            law: LawConstants::of(&model.material, time_step),
             speed_limit,
             model,
         }

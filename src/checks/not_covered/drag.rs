@@ -4,12 +4,14 @@ use super::context::CheckContext;
 use crate::checks::check_all;
 use crate::checks::outcome::{OpenReason, Outcome};
 use crate::demand::Demands;
-use crate::design::BarrierDesign;
-use crate::guideline::guideline_for;
+use crate::design::{BarrierDesign, Design};
+use crate::guideline::{flows, guideline_for};
+use crate::larger::larger_or_nan;
 use crate::loads::cases::overtopped::DEFAULT_FRICTION;
 
 pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     let design = context.design;
+    leave_open_what_the_surge_itself_would_fail(context, outcomes);
     if design.loads.overflow_drag.is_some() {
         return;
     }
@@ -26,6 +28,43 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     }
 }
 
+/// A surge that comes to the full barrier goes over it as deep as it is, and rides on the whole thickness of a wall: where the design gives less, no
+/// check may fail with that.
+fn leave_open_what_the_surge_itself_would_fail(
+    CheckContext { design, guideline, .. }: CheckContext,
+    outcomes: &mut [Outcome],
+) {
+    let flows = flows(design, guideline.input);
+    let deepest = flows.iter().filter(|flow| flow.fills()).map(|flow| flow.depth).fold(0.0, larger_or_nan);
+    let thickness = thickness(design);
+    let (depth, drag) = (design.loads.overflow_depth, design.loads.overflow_drag);
+    // Asked as "enough", so that what is not a number is not.
+    let enough = [depth.is_none_or(|depth| depth >= deepest), drag.is_none_or(|(_, length)| length >= thickness)];
+    if enough == [true; 2] {
+        return;
+    }
+    let mut over = design.clone();
+    over.loads.overflow_depth = depth.map(|depth| larger_or_nan(depth, deepest));
+    over.loads.overflow_drag = drag.map(|(friction, length)| (friction, length.max(thickness)));
+    let asked = guideline_for(&over, guideline.input);
+    let then = check_all(&over, &Demands::by_equations(&asked, &design.factors));
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
+        if deepest.is_nan() || then.iter().any(|then| then.id == outcome.id && outcome.would_fail(then)) {
+            outcome.leave_open(OpenReason::Contradicted(format!(
+                "a surge of {deepest:.2} m comes to the full barrier, and with that depth over it and a drag over its whole thickness the equations would fail this check (give loads.overflow_depth and loads.overflow_length that are no less)"
+            )));
+        }
+    }
+}
+
+/// Of a wall that stands by its weight (m); what is known of no other barrier.
+fn thickness(design: &Design) -> f64 {
+    match &design.barrier {
+        BarrierDesign::RigidWall(wall) => wall.stability.map_or(0.0, |stability| stability.thickness),
+        BarrierDesign::FlexibleNet(_) => 0.0,
+    }
+}
+
 /// A barrier that fills is overtopped whether the design says so or not: with a usual drag no check may fail.
 fn leave_open_what_a_usual_drag_fails(CheckContext { design, guideline, .. }: CheckContext, outcomes: &mut [Outcome]) {
     if !guideline.input.fills() {
@@ -33,11 +72,7 @@ fn leave_open_what_a_usual_drag_fails(CheckContext { design, guideline, .. }: Ch
     }
     let mut dragged = design.clone();
     // It rides on the whole thickness of a wall.
-    let thickness = match &design.barrier {
-        BarrierDesign::RigidWall(wall) => wall.stability.map_or(0.0, |stability| stability.thickness),
-        BarrierDesign::FlexibleNet(_) => 0.0,
-    };
-    dragged.loads.overflow_drag = Some((DEFAULT_FRICTION, guideline.input.depth.max(thickness)));
+    dragged.loads.overflow_drag = Some((DEFAULT_FRICTION, guideline.input.depth.max(thickness(design))));
     let with_drag = guideline_for(&dragged, guideline.input);
     let then = check_all(design, &Demands::by_equations(&with_drag, &design.factors));
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
@@ -54,7 +89,7 @@ mod tests {
     use super::*;
     use crate::checks::not_covered::tests::{pushing, small_net, verdict, verdict_after};
     use crate::checks::outcome::CheckVerdict;
-    use crate::design::Design;
+    use crate::design::read::read_design;
     use crate::guideline::guideline;
     use crate::quantities::other_ropes;
 
@@ -66,6 +101,38 @@ mod tests {
         assert_eq!(verdict(&design, "rope_3_tension", first(&design)), CheckVerdict::Open);
         design.loads.overflow_drag = Some((0.3, 0.5));
         assert_eq!(verdict(&design, "rope_3_tension", first(&design)), CheckVerdict::Pass);
+    }
+
+    /// A wall that holds the full barrier with a surge over it, given as deep as it is, by half of what the surge adds: with a depth of a millimetre it
+    /// uses less, and is open.
+    #[test]
+    fn a_flow_over_the_barrier_is_no_thinner_than_the_surge_that_comes() {
+        let mut design = read_design("x", include_bytes!("../../../designs/rigid_wall.yaml")).unwrap().design;
+        (design.loads.to_the_top, design.loads.overflow_drag) = (true, Some((0.01, 10.0)));
+        // So slow that the full barrier governs.
+        let crate::design::Arrival::DamBreak(block) = &mut design.flow.arrival else { panic!("a dam break") };
+        (block.depth_at_barrier, block.velocity_at_barrier) = (Some(1.0), Some(1.0));
+        let surge = 1.0;
+        let asked = |design: &Design| {
+            let outcomes = check_all(design, &Demands::by_equations(&guideline(design), &design.factors));
+            outcomes.into_iter().find(|outcome| outcome.id == "total_force").expect("a check")
+        };
+        let mut over = |depth: f64| {
+            design.loads.overflow_depth = Some(depth);
+            (design.clone(), asked(&design).demand.guideline.expect("a force"))
+        };
+        let [(thin, least), (deep, most)] = [1e-3, surge].map(&mut over);
+        assert!(most > 1.02 * least, "{most} {least}");
+        let verdict = |mut design: Design| {
+            let crate::design::BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+            wall.resistance = Some(wall.resistance_factor * 0.5 * (least + most));
+            let guideline = guideline(&design);
+            let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
+            leave_open(CheckContext { design: &design, guideline: &guideline, seen: None }, &mut outcomes);
+            outcomes.into_iter().find(|outcome| outcome.id == "total_force").expect("a check").verdict
+        };
+        assert_eq!(verdict(thin), CheckVerdict::Open);
+        assert_eq!(verdict(deep), CheckVerdict::Fail);
     }
 
     /// A design that fills says nothing of the flow over its top: a rope that holds the last surge and not the usual drag beside it is open.

@@ -11,9 +11,8 @@ use crate::guideline::{guideline_for, point_load};
 pub fn leave_open(CheckContext { design, guideline, seen }: CheckContext, outcomes: &mut [Outcome]) {
     let (Some(seen), BarrierDesign::RigidWall(_)) = (seen, &design.barrier) else { return };
     let Some(hit) = point_load(design, &guideline.input) else { return };
-    let force = hit.force;
     // Asked so that what is not a number goes on.
-    if seen.boulder <= force {
+    if seen.boulder <= 0.0 {
         return;
     }
     let mut struck = design.clone();
@@ -25,9 +24,9 @@ pub fn leave_open(CheckContext { design, guideline, seen }: CheckContext, outcom
         let fails = then.iter().any(|then| then.id == outcome.id && outcome.would_fail(then));
         if fails || seen.boulder.is_nan() {
             outcome.leave_open(OpenReason::Contradicted(format!(
-                "in the simulation a boulder hits the wall with {:.0} kN, more than the point load of {:.0} kN, and under that it would fail (give loads.point_load, or more resistance)",
+                "in the simulation a boulder hits the wall with {:.0} kN, where the point load is {:.0} kN, and under that at the surface of the highest surge it would fail (give loads.point_load, or more resistance)",
                 seen.boulder / 1e3,
-                force / 1e3
+                hit.hardest() / 1e3
             )));
         }
     }

@@ -10,7 +10,9 @@ use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::checks::range::leave_open_outside_range;
 use crate::demand::Demands;
 use crate::design::Design;
-use crate::guideline::{Guideline, earth_pressure_by_weight, filled, guideline_for, velocity_on_its_way};
+use crate::guideline::{
+    Guideline, depth_as_released, earth_pressure_by_weight, filled, guideline_for, velocity_on_its_way,
+};
 use crate::larger::larger_or_nan;
 use crate::loads::input::GuidelineInput;
 
@@ -32,12 +34,17 @@ fn without_a_simulation(design: &Design, guideline: &Guideline) -> Vec<Guideline
     let earth_pressure = larger_or_nan(by_weight.unwrap_or(0.0), given.earth_pressure);
     let way = velocity_on_its_way(design);
     let velocity = if way > MUCH_FASTER * given.velocity { way } else { given.velocity };
-    let harder = filled(design, GuidelineInput { earth_pressure, velocity, ..given });
+    let released = depth_as_released(design);
+    let depth = if released > MUCH_DEEPER * given.depth { released } else { given.depth };
+    let harder = filled(design, GuidelineInput { earth_pressure, velocity, depth, ..given });
     if harder == given { Vec::new() } else { vec![harder] }
 }
 
 /// Velocity by the bed alone over the given one above which the given one is doubted: what arrives is often half of it.
 const MUCH_FASTER: f64 = 2.5;
+
+/// Depth in which the flow is released over the given one above which the given one is doubted: on its way a dam break becomes thinner, seldom by more.
+const MUCH_DEEPER: f64 = 5.0;
 
 /// What the equations are asked with: as fast and as deep as the flow is seen, and with the λ that pushes as hard; each with the K seen.
 fn inputs(design: &Design, guideline: &Guideline, seen: &FirstSurge) -> Vec<GuidelineInput> {
@@ -104,6 +111,11 @@ fn leave_open_with(design: &Design, guideline: &Guideline, harder: GuidelineInpu
     }
 }
 
+/// A value in words, which may not have been measured.
+fn measured(value: f64, unit: &str) -> String {
+    if value.is_nan() { "a value that could not be measured".to_string() } else { format!("{value:.2} {unit}") }
+}
+
 /// What is harder than given.
 fn in_words(given: GuidelineInput, harder: GuidelineInput) -> String {
     // Asked as "no more", so that what is not a number is told.
@@ -115,20 +127,29 @@ fn in_words(given: GuidelineInput, harder: GuidelineInput) -> String {
         more(
             harder.velocity,
             given.velocity,
-            format!("arrives with {:.2} m/s (given: {:.2} m/s)", harder.velocity, given.velocity),
+            format!("arrives with {} (given: {:.2} m/s)", measured(harder.velocity, "m/s"), given.velocity),
         ),
-        more(harder.depth, given.depth, format!("arrives {:.2} m deep (given: {:.2} m)", harder.depth, given.depth)),
+        more(
+            harder.depth,
+            given.depth,
+            format!("arrives {} deep (given: {:.2} m)", measured(harder.depth, "m"), given.depth),
+        ),
         more(
             harder.dynamic_pressure,
             given.dynamic_pressure,
-            format!("pushes as with λ = {:.2} (given: {:.2})", harder.dynamic_pressure, given.dynamic_pressure),
+            format!(
+                "pushes as with λ = {} (given: {:.2})",
+                measured(harder.dynamic_pressure, "").trim_end(),
+                given.dynamic_pressure
+            ),
         ),
         more(
             harder.earth_pressure,
             given.earth_pressure,
             format!(
-                "presses at rest, by its deposit or by the weight of a full one, with K = {:.2} (given: {:.2})",
-                harder.earth_pressure, given.earth_pressure
+                "presses at rest, by its deposit or by the weight of a full one, with K = {} (given: {:.2})",
+                measured(harder.earth_pressure, "").trim_end(),
+                given.earth_pressure
             ),
         ),
     ];

@@ -9,7 +9,7 @@ use crate::checks::check_all;
 use crate::checks::outcome::{Kind, OpenReason, Outcome};
 use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design};
-use crate::guideline::{elastic_hit, flows, guideline_for, height_over_bed};
+use crate::guideline::{Guideline, elastic_hit, flows, guideline_for, height_over_bed};
 use crate::larger::larger_or_nan;
 
 /// Length of the block (m) that stands for one that nobody described: joints are no closer.
@@ -23,24 +23,21 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     // As fast as any surge of the design, and as the flow is seen to come.
     let given = flows(design, guideline.input).iter().map(|flow| flow.velocity).fold(0.0, larger_or_nan);
     let velocity = larger_or_nan(seen.map_or(0.0, |seen| seen.velocity), given);
-    let on_the_base = design.loads.impact_reduction.unwrap_or(1.0) * elastic_hit(design, velocity);
+    let known = |force: f64| if design.flow.tells_the_largest() { force } else { f64::NAN };
+    let on_the_base = known(design.loads.impact_reduction.unwrap_or(1.0) * elastic_hit(design, velocity));
     let given = design.loads.point_load;
     if given.is_some_and(|(force, height)| stands_for(context, force, height, on_the_base)) {
         return;
     }
-    let strength = match given {
-        Some(_) => on_the_base,
-        // The law of contacts with a soft modulus hits more gently than stone does.
-        None => larger_or_nan(hit(design, velocity), on_the_base),
-    };
-    let told =
-        Stone { given: given.map(|(force, _)| force), velocity, unreduced: design.loads.impact_reduction.is_none() };
+    // The law of contacts with a soft modulus hits more gently than stone does.
+    let strength = larger_or_nan(hit(design, velocity), on_the_base);
+    let told = Stone { given: given.map(|(force, _)| force), velocity, reduction: design.loads.impact_reduction };
     let then = struck(context, strength);
     if strength.is_nan() || then.iter().any(|then| then.kind == Kind::WallStrength && then.fails_by_equations()) {
         for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
             outcome.leave_open(OpenReason::NotGiven(match strength.is_nan() {
-                true => unknown("break the metre of the wall that it hits", told.given),
-                false => told.reason("a metre of the wall", strength, "that metre", "more resistance"),
+                true => unknown(design, "break the metre of the wall that it hits"),
+                false => told.reason("a metre of the wall", strength, on_the_base, "that metre", "more resistance"),
             }));
         }
     }
@@ -48,17 +45,37 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_the_base(outcome) && outcome.holds()) {
         let holds = then.iter().any(|then| then.id == outcome.id && !outcome.would_fail(then));
         if on_the_base.is_nan() {
-            outcome.leave_open(OpenReason::NotGiven(unknown("move the block of the wall that it hits", told.given)));
+            outcome.leave_open(OpenReason::NotGiven(unknown(design, "move the block of the wall that it hits")));
         } else if !holds {
             let block = if block_is_given(design) { "its block" } else { "a block of one metre" };
             outcome.leave_open(OpenReason::NotGiven(told.reason(
                 "the wall",
                 on_the_base,
+                on_the_base,
                 block,
-                "barrier.rigid_wall.stability.block_length",
+                if block_is_given(design) { "a heavier wall" } else { "barrier.rigid_wall.stability.block_length" },
             )));
         }
     }
+}
+
+/// The hit of the largest stone on a metre of a wall, where no point load of the design stands for it: its force (N) and the share of what that metre
+/// holds that it uses. Nothing where nobody knows the stone.
+pub fn hit_on_a_metre(design: &Design, guideline: &Guideline) -> Option<[f64; 2]> {
+    let context = CheckContext { design, guideline, seen: None };
+    let velocity = flows(design, guideline.input).iter().map(|flow| flow.velocity).fold(0.0, larger_or_nan);
+    let reduced = design.loads.impact_reduction? * elastic_hit(design, velocity);
+    let given = design.loads.point_load;
+    if !design.flow.tells_the_largest()
+        || given.is_some_and(|(force, height)| stands_for(context, force, height, reduced))
+    {
+        return None;
+    }
+    let force = larger_or_nan(hit(design, velocity), reduced);
+    let then = struck(context, force);
+    let of_the_metre = then.iter().filter(|then| then.kind == Kind::WallStrength);
+    let used = of_the_metre.filter_map(Outcome::used).reduce(larger_or_nan)?;
+    Some([force, used])
 }
 
 /// Whether a point load that the design gives stands for the stone: it is no smaller, and its moment is no less where the stone comes with a surge
@@ -78,18 +95,18 @@ fn stands_for(
 struct Stone {
     given: Option<f64>,
     velocity: f64,
-    /// Whether the whole elastic force is asked with, as the design gives no share of it.
-    unreduced: bool,
+    /// Share of the elastic force that is asked with, where the design gives one.
+    reduction: Option<f64>,
 }
 
 impl Stone {
-    fn reason(&self, place: &str, force: f64, part: &str, or: &str) -> String {
+    fn reason(&self, place: &str, force: f64, reduced: f64, part: &str, or: &str) -> String {
         let more =
             self.given.map_or(String::new(), |given| format!(", where loads.point_load is {:.1} kN", given / 1e3));
-        let by = if self.unreduced {
-            "its whole elastic force, as loads.impact_reduction is not given"
-        } else {
-            "reduced by loads.impact_reduction"
+        let by = match self.reduction {
+            _ if force > reduced => "by the contact law with flow.contact_modulus",
+            None => "its whole elastic force, as loads.impact_reduction is not given",
+            Some(_) => "its elastic force, reduced by loads.impact_reduction",
         };
         let give = if self.given.is_some() {
             "give as much at the surface of the highest surge"
@@ -104,15 +121,21 @@ impl Stone {
     }
 }
 
-fn unknown(may: &str, given: Option<f64>) -> String {
-    let what = match given {
-        Some(force) => format!(
-            "so nobody can say whether the largest one hits harder than loads.point_load of {:.1} kN and may {may} (give flow.grain_sizes and solid_density)",
+fn unknown(design: &Design, may: &str) -> String {
+    let (what, give) = match design.flow.sizes.continued_from() {
+        Some(share) => (
+            format!("the grain sizes are given up to D{:.0}", 100.0 * share),
+            "flow.grain_sizes up to d84 or coarser".to_string(),
+        ),
+        None => ("the grains of the flow are not given".to_string(), "flow.grain_sizes and solid_density".to_string()),
+    };
+    match design.loads.point_load {
+        Some((force, _)) => format!(
+            "{what}, so nobody can say whether the largest one hits harder than loads.point_load of {:.1} kN and may {may} (give {give})",
             force / 1e3
         ),
-        None => format!("and the largest one may {may} (give flow.grain_sizes, solid_density and contact_modulus)"),
-    };
-    format!("the grains of the flow are not given, {what}")
+        None => format!("{what}, and the largest one may {may} (give {give}, and contact_modulus)"),
+    }
 }
 
 fn is_of_the_base(outcome: &Outcome) -> bool {
@@ -214,6 +237,23 @@ mod tests {
             })
         };
         assert_eq!([1.0, 1e9].map(named), [CheckVerdict::Open, CheckVerdict::Pass]);
+        // A token load takes nothing away: the law of contacts with a hard modulus still breaks the metre.
+        let token = |force: f64| {
+            verdict(&|design| {
+                strength(design, 3.0);
+                (design.flow.modulus, design.loads.impact_reduction) = (1e13, Some(1e-3));
+                design.loads.point_load = (force > 0.0).then_some((force, Some(1.0)));
+            })
+        };
+        assert_eq!([0.0, 1.0].map(token), [CheckVerdict::Open; 2]);
+        // Of grains that are given up to their middle nobody knows the largest.
+        let coarse_end = |coarsest: f64| {
+            verdict(&|design| {
+                strength(design, 100.0);
+                design.flow.sizes = crate::design::sizes::SizeCurve::through(&[(0.1, 0.1), (coarsest, 0.3)]);
+            })
+        };
+        assert_eq!([0.5, 0.9].map(coarse_end), [CheckVerdict::Open, CheckVerdict::Pass]);
         // The base of a wall that stands by its weight: a pebble moves no block, a stone of 6 t does.
         let on_its_base = |largest: f64| {
             let mut design = read_design("x", include_bytes!("../../../designs/gravity_wall.yaml")).unwrap().design;

@@ -21,10 +21,14 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
         }
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind == Kind::WallStrength && outcome.holds()) {
-        let Some((simulated, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
-        let over =
-            if outcome.unit == Unit::Newton { seen.sampled_over_smoothed } else { seen.moment_sampled_over_smoothed };
-        let at_most = simulated * over;
+        let Some((_, capacity)) = outcome.demand.simulation.zip(outcome.capacity) else { continue };
+        let over = if outcome.unit == Unit::NewtonMetrePerMetre {
+            seen.moment_sampled_over_smoothed
+        } else {
+            seen.sampled_over_smoothed
+        };
+        // Of what the flow does, not of what is there without it.
+        let at_most = outcome.demand_under(Route::Simulation, over).unwrap_or(f64::NAN);
         // Written so that a NaN counts as not within.
         let within = |value: f64| value <= capacity;
         if within(at_most) && !within(at_most * (1.0 + seen.force_band)) {

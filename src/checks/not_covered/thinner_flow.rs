@@ -11,6 +11,10 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     if more <= 1.0 {
         return;
     }
+    let share = match seen.flux_share {
+        share if share.is_nan() => "an unknown share".to_string(),
+        share => format!("{:.0} %", 100.0 * share),
+    };
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         let used = match outcome.kind {
             Kind::MassHeld => lost_of_what_may_be(outcome, more * more),
@@ -21,8 +25,7 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
         let within = used <= 1.0;
         if !within {
             outcome.leave_open(OpenReason::Contradicted(format!(
-                "the simulated flow arrives with {:.0} % of the momentum flux h v² that the design gives it, and with the whole of it this would not hold (release it so that it arrives as it should: a shorter flow.arrival.surge.run_in, a larger depth)",
-                100.0 * seen.flux_share
+                "the simulated flow arrives with {share} of the momentum flux h v² that the design gives it, and with the whole of it this would not hold (release it so that it arrives as it should: a shorter flow.arrival.surge.run_in, a larger depth)"
             )));
         }
     }

@@ -1,5 +1,6 @@
 //! One stage of a barrier's life: its pressures, and what acts beside them.
 
+use crate::larger::larger_or_nan;
 use crate::loads::cases::working::Working;
 use crate::loads::pressure::Diagram;
 use crate::section::Section;
@@ -43,20 +44,38 @@ pub struct PointLoad {
 }
 
 /// What hits the barrier at one place: a force (N), and where.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hit {
+    /// Nothing where none is given.
     pub force: f64,
     /// Above the bed (m), where it is given; else at the surface of the flow that brings it.
     pub height: Option<f64>,
     /// Of that surface over the deposit that the flow comes over, or of the boulder's centre if that is higher (m).
     pub over_deposit: f64,
+    /// Force of the largest boulder that the flow brings, at that surface (N); nothing without one.
+    pub of_boulder: f64,
 }
 
 impl Hit {
-    /// Where it hits a barrier of a height over a deposit (m).
+    /// Where it hits a barrier of a height over a deposit (m). What is given stands for the boulder if it has no less force and moment; else both act
+    /// as one load that has no less than either.
     pub fn over(self, deposit: f64, barrier_height: f64) -> PointLoad {
-        let height = self.height.unwrap_or(deposit + self.over_deposit);
-        PointLoad { force: self.force, height: height.min(barrier_height) }
+        let surface = (deposit + self.over_deposit).min(barrier_height);
+        let given =
+            PointLoad { force: self.force, height: self.height.map_or(surface, |height| height.min(barrier_height)) };
+        // Asked so that what is not a number does not stand for a boulder.
+        if self.of_boulder == 0.0
+            || given.force >= self.of_boulder && given.force * given.height >= self.of_boulder * surface
+        {
+            return given;
+        }
+        let height = if given.force > 0.0 { larger_or_nan(given.height, surface) } else { surface };
+        PointLoad { force: self.hardest(), height }
+    }
+
+    /// Force of what hits hardest (N).
+    pub fn hardest(self) -> f64 {
+        larger_or_nan(self.force, self.of_boulder)
     }
 }
 
@@ -201,4 +220,27 @@ pub struct AdditionalActions {
     pub point: Option<Hit>,
     /// Uniform pressure of snow (Pa).
     pub snow: Option<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A boulder of 100 kN comes at 2 m. 200 kN at 1 m stand for it; 10 kN at 3 m, or 150 kN at 1 m, do not, whatever they spare.
+    #[test]
+    fn what_is_given_stands_for_a_boulder_or_both_act() {
+        let over = |force: f64, height: f64| {
+            let hit = Hit { force, height: Some(height), over_deposit: 1.0, of_boulder: 100.0 };
+            hit.over(1.0, 4.0)
+        };
+        assert_eq!(over(200.0, 1.0), PointLoad { force: 200.0, height: 1.0 });
+        assert_eq!(over(10.0, 3.0), PointLoad { force: 100.0, height: 3.0 });
+        assert_eq!(over(150.0, 1.0), PointLoad { force: 150.0, height: 2.0 });
+        let boulder = Hit { over_deposit: 1.0, of_boulder: 100.0, ..Hit::default() };
+        assert_eq!(boulder.over(1.0, 4.0), PointLoad { force: 100.0, height: 2.0 });
+        assert_eq!(boulder.over(5.0, 4.0), PointLoad { force: 100.0, height: 4.0 });
+        let given = Hit { force: 50.0, height: Some(1.5), over_deposit: 1.0, of_boulder: 0.0 };
+        assert_eq!(given.over(1.0, 4.0), PointLoad { force: 50.0, height: 1.5 });
+        assert!(Hit { of_boulder: f64::NAN, ..given }.over(1.0, 4.0).force.is_nan());
+    }
 }

@@ -114,7 +114,7 @@ pub mod tests {
 
     #[test]
     fn a_boulder_comes_with_every_surge() {
-        let point = Hit { force: 1e5, height: Some(2.0), over_deposit: 1.0 };
+        let point = Hit { force: 1e5, height: Some(2.0), over_deposit: 1.0, of_boulder: 0.0 };
         let extras = AdditionalActions { point: Some(point), ..AdditionalActions::default() };
         for case in envelope(&input(), &extras) {
             assert_eq!(case.point.is_some(), case.moving > 0.0, "{}", case.id);
@@ -124,7 +124,7 @@ pub mod tests {
     /// Without a height of its own it hits at the surface of the flow: 1 m up on the empty barrier, at the top of 4 m over a deposit of 3 m.
     #[test]
     fn a_boulder_rides_on_the_flow() {
-        let point = Hit { force: 1e5, height: None, over_deposit: 1.0 };
+        let point = Hit { force: 1e5, height: None, over_deposit: 1.0, of_boulder: 0.0 };
         let extras = AdditionalActions { point: Some(point), ..AdditionalActions::default() };
         let stages = envelope(&input(), &extras);
         let hits: Vec<f64> = stages.iter().filter_map(|case| Some(case.point?.height - case.deposit)).collect();

@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::scene::ground::terrain;
 use crate::section::{Section, Survey};
 use dem::Vec3;
-use dem::model::{Material, Model};
+use dem::contact::material::Material;
+use dem::model::Model;
 use dem::simd::quad::Quad;
 use dem::simulation::{Simulation, Unstable};
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
@@ -226,7 +227,7 @@ fn relaxing(grains: Vec<Grain>, shape: GrainShape) -> Model {
         surfaces: Vec::new(),
         terrain: None,
         barrier: None,
-        material: Material { modulus: 1.0, restitution: 0.1, tangential_ratio: 2.0 / 7.0, friction: 0.0 },
+        material: Material::new(1.0, 0.1, 0.0),
         pores: None,
         inlet: None,
         gravity: Vec3::zeros(),

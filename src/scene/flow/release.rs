@@ -139,9 +139,12 @@ pub fn count_of_boulders(flow: &Flow) -> u32 {
     flow.boulders.iter().map(|boulders| boulders.number).sum()
 }
 
-/// The boulders at the front, in rows from its foot on downstream, side by side on the bed: as in a room whose length is that of the block.
-fn ahead(flow: &Flow, length: f64, [from, to]: [f64; 2], first: u32) -> Vec<Grain> {
+/// The boulders at the front, in rows from its foot on downstream, side by side on the bed: as in a room whose length is that of the block. Which part
+/// of the barrier they come to is a matter of chance: each lies anywhere in its share of the width.
+/// One that has a row for itself lies no further aside than between the `low` banks.
+fn ahead(flow: &Flow, length: f64, [from, to]: [f64; 2], low: [f64; 2], first: u32, seed: u64) -> Vec<Grain> {
     let mut grains = Vec::new();
+    let mut chance = fastrand::Rng::with_seed(seed);
     let mut start = length;
     for boulders in flow.boulders.iter().filter(|boulders| boulders.at_front) {
         let (abreast, long) = boulders.rows(to - from, boulders.extent(flow.aspect));
@@ -150,7 +153,10 @@ fn ahead(flow: &Flow, length: f64, [from, to]: [f64; 2], first: u32) -> Vec<Grai
         for number in 0..boulders.number {
             let (row, place) = (number / abreast, number % abreast);
             let in_row = abreast.min(boulders.number - row * abreast);
-            let across = from + (to - from) * (f64::from(place) + 0.5) / f64::from(in_row);
+            let [left, right] = if in_row == 1 { low } else { [from, to] };
+            let share = (right - left) / f64::from(in_row);
+            let free = boulders.room_aside(share, flow.aspect);
+            let across = left + share * (f64::from(place) + 0.5) + free * (chance.f64() - 0.5);
             let along = start + long * (f64::from(row) + 0.5) / f64::from(rows);
             let id = first + grains.len() as u32;
             grains.push(Grain::at(id, Vec3::new(along, across, body.radius), Vec3::y(), body));
@@ -207,7 +213,8 @@ pub fn packed_block(
     let (mut grains, growth) = pack_watched(&packed, shape(flow), room, seed, attempts)?;
     let length = block.length * growth;
     let at_the_surface = ground.as_ref().map_or([0.0, channel.width], |survey| survey.banks(block.height));
-    let mut front = ahead(flow, length, at_the_surface, packed.len() as u32);
+    let half_way_up = ground.as_ref().map_or([0.0, channel.width], |survey| survey.banks(0.5 * block.height));
+    let mut front = ahead(flow, length, at_the_surface, half_way_up, packed.len() as u32, seed);
     if let Some(survey) = &ground {
         front.iter_mut().for_each(|grain| grain.position.z = lying_on(survey, grain));
     }

@@ -3,6 +3,7 @@
 use crate::validation::case::Broken;
 use dem::Vec3;
 use dem::contact::law::LawConstants;
+use dem::contact::material::Material;
 use dem::elements::cylinder::{Cylinder, Section};
 use dem::elements::segment::{Segment, SegmentKind};
 use dem::elements::strength::Strength;
@@ -43,7 +44,7 @@ impl Stand {
     }
 
     pub fn step(&mut self) {
-        self.net = pull_all(&self.barrier, &LawConstants::new(1.0, 2.0 / 7.0, self.step));
+        self.net = pull_all(&self.barrier, &LawConstants::of(&Material::new(1.0, 1.0, 0.0), self.step));
         for (node, force, torque) in &self.loads {
             self.net.forces[*node] += force;
             if let Some(sum) = self.net.torques.get_mut(*node) {

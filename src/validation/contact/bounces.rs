@@ -3,8 +3,9 @@
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, ball, floor, free_model, material, simulate};
 use dem::Vec3;
+use dem::contact::material::Material;
 use dem::contact::restitution::damping_ratio_for;
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {

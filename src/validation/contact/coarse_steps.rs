@@ -3,8 +3,9 @@
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{MODULUS, ball, floor, free_model, run as step_on, simulate};
 use dem::Vec3;
+use dem::contact::material::Material;
 use dem::contact::restitution::LONGEST_PHASE;
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::simulation::Simulation;
 use dem::tables::grains::{Grain, GrainShape};
 
@@ -100,8 +101,7 @@ fn scene(target: Target, velocity: Vec3, gap: f64, step: f64) -> Simulation {
             vec![thrown(RADIUS + 0.5 * gap, 0.5), Grain { id: 1, ..thrown(-RADIUS - 0.5 * gap, -0.5) }]
         }
     };
-    let material =
-        Material { modulus: MODULUS, restitution: RESTITUTION, tangential_ratio: 2.0 / 7.0, friction: FRICTION };
+    let material = Material::new(MODULUS, RESTITUTION, FRICTION);
     let mut model = Model { material, ..free_model(grains, GrainShape::Sphere) };
     if matches!(target, Target::Wall) {
         model.surfaces = vec![floor(FRICTION)];

@@ -3,8 +3,9 @@
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, ball, floor, free_model, material, run, run_until, simulate};
 use dem::Vec3;
+use dem::contact::material::Material;
 use dem::ledger::Ledger;
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::simulation::Simulation;
 use dem::tables::grains::{Grain, GrainBody, GrainShape};
 use dem::tables::surfaces::{Surface, SurfaceRole};

@@ -4,8 +4,9 @@ use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{GRAVITY, ball, free_model, simulate};
 use dem::Vec3;
 use dem::contact::law::contact_stiffness;
+use dem::contact::material::Material;
 use dem::contact::restitution::damping_ratio_for;
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::simulation::Simulation;
 use dem::tables::grains::GrainShape;
 use dem::time::stable_step::critical_step_of_pair;
@@ -27,7 +28,7 @@ const STEPS: [f64; 3] = [0.02, 0.1, 0.4];
 /// Radius of the large balls (m).
 const LARGE: f64 = 0.025;
 const DENSITY: f64 = 2600.0;
-const MATERIAL: Material = Material { modulus: 1e6, restitution: 0.3, tangential_ratio: 2.0 / 7.0, friction: 0.5 };
+const MATERIAL: Material = Material::new(1e6, 0.3, 0.5);
 /// From where it rolls, from the top (deg).
 const FROM: f64 = 1.0;
 /// Where its speed is asked, from the middle of the neck down, over the radius of the circle on which it went.

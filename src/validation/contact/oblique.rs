@@ -3,7 +3,8 @@
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, contact_time, floor, free_model, run as step_on, simulate};
 use dem::Vec3;
-use dem::model::{Material, Model};
+use dem::contact::material::Material;
+use dem::model::Model;
 use dem::tables::grains::GrainShape;
 
 pub const CLOSED_FORM: Case = Case {
@@ -70,12 +71,7 @@ fn after(impact: &Impact) -> Result<(Vec3, f64), Broken> {
     grain.angular_momentum = Vec3::y() * (impact.spin * grain.body.inertia_axial);
     let step = contact_time(impact.modulus * radius, grain.body.mass) / 2000.0;
     let mut model = Model {
-        material: Material {
-            modulus: impact.modulus,
-            restitution: impact.restitution,
-            tangential_ratio: 2.0 / 7.0,
-            friction: impact.friction,
-        },
+        material: Material::new(impact.modulus, impact.restitution, impact.friction),
         ..free_model(vec![grain], GrainShape::Sphere)
     };
     model.surfaces = vec![floor(impact.friction)];

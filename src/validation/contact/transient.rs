@@ -3,8 +3,9 @@
 use crate::validation::case::{Broken, Case, Cost, Finding, Suite, Tier};
 use crate::validation::scenes::{ball, free_model, run as step_on, simulate};
 use dem::Vec3;
+use dem::contact::material::Material;
 use dem::contact::restitution::restitution_of;
-use dem::model::{Material, Model};
+use dem::model::Model;
 use dem::tables::grains::GrainShape;
 
 pub const CASE: Case = Case {
@@ -35,12 +36,7 @@ fn run() -> Result<Vec<Finding>, Broken> {
     let zeta = damping / (2.0 * (stiffness * reduced).sqrt());
     let step = 1e-6;
     let model = Model {
-        material: Material {
-            modulus: stiffness / RADIUS,
-            restitution: restitution_of(zeta),
-            tangential_ratio: 2.0 / 7.0,
-            friction: 0.0,
-        },
+        material: Material::new(stiffness / RADIUS, restitution_of(zeta), 0.0),
         ..free_model(grains.to_vec(), GrainShape::Sphere)
     };
     let mut simulation = simulate(model, step, RADIUS);

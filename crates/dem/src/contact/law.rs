@@ -13,6 +13,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::material::Material;
 use crate::contact::restitution::{StepCorrection, begins_beyond, damping_ratio_for, first_weight};
 use crate::simd::eight::{joined, parted};
 use crate::simd::quad::Quad;
@@ -32,7 +33,7 @@ pub struct ContactPoint<R = f64> {
     /// Mean spin of the two bodies about the normal (rad/s); it turns the stored friction force.
     pub twist: R,
     pub spring: Spring<R>,
-    /// Friction coefficient μ, the smaller of the pair.
+    /// Friction coefficient μ of the pair; less than tan φ where pore pressure carries part of the load.
     pub friction: R,
 }
 
@@ -131,7 +132,8 @@ pub struct LawConstants {
 }
 
 impl LawConstants {
-    pub fn new(restitution: f64, tangential_ratio: f64, time_step: f64) -> Self {
+    pub fn of(material: &Material, time_step: f64) -> Self {
+        let Material { restitution, tangential_ratio, .. } = *material;
         Self {
             damping_ratio: damping_ratio_for(restitution),
             correction: StepCorrection::of(restitution),

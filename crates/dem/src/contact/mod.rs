@@ -7,6 +7,7 @@ pub mod grain_pairs;
 pub mod grain_touch;
 pub(crate) mod lane_sums;
 pub mod law;
+pub mod material;
 pub mod pair_list;
 pub mod restitution;
 pub mod ropes;

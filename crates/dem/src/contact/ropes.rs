@@ -21,7 +21,7 @@ use crate::geometry::point_segment::{OnSegment, nearest_on_segment};
 use crate::ledger::ContactSums;
 use crate::neighbours::clocks::{Clock, STEPS_AHEAD};
 use crate::simd::quad::Quad;
-use crate::tables::barrier::{Barrier, LineEnd};
+use crate::tables::barrier::{Barrier, Line, LineEnd};
 use crate::tables::grain_rows::{GrainRows, Member};
 use crate::tables::grain_table::GrainLoad;
 use crate::tables::nodes::Node;
@@ -42,8 +42,9 @@ pub struct RopeContacts {
     pub crossings: u32,
     /// How fast a grain and a node could come closer when the lists were made, at most (m/s).
     pub closing: f64,
-    /// Scratch: the contact of every touching pair.
+    /// Scratch: the contact of every touching pair, and the nodes that the last grain has come to.
     touches: Vec<Option<RopeTouch>>,
+    at_nodes: AtNodes,
 }
 
 /// Force of one grain on one line.
@@ -158,9 +159,10 @@ impl RopeContacts {
     /// contact has passed to another line at the same node on to that. Returns the energy of springs that nobody takes (J).
     fn find_touches(&mut self, pairs: &[[u32; 2]], context: &RopeContext) -> f64 {
         let barrier = context.barrier;
-        let Self { list, touches, .. } = self;
+        let Self { list, touches, at_nodes, .. } = self;
         touches.clear();
         list.ended.clear();
+        at_nodes.forget();
         for (place, &[index, line]) in pairs.iter().enumerate() {
             if let Some([_, next]) = pairs.get(place + PAIRS_AHEAD) {
                 let nodes = barrier.lines[*next as usize].nodes;
@@ -177,7 +179,8 @@ impl RopeContacts {
                 list.ended.push(place as u32);
                 touches.push(None);
             } else {
-                touches.push(touch_at(&context.grains.member(index as usize), line, &nearest, context));
+                at_nodes.come_to(index);
+                touches.push(touch_at(&context.grains.member(index as usize), line, &nearest, context, at_nodes));
             }
         }
         let mut lost = 0.0;
@@ -267,10 +270,18 @@ impl Nearest {
 
 /// Geometry of sphere against line, or against the node a line ends in.
 pub fn touch(member: &Member, line: u32, context: &RopeContext) -> Option<RopeTouch> {
-    touch_at(member, line, &Nearest::of(&member.centre, line, context.barrier), context)
+    let nearest = Nearest::of(&member.centre, line, context.barrier);
+    touch_at(member, line, &nearest, context, &mut AtNodes::default())
 }
 
-fn touch_at(member: &Member, line_index: u32, nearest: &Nearest, context: &RopeContext) -> Option<RopeTouch> {
+#[inline(always)]
+fn touch_at(
+    member: &Member,
+    line_index: u32,
+    nearest: &Nearest,
+    context: &RopeContext,
+    at_nodes: &mut AtNodes,
+) -> Option<RopeTouch> {
     let barrier = context.barrier;
     let line = &barrier.lines[line_index as usize];
     if line.broken {
@@ -302,7 +313,7 @@ fn touch_at(member: &Member, line_index: u32, nearest: &Nearest, context: &RopeC
     let grain = context.constants.grain_modulus * member.radius;
     let rope = barrier.contact_modulus * rope_radius;
     let inverse_mass = member.inverse_mass + inverse_mass_at(a, b, along.share);
-    let given_up = if along.inside { given_up(member, line_index, barrier) / overlap } else { 0.0 };
+    let given_up = if along.inside { at_nodes.given_up(member, line, barrier) / overlap } else { 0.0 };
     let kept = (1.0 - given_up).max(LEAST_KEPT);
     let point = ContactPoint {
         normal: normal.into(),
@@ -333,26 +344,69 @@ fn turning(of_centres: &Vec3, normal: &Vec3, distance: f64, ends: [(&Vec3, &Vec3
     (across - axis * axis.dot(&across)) / distance - axis * normal.dot(&turned)
 }
 
-/// Overlap that a line gives up at its nodes because other lines have it as well (m).
-fn given_up(member: &Member, line_index: u32, barrier: &Barrier) -> f64 {
-    let line = &barrier.lines[line_index as usize];
-    let at_node = |node: u32| {
-        let here = barrier.nodes[node as usize].position;
-        let from_node = member.centre - here;
-        let bare = member.radius - from_node.norm();
-        let mine = bare + line.radius;
+/// How one grain overlaps the nodes of the lines that it touches: what every line that ends in a node would else find out anew.
+#[derive(Clone, Debug, Default)]
+struct AtNodes {
+    member: Option<u32>,
+    nodes: Vec<AtNode>,
+}
+
+/// A node that a grain has come to.
+#[derive(Clone, Copy, Debug)]
+struct AtNode {
+    node: u32,
+    /// Overlap with the bare point (m).
+    bare: f64,
+    /// Share of its overlap with the node that each line gives up there; nothing where it has not been asked for.
+    given_up: Option<f64>,
+}
+
+impl AtNodes {
+    fn forget(&mut self) {
+        self.member = None;
+        self.nodes.clear();
+    }
+
+    /// Goes on with the grain of this number.
+    fn come_to(&mut self, member: u32) {
+        if self.member != Some(member) {
+            self.member = Some(member);
+            self.nodes.clear();
+        }
+    }
+
+    /// Overlap that a line gives up at its nodes because other lines have it as well (m).
+    fn given_up(&mut self, member: &Member, line: &Line, barrier: &Barrier) -> f64 {
+        let [first, last] = line.nodes;
+        self.given_up_at(first, member, line, barrier) + self.given_up_at(last, member, line, barrier)
+    }
+
+    fn given_up_at(&mut self, node: u32, member: &Member, line: &Line, barrier: &Barrier) -> f64 {
+        let place = self.nodes.iter().position(|known| known.node == node).unwrap_or_else(|| {
+            let from_node = member.centre - barrier.nodes[node as usize].position;
+            self.nodes.push(AtNode { node, bare: member.radius - from_node.norm(), given_up: None });
+            self.nodes.len() - 1
+        });
+        let known = &mut self.nodes[place];
+        let mine = known.bare + line.radius;
         if mine <= 0.0 {
             return 0.0;
         }
-        let (mut most, mut sum) = (0.0_f64, 0.0);
-        for end in barrier.line_ends.at(node).iter().filter(|end| leads_to(end, &here, &from_node, barrier)) {
-            let overlap = (bare + end.radius).max(0.0);
-            most = most.max(overlap);
-            sum += overlap;
-        }
-        if sum > 0.0 { mine * (1.0 - most / sum) } else { 0.0 }
-    };
-    line.nodes.into_iter().map(at_node).sum()
+        mine * *known.given_up.get_or_insert_with(|| shared_at(node, &member.centre, known.bare, barrier))
+    }
+}
+
+/// Share 1 − max u_j/Σ u_j of its overlap that each line gives up at a node, for a sphere at `centre` whose overlap with the bare point is `bare` (m).
+fn shared_at(node: u32, centre: &Vec3, bare: f64, barrier: &Barrier) -> f64 {
+    let here = barrier.nodes[node as usize].position;
+    let from_node = centre - here;
+    let (mut most, mut sum) = (0.0_f64, 0.0);
+    for end in barrier.line_ends.at(node).iter().filter(|end| leads_to(end, &here, &from_node, barrier)) {
+        let overlap = (bare + end.radius).max(0.0);
+        most = most.max(overlap);
+        sum += overlap;
+    }
+    if sum > 0.0 { 1.0 - most / sum } else { 0.0 }
 }
 
 /// Whether a line runs on from its end, at the place `here`, towards a point that lies `from_node` off it.

@@ -73,7 +73,8 @@ impl Chain {
             None => {
                 let cosine = pieces[joint - 1].direction.dot(&pieces[joint].direction).clamp(-1.0, 1.0);
                 // A chord is no longer than its arc: e^(μθ) ≥ 1 + μ √(2 − 2 cos θ), which most rings need no more than.
-                if high <= low * (1.0 + friction * (2.0 - 2.0 * cosine).sqrt()) {
+                let chord = friction * low;
+                if (high - low) * (high - low) <= chord * chord * (2.0 - 2.0 * cosine) {
                     return;
                 }
                 *holds[joint].insert(libm::exp(friction * libm::acos(cosine)))
