@@ -26,18 +26,18 @@
 //! | what an overloaded rope does | [`dem::elements::strength`], [`dem::elements::rope`] and `Cylinder::give_way` |
 //! | a structural element | a file in [`dem::elements`], a variant of `SegmentKind` with its matches (recorders, [`report::segment_kinds`], [`report::pictures`]), its list in [`dem::tables::barrier`], with what it tells of itself in `Barrier::axial_members`, `Barrier::springs` and `Barrier::connect` (stable step, film, snapshots and loads of ropes go by these), its forces in [`dem::net`], its place in [`scene::net::build`] (rings and cylinders: [`scene::net::rings`]), a load of its own in [`dem::recorders`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | vector instructions | a file in [`dem::simd`] and its choice in [`dem::simd::widest`] |
-//! | a load case | a file in [`loads::cases`] and a line in its list; what the design gives for it in `loads::cases::load_case::AdditionalActions` and `guideline`; its working with [`loads::cases::working`] |
+//! | a load case | a file in [`loads::cases`] and a line in its two lists; what the design gives for it is a design key, handed on by `loads::cases::load_case::AdditionalActions` and `guideline`; its working with [`loads::cases::working`] |
 //! | another impact model | an entry of [`loads::other_models::MODELS`] |
 //! | a rule of detailing | a function and a line in [`checks::detailing`] |
-//! | a shape of surface | a file in [`dem::tables`] beside `surfaces` and `terrain`, and its lines in [`dem::tables::fixed`], which tells all others what a grain touches; where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
+//! | a shape of surface | a file in [`dem::tables`] beside `surfaces` and `terrain`, and its lines in [`dem::tables::fixed`], with a field of [`dem::model::Model`]; what grains do to it follows, but where one contact goes on in another ([`dem::contact::surfaces`]); where it stands in [`scene::build`]; raise the `FORMAT` of [`checkpoint::file`] |
 //! | an input to vary | a line in [`sensitivity`] (equations) or [`sensitivity::simulated`] (simulation) |
 //! | a rule on where a formula holds | [`checks::range`]; a rule of [`checks::detailing`] with its bearing |
 //! | a load case that is simulated, or where a partial factor stands | [`flow_cases`]; its runs in `pipeline::simulate_cases`, [`simulated`] and [`demand`]; raise the `FORMAT` of [`report::recording`] |
-//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there; raise the `FORMAT`s of [`checkpoint::file`] and [`report::recording`]. A check on it takes one of the variants of `quantities::quantity::Demanded` |
+//! | a quantity that is measured | a file in [`quantities`] and a line in its list; recordings, `result.json`, scatter and comparison follow, and with `.demanded(..)` the demands that checks are made of (make `tests/fixtures/recorded.bin` anew). One that is not recorded yet: a [`dem::recorders::channels::Channel`] in the file of its body in [`dem::recorders`], and a line in `CHANNELS` there; raise the `FORMAT` of [`checkpoint::file`]. A check on it takes one of the variants of `quantities::quantity::Demanded` |
 //! | a check | a file in [`checks`] and a line in its list; it names a quantity and holds it against a capacity |
 //! | a load or a course of the event that nothing covers | a file in [`checks::not_covered`] and a line in its list |
 //! | a reason to distrust a simulation | a limit in [`checks::credibility`], or, where the design must be known, a function of `arriving` or one beside it |
-//! | what a check, a load case or a warning is called and means | its text in [`explain`], from which `docs/reference.md` is made |
+//! | what a check, a load case or a warning means | its [`text`], in the file of the check or the load case, of warnings in [`explain`]; `docs/reference.md` is made of them |
 //! | a warning to the reviewer | a function and a line in [`report::warnings`], its text in [`explain`]; a usual range of an input in [`checks::implausible`] |
 //! | a field of `result.json` | [`report::json`]; raise its `schema_version` where one changes or goes |
 //! | where a rule is from | [`sources`] |
@@ -102,6 +102,7 @@ pub mod design;
 pub mod explain;
 pub mod exports;
 pub mod fidelity;
+mod first_surge;
 pub mod flow_cases;
 pub mod guideline;
 mod larger;
@@ -128,6 +129,7 @@ pub mod stages;
 mod starts;
 mod studies;
 pub mod terminal;
+mod text;
 mod units;
 pub mod validation;
 pub mod yield_curve;

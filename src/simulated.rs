@@ -178,8 +178,8 @@ struct Halfway<T> {
 
 /// What is kept of a simulation.
 #[derive(Serialize, Deserialize)]
-enum Kept<Unready, Unfinished, Done> {
-    Preparing(Unready),
+enum Kept<Begun, Unfinished, Done> {
+    Preparing(Begun),
     Halfway(Unfinished),
     Done(Done),
 }

@@ -87,6 +87,25 @@ fn momentum_and_energy_of_a_boulder_in_a_net_are_accounted_for() {
     assert!(error.abs() < 1e-4, "{error}");
 }
 
+/// One at the front lies anywhere across the channel, another place in each packing, and within its walls.
+#[test]
+fn where_a_boulder_comes_is_a_matter_of_chance() {
+    let file = with(NET, "{diameter: 0.55 m, number: 1}");
+    let width = file.design.channel.width;
+    let place = |seed: u64| {
+        let scene = build(&file.design, &choose(&file.design), seed).expect("a scene");
+        let grains = scene.simulation.snapshot();
+        let boulder = grains.iter().max_by(|a, b| a.body.mass.total_cmp(&b.body.mass)).expect("a boulder");
+        (boulder.position.y, boulder.body.radius)
+    };
+    let places: Vec<(f64, f64)> = (1..=8).map(place).collect();
+    assert!(places.iter().all(|(y, radius)| (*radius..=width - radius).contains(y)), "{places:?} of {width}");
+    let across = |pick: fn(f64, f64) -> f64, from: f64| places.iter().map(|(y, _)| *y).fold(from, pick);
+    let [least, most] = [across(f64::min, f64::INFINITY), across(f64::max, f64::NEG_INFINITY)];
+    assert!(most - least > 0.4 * (width - 0.55), "{places:?} of {width}");
+    assert_eq!(place(1), places[0]);
+}
+
 /// Spread ones lie in the flow, none overlaps, and their mass is there.
 #[test]
 fn spread_boulders_are_packed_with_the_grains() {

@@ -186,7 +186,7 @@ fn rules_of_the_net() {
         ("Coefficient λ", 1.5, Some(0.7), None, Bearing::Pressures),
         ("Largest sag", 0.3472, None, Some(0.3), Bearing::Ropes),
         ("Height of the point load", 1.4, Some(0.906308), None, Bearing::Advice),
-        ("Barrier above the heap", 2.7189 - 1.7640, Some(0.0), None, Bearing::Advice),
+        ("Height of the barrier above the deposit", 2.7189 - 1.7640, Some(0.0), None, Bearing::Advice),
         ("Discharge", 5.93710, Some(1.0 / 3.0), Some(3.0), Bearing::Flow),
         ("Volume held against", 75.7565, Some(20.0), None, Bearing::Advice),
         ("Volume held by one net", 75.7565, None, Some(2000.0), Bearing::Advice),

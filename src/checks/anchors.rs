@@ -8,6 +8,22 @@ use crate::larger::larger_or_nan;
 use crate::quantities::quantity::Unit;
 use crate::quantities::{anchor_load, other_ropes};
 use crate::sources::ANCHOR_FACTOR;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[
+    Text {
+        id: "anchor_N_load",
+        meaning: "The load of the anchors of a main rope: the higher of its two, or each where their resistances differ.",
+        formula: "T ≤ anchor_utilisation · R_k/γ_M",
+        source: ANCHOR_FACTOR,
+    },
+    Text {
+        id: "anchor_plateau",
+        meaning: "A rule of design, whatever the event: an anchor must hold the force of the yielding dissipators at its rope, with their overstrength.",
+        formula: "overstrength · F_plateau ≤ anchor_utilisation · R_k/γ_M",
+        source: ANCHOR_FACTOR,
+    },
+];
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else {

@@ -14,6 +14,14 @@ use crate::design::{BarrierDesign, Bottom, Design};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{bed, other_ropes};
 use crate::sources::{ANCHOR_FACTOR, NO_LIMIT, ROPE_FACTOR};
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "bed_bolts",
+    meaning: "The load of the worst bolt that holds the lowest rope to the bed. The equations spread the load evenly and can fail the bolts, but never pass them: the worst bolt takes two to three times the mean.",
+    formula: "T = √(H² + (P/2)²), H = (c P² EA/24)^⅓ ≤ anchor_utilisation · R_k/γ_M",
+    source: ANCHOR_FACTOR,
+}];
 
 /// Ring spacings between two bolts up to which the lowest rope counts as held along its length.
 const MOST_RINGS: f64 = 4.0;

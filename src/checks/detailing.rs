@@ -241,7 +241,7 @@ fn of_freeboard(design: &Design, guideline: &Guideline) -> Rule {
     let heaped =
         flows(design, guideline.input).iter().map(|flow| event_fill(design, flow).height()).fold(0.0, larger_or_nan);
     least(
-        "Barrier above the heap that one event leaves against it",
+        "Height of the barrier above the deposit of one event",
         guideline.input.barrier_height - heaped,
         0.0,
         "m",

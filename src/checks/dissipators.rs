@@ -7,6 +7,21 @@ use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{dissipator, rope_tension};
 use crate::sources::{PLATEAU_DATA, STROKE_DATA};
+use crate::text::Text;
+
+pub(crate) const STROKE_TEXTS: &[Text] = &[Text {
+    id: "brake_N_stroke",
+    meaning: "The stroke of the dissipators of a main rope against what is available.",
+    formula: "s ≤ dissipator_utilisation · s_max",
+    source: STROKE_DATA,
+}];
+
+pub(crate) const PLATEAU_TEXTS: &[Text] = &[Text {
+    id: "brake_plateau",
+    meaning: "The tension of the dissipators against their plateau or the largest force of their curve. A dissipator that yields works as it should; more than its plateau means that a stroke is used up.",
+    formula: "T ≤ F_plateau",
+    source: PLATEAU_DATA,
+}];
 
 fn dissipators(design: &Design) -> Option<(&FlexibleNet, &DissipatorDesign)> {
     match &design.barrier {

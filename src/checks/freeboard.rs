@@ -11,6 +11,14 @@ use crate::loads::run_up::{by_energy, by_jump};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{height, run_up};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "freeboard",
+    meaning: "The level that deposit and run-up reach at the barrier against its height, less the freeboard that the design asks for. Without limits.freeboard it is told for information.",
+    formula: "max(H_deposit, H_before the last surge + run-up) ≤ H − freeboard",
+    source: DESIGN_LIMIT,
+}];
 
 /// Judged where a freeboard is asked for; many barriers are meant to be overtopped.
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
@@ -33,7 +41,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let by_energy_alone = design.limits.run_up == RunUp::Energy;
     if outcome.holds() && by_energy_alone && !energy_is_enough(design) {
         outcome.leave_open(OpenReason::OutOfRange(
-            "the run-up by energy is lower than that by a momentum jump here, and no bound (limits.run_up: larger)"
+            "the run-up by energy is lower than that by a momentum jump here, so that it is no upper bound (limits.run_up: larger)"
                 .to_string(),
         ));
     }

@@ -7,6 +7,14 @@ use crate::guideline::{Guideline, guideline};
 use crate::quantities::height;
 use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "residual_height",
+    meaning: "The height of a net at the end of the simulation over its height before it.",
+    formula: "(1 − h/h₀)/(1 − limit) ≤ 1",
+    source: DESIGN_LIMIT,
+}];
 
 /// A net sags and is pulled out; a rigid wall keeps its height.
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {

@@ -24,32 +24,38 @@ pub(crate) mod wall_moment;
 use crate::checks::outcome::Outcome;
 use crate::demand::Demands;
 use crate::design::Design;
+use crate::text::Text;
 
 type Check = fn(&Design, &Demands) -> Vec<Outcome>;
 
-/// All checks, in the order of the report.
-const CHECKS: &[Check] = &[
-    total_force::check,
-    wall_local::check,
-    wall_moment::check,
-    wall::check,
-    ropes::check_main,
-    ropes::check_net,
-    ropes::check_lateral,
-    rope_damage::check_broken,
-    rope_damage::tell_drawn_out,
-    dissipators::check_stroke,
-    dissipators::check_plateau,
-    ropes::check_plateau,
-    anchors::check,
-    bolts::check,
-    posts::check,
-    retained::check,
-    height::check,
-    freeboard::check,
+/// All checks with what is told of them, in the order of the report.
+const CHECKS: &[(Check, &[Text])] = &[
+    (total_force::check, total_force::TEXTS),
+    (wall_local::check, wall_local::TEXTS),
+    (wall_moment::check, wall_moment::TEXTS),
+    (wall::check, wall::TEXTS),
+    (ropes::check_main, ropes::MAIN_TEXTS),
+    (ropes::check_net, ropes::NET_TEXTS),
+    (ropes::check_lateral, ropes::LATERAL_TEXTS),
+    (rope_damage::check_broken, rope_damage::BROKEN_TEXTS),
+    (rope_damage::tell_drawn_out, rope_damage::DRAWN_OUT_TEXTS),
+    (dissipators::check_stroke, dissipators::STROKE_TEXTS),
+    (dissipators::check_plateau, dissipators::PLATEAU_TEXTS),
+    (ropes::check_plateau, ropes::PLATEAU_TEXTS),
+    (anchors::check, anchors::TEXTS),
+    (bolts::check, bolts::TEXTS),
+    (posts::check, posts::TEXTS),
+    (retained::check, retained::TEXTS),
+    (height::check, height::TEXTS),
+    (freeboard::check, freeboard::TEXTS),
 ];
 
 /// Holds the demands against all limits.
 pub fn check_all(design: &Design, demands: &Demands) -> Vec<Outcome> {
-    CHECKS.iter().flat_map(|check| check(design, demands)).collect()
+    CHECKS.iter().flat_map(|(check, _)| check(design, demands)).collect()
+}
+
+/// What is told of each check, in the order of the report.
+pub fn texts() -> impl Iterator<Item = &'static Text> {
+    CHECKS.iter().flat_map(|(_, texts)| *texts)
 }

@@ -12,7 +12,59 @@ use crate::loads::posts::{Column, Strut};
 use crate::quantities::posts;
 use crate::quantities::quantity::Unit;
 use crate::sources::{ANCHOR_FACTOR, POST_STRENGTH, ROPE_FACTOR, STROKE_DATA};
+use crate::text::Text;
 use crate::units::GRAVITY;
+
+pub(crate) const TEXTS: &[Text] = &[
+    Text {
+        id: "post_N_compression",
+        meaning: "The compression of a post, counted in the order of posts.at, together with its bending by what presses on it.",
+        formula: "N + N_b M/(M_R (1 − N/N_cr)) ≤ N_b = χ A f_y/γ",
+        source: POST_STRENGTH,
+    },
+    Text {
+        id: "post_N_uplift",
+        meaning: "The pull on the foundation of a post, where its ropes lift it.",
+        formula: "T ≤ anchor_utilisation · R_k/γ_M",
+        source: ANCHOR_FACTOR,
+    },
+    Text {
+        id: "post_N_foot",
+        meaning: "The force of a post on its foundation, all directions taken together.",
+        formula: "F ≤ anchor_utilisation · R_k/γ_M",
+        source: ANCHOR_FACTOR,
+    },
+    Text {
+        id: "post_N_retaining_tension",
+        meaning: "The tension of the ropes that retain a post.",
+        formula: "T ≤ rope_utilisation · F_br · rope_end/γ_M",
+        source: ROPE_FACTOR,
+    },
+    Text {
+        id: "post_N_retaining_stroke",
+        meaning: "The stroke of the dissipators of the ropes that retain a post. Where they would yield, nothing else holds the head of the post, and by the equations their strokes count as used up.",
+        formula: "s ≤ dissipator_utilisation · s_max",
+        source: STROKE_DATA,
+    },
+    Text {
+        id: "post_N_anchor_load",
+        meaning: "The load of the anchors of the ropes that retain a post.",
+        formula: "T ≤ anchor_utilisation · R_k/γ_M",
+        source: ANCHOR_FACTOR,
+    },
+    Text {
+        id: "retaining_plateau",
+        meaning: "A rule of design, whatever the event: a retaining rope must hold the force of its yielding dissipators, with their overstrength.",
+        formula: "overstrength · F_plateau ≤ rope_utilisation · F_br · rope_end/γ_M",
+        source: ROPE_FACTOR,
+    },
+    Text {
+        id: "retaining_anchor_plateau",
+        meaning: "A rule of design, whatever the event: the anchor of a retaining rope must hold the force of its yielding dissipators, with their overstrength.",
+        formula: "overstrength · F_plateau ≤ anchor_utilisation · R_k/γ_M",
+        source: ANCHOR_FACTOR,
+    },
+];
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let Some(given) = design.posts() else { return Vec::new() };

@@ -11,6 +11,14 @@ use crate::loads::input::GuidelineInput;
 use crate::quantities::mass;
 use crate::quantities::quantity::Unit;
 use crate::sources::DESIGN_LIMIT;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "retained_mass",
+    meaning: "The share of the released mass that the barrier holds at the end of the simulation. Its utilisation is what is missing over what may be missing.",
+    formula: "(1 − m/m₀)/(1 − limit) ≤ 1",
+    source: DESIGN_LIMIT,
+}];
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let title = match design.limits.retained_of {

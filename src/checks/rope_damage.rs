@@ -5,6 +5,21 @@ use crate::demand::Demands;
 use crate::design::{BarrierDesign, Design, Rope};
 use crate::quantities::rope_damage;
 use crate::sources::{NO_LIMIT, NOTHING_BREAKS};
+use crate::text::Text;
+
+pub(crate) const BROKEN_TEXTS: &[Text] = &[Text {
+    id: "broken_pieces",
+    meaning: "Whether any rope breaks in the simulation, where the design lets ropes break. How near a rope is to breaking, its tension tells.",
+    formula: "no piece breaks",
+    source: NOTHING_BREAKS,
+}];
+
+pub(crate) const DRAWN_OUT_TEXTS: &[Text] = &[Text {
+    id: "drawn_out",
+    meaning: "By how much ropes draw out at their elastic limit. The design gives no allowable elongation: more than 0.1 % leaves the check open.",
+    formula: "permanent elongation ≤ 0.1 %",
+    source: "",
+}];
 
 fn any_rope(design: &Design, allows: impl Fn(&Rope) -> bool) -> bool {
     let BarrierDesign::FlexibleNet(net) = &design.barrier else { return false };

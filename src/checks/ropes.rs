@@ -6,6 +6,35 @@ use crate::design::{BarrierDesign, Design, FlexibleNet, Level, NetRings, Rope};
 use crate::quantities::quantity::Unit;
 use crate::quantities::{other_ropes, rope_tension};
 use crate::sources::{RING_FACTOR, ROPE_FACTOR};
+use crate::text::Text;
+
+pub(crate) const MAIN_TEXTS: &[Text] = &[Text {
+    id: "rope_N_tension",
+    meaning: "The tension of a main rope, counted from the bottom, or between its bolts of one that the bed holds. By the equations a rope sags to a parabola under its share of the pressure; with dissipators they cap its pull.",
+    formula: "T = √(H² + (q L/2)²), H = q L²/(8 f) ≤ rope_utilisation · F_br · rope_end/γ_M",
+    source: ROPE_FACTOR,
+}];
+
+pub(crate) const NET_TEXTS: &[Text] = &[Text {
+    id: "net_tension",
+    meaning: "The tension of the ropes of the net, or the force of a leg of a ring of a ring net, as that of a chain of such rings that is as near to breaking.",
+    formula: "T ≤ rope_utilisation · F_br · rope_end/γ_M; of rings 0.83 · half of what a chain holds/γ_M",
+    source: RING_FACTOR,
+}];
+
+pub(crate) const LATERAL_TEXTS: &[Text] = &[Text {
+    id: "lateral_tension",
+    meaning: "The tension of the lateral ropes, which hold the edges of the net. The equations do not know it.",
+    formula: "T ≤ rope_utilisation · F_br · rope_end/γ_M",
+    source: ROPE_FACTOR,
+}];
+
+pub(crate) const PLATEAU_TEXTS: &[Text] = &[Text {
+    id: "rope_plateau",
+    meaning: "A rule of design, whatever the event: a main rope must hold the force of its yielding dissipators, with their overstrength.",
+    formula: "overstrength · F_plateau ≤ rope_utilisation · F_br · rope_end/γ_M",
+    source: ROPE_FACTOR,
+}];
 
 /// Main ropes that are free to move; one bolted to the bed is held all along and is not checked.
 pub fn check_main(design: &Design, demands: &Demands) -> Vec<Outcome> {

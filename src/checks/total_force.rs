@@ -9,6 +9,14 @@ use crate::guideline::buried_thrust;
 use crate::quantities::quantity::Unit;
 use crate::quantities::total_force;
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "total_force",
+    meaning: "The largest total force on the barrier, normal to its face. A rigid wall is held against its resistance; for a net, and for a block that stands by its weight alone, it is told for information, because its parts are checked one by one.",
+    formula: "γ_F F ≤ R_k/γ_M",
+    source: DESIGN_LIMIT,
+}];
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let width = design.channel.width;

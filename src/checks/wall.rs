@@ -10,6 +10,34 @@ use crate::loads::wall::WallInput;
 use crate::quantities::quantity::Unit;
 use crate::quantities::wall as quantity;
 use crate::sources::WALL_BALANCE;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[
+    Text {
+        id: "wall_sliding",
+        meaning: "A wall that stands by its weight slides along its base: what pushes along the base, uplift and the thrust of water and ground on its buried face included, against friction. A point load counts on 0.41 of the block that it hits, because at the end of a block it turns it as well.",
+        formula: "γ_F R (cos δ + tan θ sin δ + tan φ · lift) + W sin β + U tan φ + E ≤ W cos β tan φ/γ_R",
+        source: WALL_BALANCE,
+    },
+    Text {
+        id: "wall_overturning",
+        meaning: "A wall that stands by its weight tips about the downstream edge of its base.",
+        formula: "γ_F M + lift · b + W sin β H/2 + 2 U b/3 + M_E ≤ W cos β (b − a)/γ_R",
+        source: WALL_BALANCE,
+    },
+    Text {
+        id: "wall_eccentricity",
+        meaning: "How far the resultant stands off the middle of the base. Beyond a third of the base special precautions are needed (EN 1997-1, 6.5.4, not checked against the original).",
+        formula: "e ≤ b/3",
+        source: WALL_BALANCE,
+    },
+    Text {
+        id: "wall_bearing",
+        meaning: "The mean pressure on the effective area of the base, which is centred under the resultant, against the bearing resistance of the ground.",
+        formula: "N/(b − 2 e) ≤ q_k/γ_R",
+        source: "EN 1997-1, annex D, not checked against the original",
+    },
+];
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let (Some(wall), Some(stability)) = (wall_of(design), stability_of(design)) else { return Vec::new() };
@@ -127,7 +155,7 @@ impl Base {
             "wall_bearing",
             "Pressure under the wall",
             Unit::Pascal,
-            "EN 1997-1, annex D, not checked against the original: the load on the part of the base that is centred under it",
+            "EN 1997-1, annex D, not checked against the original: the load on the effective area of the base, which is centred under the resultant",
         );
         let outcome = match self.stability.bearing_resistance {
             Some(characteristic) => held(name, demand, characteristic, self.stability.bearing_factor),

@@ -7,6 +7,14 @@ use crate::guideline::{buried_thrust, input, point_load};
 use crate::quantities::quantity::Unit;
 use crate::quantities::total_force;
 use crate::sources::DESIGN_LIMIT;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "wall_local_force",
+    meaning: "The force on the metre of a wall that the point load hits, per metre of width, with the pressure of the flow there.",
+    formula: "γ_F (R + P/l) ≤ R_k/(γ_M b), l the length over which the point load spreads, b the width of the wall",
+    source: DESIGN_LIMIT,
+}];
 
 const OF_A_BOULDER: &str = "limit of the design file; the load is no less than the elastic force of a boulder of flow.boulders (Hertz 1882) times loads.impact_reduction, which is uncertain";
 

@@ -9,6 +9,14 @@ use crate::guideline::buried_thrust;
 use crate::quantities::quantity::Unit;
 use crate::quantities::{total_force, wall};
 use crate::sources::{DESIGN_LIMIT, NO_LIMIT};
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "wall_moment",
+    meaning: "The moment of flow and point load about the foot of a wall, per metre of width, or about its base where it is founded deeper.",
+    formula: "γ_F (M + F d) ≤ M_k/γ_M, d the founding depth",
+    source: DESIGN_LIMIT,
+}];
 
 pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let BarrierDesign::RigidWall(wall) = &design.barrier else { return Vec::new() };

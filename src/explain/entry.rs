@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::text::Text;
+
 /// What an entry is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
@@ -29,17 +31,6 @@ impl Of {
             Self::Key => "Keys of the design file",
         }
     }
-}
-
-/// The text of a check, a load case or a warning as it is written down.
-pub struct Text {
-    /// As in `result.json`; `N` stands for a number that is counted from 1.
-    pub id: &'static str,
-    pub meaning: &'static str,
-    /// What is compared or computed; empty where there is none.
-    pub formula: &'static str,
-    /// Empty where it rests on the design alone.
-    pub source: &'static str,
 }
 
 /// One thing explained.

@@ -1,27 +1,24 @@
 //! What a check, a load case, a warning or a key of the design file is: for `barrier-check explain` and for `docs/reference.md`, which is made of
 //! the same text.
 
-mod checks;
 mod entry;
 mod keys;
-mod load_cases;
 mod warnings;
 
 use std::fmt::Write;
 
-use crate::explain::entry::Text;
+use crate::checks;
+use crate::loads::cases;
 use crate::problem::nearest;
 
 pub use crate::explain::entry::{Entry, Of};
 
 /// Everything that is explained, in the order of the reference.
 pub fn all() -> Vec<Entry> {
-    let of = |of: Of, texts: &'static [Text]| texts.iter().map(move |text| Entry::of(of, text));
-    of(Of::Check, checks::CHECKS)
-        .chain(of(Of::LoadCase, load_cases::LOAD_CASES))
-        .chain(of(Of::Warning, warnings::WARNINGS))
-        .chain(keys::entries())
-        .collect()
+    let checks = checks::texts().map(|text| Entry::of(Of::Check, text));
+    let cases = cases::texts().map(|text| Entry::of(Of::LoadCase, text));
+    let warnings = warnings::WARNINGS.iter().map(|text| Entry::of(Of::Warning, text));
+    checks.chain(cases).chain(warnings).chain(keys::entries()).collect()
 }
 
 /// An id with `N` for its number and without the bank: of `rope_3_tension` and `anchor_2_left_load` that of all such checks.

@@ -1,6 +1,6 @@
 //! The warnings of a report: points for the reviewer.
 
-use crate::explain::entry::Text;
+use crate::text::Text;
 
 /// In the order of the report.
 pub const WARNINGS: &[Text] = &[

@@ -39,7 +39,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
             ),
         ));
         rows.push(row(
-            "Storage capacity, in design surges",
+            "Number of design surges that the barrier stores",
             figures(held.surges),
             format!(
                 "of {} each{}; the event has {}",
@@ -58,7 +58,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
             "by a momentum jump (Iverson et al. 2016, κ = 1) / by energy h + v²/(2 g cos α), normal to the bed; friction is left out. Froude number {}: {}",
             figures(input.froude()),
             if run_up::by_energy(input) < run_up::by_jump(input, &run.guideline.section) {
-                "the energy balance is lower than the jump here, and no bound"
+                "the energy balance gives less than the jump here, so that it is no upper bound"
             } else {
                 "the energy balance is no lower than the jump here; on a wall in the USGS flume, at Froude numbers of 6 to 10, it was several times what was measured, and the jump at or above it (1.0 to 1.5 times)"
             }
@@ -69,7 +69,7 @@ pub fn rows(run: &Run) -> Vec<Row> {
     let or_unknown =
         |height: f64| if height.is_finite() { with_unit(height, "m") } else { "a height that is not known".into() };
     rows.push(row(
-        "Barrier above the heap that one event leaves against it",
+        "Height of the barrier above the deposit of one event",
         if event.height().is_finite() { with_unit(input.barrier_height - event.height(), "m") } else { "not known".into() },
         format!(
             "barrier height {} − highest deposit {}, normal to the bed. Upper bound: the event comes to rest heaped against the barrier, its surface falling upstream at {:.1}° (flow.grain_friction), to {}, but no higher than the larger run-up; with a level surface {}. No guideline value was found",

@@ -505,7 +505,7 @@ pub fn margin(run: &Run) -> String {
             times(most)
         ),
         Limit::At(factor, first) if factor >= 1.0 => format!(
-            "the {name} could increase by {:.0} % before a check fails by the guideline, or is open ({})",
+            "the {name} could increase by {:.0} % before the first check by the guideline fails or is left open ({})",
             100.0 * (factor - 1.0),
             lower_first(&first)
         ),

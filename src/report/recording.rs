@@ -39,13 +39,13 @@ pub enum RecordingError {
     Design(Problems),
 }
 
-/// The recorded parts; `T` owns or borrows them.
+/// The recorded parts, owned or borrowed.
 #[derive(Serialize, Deserialize)]
-struct Recording<SimulatedRuns, Varied> {
+struct Recording<Runs, Varied> {
     design_name: String,
     design: Vec<u8>,
     attached: Attached,
-    simulated: Option<SimulatedRuns>,
+    simulated: Option<Runs>,
     varied: Varied,
     climb: Vec<Step>,
 }

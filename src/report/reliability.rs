@@ -6,7 +6,8 @@ use crate::checks::credibility::{ENERGY_LIMIT, ESCAPED_LIMIT, OVERLAP_LIMIT, PAC
 use crate::checks::not_covered::context::AtOnce;
 use crate::design::{BarrierDesign, BarrierModel};
 use crate::fidelity::ladder::{RUNGS, Step};
-use crate::pipeline::{Run, Verdict, at_once};
+use crate::first_surge::at_once;
+use crate::pipeline::{Run, Verdict};
 use crate::program::COMMIT;
 use crate::report::numbers::with_unit;
 use crate::report::row::{Row, row};

@@ -83,9 +83,11 @@ fn at_the_plateau(outcome: &Outcome) -> &'static str {
     match (guideline, simulation) {
         (false, false) => "stays elastic",
         (true, true) => "yields, as intended",
-        (true, false) if outcome.demand.simulation.is_some() => "yields by the guideline, elastic in the simulation",
-        (true, false) => "yields by the guideline",
-        (false, true) => "yields in the simulation, elastic by the guideline",
+        (true, false) if outcome.demand.simulation.is_some() => {
+            "yields in the guideline calculation, stays elastic in the simulation"
+        }
+        (true, false) => "yields in the guideline calculation",
+        (false, true) => "yields in the simulation, stays elastic in the guideline calculation",
     }
 }
 

@@ -575,7 +575,7 @@ pub fn pinned_fidelity(run: &Run) -> Option<String> {
     let verdict = if open.is_empty() {
         "no check changes its result with that; the tables show the values without it".to_string()
     } else {
-        format!("with that {} could go either way", listed(&open))
+        format!("with that {} may pass or fail", listed(&open))
     };
     let asked = match run.file.design.simulation.fidelity {
         FidelityWish::Fast => "fast",

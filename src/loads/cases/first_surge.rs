@@ -3,6 +3,15 @@
 use crate::loads::cases::later_surge;
 use crate::loads::cases::load_case::LoadCase;
 use crate::loads::input::GuidelineInput;
+use crate::sources::VOLKWEIN_2014;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "first_surge",
+    meaning: "The first surge meets the empty barrier: its static and its dynamic pressure act over its depth h.",
+    formula: "R = ½ K ρ g cos α h² + λ ρ v² h per metre of width",
+    source: VOLKWEIN_2014,
+}];
 
 pub fn case(input: &GuidelineInput) -> LoadCase {
     LoadCase {

@@ -5,6 +5,22 @@ use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
 use crate::sources::VOLKWEIN_2014;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[
+    Text {
+        id: "later_surge",
+        meaning: "A surge runs over a deposit of the depth H_d: the deposit carries the weight of the surge, and the surge hits above it. Every depth of deposit from empty to full is tried, and each part of the barrier is held against the worst.",
+        formula: "R = ½ K ρ g cos α (H_d + h)² + λ ρ v² h",
+        source: VOLKWEIN_2014,
+    },
+    Text {
+        id: "last_surge",
+        meaning: "The last surge that the barrier has room for: the deposit reaches to one flow depth below the height to which the barrier fills.",
+        formula: "R = ½ K ρ g cos α (H_d + h)² + λ ρ v² h with H_d = H − h",
+        source: VOLKWEIN_2014,
+    },
+];
 
 pub fn case(input: &GuidelineInput, deposit: f64) -> LoadCase {
     let moving = input.depth;

@@ -14,9 +14,24 @@ pub(crate) mod working;
 
 use self::load_case::{AdditionalActions, LoadCase};
 use crate::loads::input::GuidelineInput;
+use crate::text::Text;
 
 /// Depths of deposit tried between the empty and the full barrier.
 const STAGES: usize = 50;
+
+/// What is told of each, in the order of the report.
+pub fn texts() -> impl Iterator<Item = &'static Text> {
+    let all = [
+        first_surge::TEXTS,
+        later_surge::TEXTS,
+        full::TEXTS,
+        drained::TEXTS,
+        overtopped::TEXTS,
+        point_load::TEXTS,
+        snow::TEXTS,
+    ];
+    all.into_iter().flatten()
+}
 
 /// The cases that the report tells: empty, last surge, full, and what else the design asks for.
 pub fn all(input: &GuidelineInput, extras: &AdditionalActions) -> Vec<LoadCase> {

@@ -8,6 +8,14 @@ use crate::loads::cases::load_case::{AdditionalActions, Certainty, LoadCase};
 use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "overtopped",
+    meaning: "The full barrier is overtopped by a flow of the depth loads.overflow_depth, whose weight presses on the deposit and which may drag the crest along.",
+    formula: "R = ½ K ρ g cos α (H² + 2 H h_o), and ρ g cos α h_o tan φ times the length on which the flow rides where the design gives both",
+    source: "Volkwein, Wendeler, Guasti 2011, Design of flexible debris flow barriers",
+}];
 
 /// Friction of the drag where none is given: tan 25°, from memory.
 pub const DEFAULT_FRICTION: f64 = 0.4663;

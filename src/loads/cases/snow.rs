@@ -5,6 +5,14 @@ use crate::loads::cases::load_case::{Certainty, LoadCase};
 use crate::loads::cases::working::Working;
 use crate::loads::input::GuidelineInput;
 use crate::loads::pressure::Diagram;
+use crate::text::Text;
+
+pub(crate) const TEXTS: &[Text] = &[Text {
+    id: "snow",
+    meaning: "Snow pressure on the empty barrier, as the design gives it (loads.snow_pressure).",
+    formula: "R = p_snow H",
+    source: "",
+}];
 
 pub fn case(input: &GuidelineInput, pressure: f64) -> LoadCase {
     let top = input.barrier_height;

@@ -24,7 +24,7 @@ pub mod snapshots;
 use self::channels::Channel;
 
 /// All channels, in the order of the columns of tables.
-pub const CHANNELS: [&Channel; 39] = [
+pub const CHANNELS: &[&Channel] = &[
     &of_level::LEVEL,
     &of_wall::MOMENT,
     &of_wall::SEGMENTS,
