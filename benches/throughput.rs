@@ -31,6 +31,7 @@ use dem::contact::law::LawConstants;
 use dem::contact::material::Material;
 use dem::neighbours::broad_phase::{Box3, BoxTree};
 use dem::net::pull_all;
+use dem::simd::widest::{Vectors, limit};
 use dem::simulation::Simulation;
 use dem::tables::barrier::Barrier;
 use dem::tables::grains::GrainShape;
@@ -118,7 +119,15 @@ fn throughput(criterion: &mut Criterion) {
 criterion_group!(benches, throughput);
 
 fn main() {
-    let mut arguments = std::env::args().skip_while(|argument| argument != "--one").skip(1);
+    let after = |flag: &'static str| std::env::args().skip_while(move |argument| argument != flag).skip(1);
+    if let Some(name) = after("--vectors").next() {
+        limit(match name.as_str() {
+            "plain" => Vectors::Plain,
+            "avx2" => Vectors::Avx2,
+            _ => Vectors::Avx512,
+        });
+    }
+    let mut arguments = after("--one");
     if let Some(name) = arguments.next() {
         return tell_one(&name);
     }

@@ -59,6 +59,10 @@ pub fn shown_by(
     FirstSurge {
         push: push.mean,
         boulder: if design.flow.boulders.is_empty() { 0.0 } else { hardest(&hit) },
+        gentlest_boulder: (!design.flow.boulders.is_empty()).then(|| {
+            let hits = simulated.all().map(|start| start.observed.one(&boulder::FORCE));
+            hits.fold(f64::INFINITY, |least, hit| -larger_or_nan(-least, -hit))
+        }),
         one_run: if push.starts > 1 { 0.0 } else { one_run - 1.0 },
         largest_push: simulated.spread(|seen| seen.one(&total_force::PUSH)).mean,
         hardest_push: hardest(&push),
@@ -110,7 +114,7 @@ pub fn at_once(simulated: &Simulated) -> AtOnce {
         net: ratio(&other_ropes::NET_AT_ONCE, &other_ropes::NET),
         lateral_ropes: ratio(&other_ropes::LATERAL_AT_ONCE, &other_ropes::LATERAL),
         anchors: ratio(&anchor_load::AT_ONCE, &anchor_load::PEAK),
-        bolts: ratio(&bed::BOLT_AT_ONCE, &bed::BOLT),
+        bolts: larger_or_nan(ratio(&bed::BOLT_AT_ONCE, &bed::BOLT), ratio(&bed::SPACE_AT_ONCE, &bed::SPACE)),
         posts: larger_or_nan(
             ratio(&posts::COMPRESSION_AT_ONCE, &posts::COMPRESSION),
             ratio(&posts::RETAINING_AT_ONCE, &posts::RETAINING),

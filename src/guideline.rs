@@ -696,7 +696,7 @@ mod tests {
     /// Two ropes at a level bear half of its load each, and are one rope under half of it; levels of single ropes are heights.
     #[test]
     fn ropes_side_by_side_share_their_load() {
-        let text = include_str!("../designs/small_net.yaml");
+        let text = include_str!("../tests/fixtures/even_net.yaml");
         let with = |top: &str| {
             let levels = format!("levels: [{{height: 0 m}}, {{height: 0.9 m}}, {{height: 1.8 m{top}}}]");
             let text = text.replace("count: 3 ", &format!("{levels} "));

@@ -1,9 +1,9 @@
 //! Each rule between the values of a design at its limit: just beyond it speaks, just within it is silent. The limits are worked out from the
-//! numbers of `designs/small_net.yaml` and `designs/rigid_wall.yaml`.
+//! numbers of `tests/fixtures/even_net.yaml` and `designs/rigid_wall.yaml`.
 
 use barrier_check::design::read::read_design;
 
-const NET: &str = include_str!("../designs/small_net.yaml");
+const NET: &str = include_str!("fixtures/even_net.yaml");
 const WALL: &str = include_str!("../designs/rigid_wall.yaml");
 
 type Changes<'a> = &'a [(&'a str, &'a str)];

@@ -18,7 +18,7 @@ fn design(text: &str) -> Value {
     serde_yaml::from_str(text).expect("YAML")
 }
 
-const SMALL_NET: &str = include_str!("../designs/small_net.yaml");
+const SMALL_NET: &str = include_str!("fixtures/even_net.yaml");
 
 #[test]
 fn what_the_program_takes_is_valid() {

@@ -113,7 +113,11 @@ fn lists_go_together_and_values_that_make_no_design_are_told() {
     std::fs::write(here.join("plan.yaml"), PLAN.to_string() + "combine: list\n").expect("a plan");
     let ran = barrier_check(&here, &["study", "plan.yaml", "--out", "uneven"]);
     let told = String::from_utf8_lossy(&ran.stderr).into_owned();
-    assert!(ran.status.code() == Some(2) && told.contains("combine\n  found:   lists of [3, 2] values\n  allowed: as many in each"), "{told}");
+    assert!(
+        ran.status.code() == Some(2)
+            && told.contains("combine\n  found:   lists of [3, 2] values\n  allowed: as many in each"),
+        "{told}"
+    );
     // Of other kinds the runs are not known beforehand.
     let other = "kind: stability\nname: x\nshares: [0.5]\nsteps: 100\n";
     std::fs::write(here.join("other_kind.yaml"), other).expect("a plan");

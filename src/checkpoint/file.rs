@@ -16,7 +16,7 @@ use crate::program::PROGRAM;
 
 pub const NAME: &[u8; 8] = b"BARRKPT\n";
 /// Changes whenever anything that is kept changes.
-const FORMAT: u32 = 19;
+const FORMAT: u32 = 20;
 
 /// Bytes of a file at the most: ten times those of the largest run that is allowed.
 const LONGEST: u64 = 8 << 30;

@@ -2,11 +2,11 @@
 //!
 //! The load is not even along the rope: of the simulated examples the worst bolt takes two to three times the mean, and part of it
 //! lifts. So the equations, which spread the load evenly, can fail the bolts but never pass them. Between its bolts the rope sags: with the
-//! load P of the worst bolt on each space, a rope that lay straight is pulled along its span with H = (c P² EA/24)^⅓, where c tells how the
+//! load P of the worst space between two bolts on each, a rope that lay straight is pulled along its span with H = (c P² EA/24)^⅓, where c tells how the
 //! load is concentrated at the rings in a space ([`concentration`]); at its bolts its tension is T = √(H² + (P/2)²), which the bolts at its ends
 //! hold, and the pull of the lateral ropes that end there as well. The bolts are taken as unyielding.
 
-use crate::checks::between_bolts::{concentration, end_bolt, tension_between};
+use crate::checks::between_bolts::{concentration, tension_between};
 use crate::checks::outcome::{CheckName, Kind, LoadScaling, OpenReason, Outcome, Resistance};
 use crate::checks::ropes::{leave_open_what_is_not_known, resistance};
 use crate::demand::{Demand, Demands};
@@ -46,7 +46,9 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
     let more = concentration(spacing / net.main_ropes.ring_spacing);
     let axial = lowest.rope.axial_stiffness() * more;
     let lateral = demands.one(&other_ropes::LATERAL).simulation.unwrap_or(0.0);
-    let at_an_end = each(demands.one(&bed::BOLT), |load| end_bolt(load, ropes * axial));
+    let in_a_space = demands.one(&bed::SPACE);
+    // No less than the worst bolt along the rope.
+    let at_an_end = each(in_a_space, |load| tension_between(load, ropes * axial)).or_larger(&demands.one(&bed::BOLT));
     // The lateral ropes end at the ends of the lowest rope: in the worst case their pull has its direction.
     let with_lateral = |load: Option<f64>| load.map(|load| load + lateral);
     let at_an_end = Demand {
@@ -54,7 +56,7 @@ pub fn check(design: &Design, demands: &Demands) -> Vec<Outcome> {
         characteristic: with_lateral(at_an_end.characteristic),
         ..at_an_end
     };
-    let between = each(demands.one(&bed::BOLT), |load| tension_between(load / ropes, axial));
+    let between = each(in_a_space, |load| tension_between(load / ropes, axial));
     let bolt = Resistance { characteristic, factor: design.factors.anchor };
     let rope = resistance(design, &lowest.rope);
     let rope_name =
@@ -98,7 +100,7 @@ fn each(demand: Demand, change: impl Fn(f64) -> f64) -> Demand {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::checks::between_bolts::{end_bolt_under_more, tension_under_more};
+    use crate::checks::between_bolts::{end_bolt, end_bolt_under_more, tension_under_more};
     use crate::checks::outcome::CheckVerdict;
     use crate::design::read::read_design;
     use crate::guideline::guideline;
@@ -134,11 +136,13 @@ mod tests {
 
     #[test]
     fn the_lowest_rope_and_its_end_bolts_are_held_against_their_resistance() {
-        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let mut design = read_design("x", include_bytes!("../../tests/fixtures/even_net.yaml")).unwrap().design;
         let verdicts = |design: &Design, load: f64| {
             let demand = Demand { simulation: Some(load), ..Demand::default() };
             let guideline = guideline(design);
-            let demands = Demands::by_equations(&guideline, &design.factors).with(&bed::BOLT, &[demand]);
+            let demands = Demands::by_equations(&guideline, &design.factors)
+                .with(&bed::BOLT, &[demand])
+                .with(&bed::SPACE, &[demand]);
             check(design, &demands).iter().map(|outcome| outcome.verdict).collect::<Vec<_>>()
         };
         assert_eq!(verdicts(&design, 40e3), [CheckVerdict::Pass; 2]);
@@ -153,10 +157,10 @@ mod tests {
     /// Rings every 0.3 m: bolts 1 m apart hold the rope, bolts 1.5 m apart do not. In a channel of 3 m both are whole spaces.
     #[test]
     fn bolts_further_apart_than_four_rings_leave_their_checks_open() {
-        let mut design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let mut design = read_design("x", include_bytes!("../../tests/fixtures/even_net.yaml")).unwrap().design;
         let outcomes = |design: &Design| {
             let bolt_force = Demand { simulation: Some(20e3), ..Demand::default() };
-            check(design, &Demands::default().with(&bed::BOLT, &[bolt_force]))
+            check(design, &Demands::default().with(&bed::BOLT, &[bolt_force]).with(&bed::SPACE, &[bolt_force]))
         };
         let mut verdict = |bolts: f64, rings: f64| {
             let BarrierDesign::FlexibleNet(net) = &mut design.barrier else { panic!("a net") };

@@ -41,9 +41,8 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let stroke = Resistance { characteristic: given.stroke, factor: 1.0 };
             let outcome = Outcome::at_most(name, *demand, stroke, design.limits.dissipator_utilisation);
             let tension = demands.each(&rope_tension::PEAK).get(index).copied().unwrap_or_default();
-            // Of the other ropes the equations know what presses on the full barrier.
-            let idle = growth_of(given, demand, &tension).filter(|_| net.runs_over_posts(index));
-            let growth = idle.unwrap_or(outcome.growth);
+            // A rope on which the equations have no load may begin to yield under more of it.
+            let growth = growth_of(given, demand, &tension).unwrap_or(outcome.growth);
             let outcome = Outcome { kind: Kind::Stroke, growth, ..outcome.of_rope(index) };
             let outcome = if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome };
             open_without_least_force(given, outcome, "barrier.flexible_net.dissipators.lower_bound")

@@ -139,7 +139,7 @@ impl Meeting<'_> {
     /// Whether the dissipators of a rope are used up: then nothing caps its load.
     fn may_be_used_up(&self, rope: usize) -> bool {
         let Some(given) = &self.guideline.dissipator else { return false };
-        let stroke = |seen: &Observed| seen.each(&dissipator::STROKE).get(rope).copied().unwrap_or(f64::NAN);
+        let stroke = |seen: &Observed| seen.nth(&dissipator::STROKE, rope);
         let left = largest(self.governing, &stroke) < USED_UP * given.stroke;
         !left
     }
@@ -166,11 +166,8 @@ impl Meeting<'_> {
     fn load_at_a_rope(&self, quantity: &Quantity, number: usize, rope: usize, at_plateau: bool) -> Demand {
         let is_capped = at_plateau && self.guideline.anchors_capped && !self.may_be_used_up(rope);
         let cap = if is_capped { self.plateau() } else { f64::INFINITY };
-        // What a run does not give is not a number, so that nothing is judged by it.
-        let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
-        let yields = self.yields(largest(self.governing, &|seen: &Observed| {
-            seen.each(&dissipator::TENSION).get(rope).copied().unwrap_or(f64::NAN)
-        }));
+        let value = |seen: &Observed| seen.nth(quantity, number);
+        let yields = self.yields(largest(self.governing, &|seen: &Observed| seen.nth(&dissipator::TENSION, rope)));
         let excess = if yields { self.excess() } else { 0.0 };
         let most = largest(self.governing, &value);
         let within = most <= cap * CAP_TOLERANCE;
@@ -218,8 +215,8 @@ impl Meeting<'_> {
             }
         };
         let of = |(number, post): (usize, &PostLoad)| {
-            let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
-            let tension = |seen: &Observed| seen.each(&posts::RETAINING).get(number).copied().unwrap_or(f64::NAN);
+            let value = |seen: &Observed| seen.nth(quantity, number);
+            let tension = |seen: &Observed| seen.nth(&posts::RETAINING, number);
             let pulled = largest(self.governing, &tension);
             let simulated =
                 spread(self.governing, &value).map(|spread| with_more(self.factor * spread.upper(), pulled));
@@ -235,33 +232,26 @@ impl Meeting<'_> {
 
     fn strokes_of_posts(&self, quantity: &Quantity) -> Vec<Demand> {
         let stop = self.guideline.retaining.as_ref().map_or(f64::INFINITY, |given| given.stroke);
-        let of = |(number, post): (usize, &PostLoad)| {
-            let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
-            let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
-            Demand {
-                guideline: Some(post.stroke),
-                simulation: spread(self.governing, &value).map(|spread| stopped(spread.upper())),
-                characteristic: self.characteristic(&value).map(stopped),
-                cap: None,
-            }
-        };
-        self.guideline.posts.iter().enumerate().map(of).collect()
+        let posts = self.guideline.posts.iter().enumerate();
+        posts.map(|(number, post)| self.stroke(quantity, number, Some(post.stroke), stop)).collect()
     }
 
-    /// Strokes end at their stop, whatever the scatter says.
     fn strokes(&self, quantity: &Quantity) -> Vec<Demand> {
         let stop = self.guideline.dissipator.as_ref().map_or(f64::INFINITY, |given| given.stroke);
-        let of = |rope: usize| {
-            let value = |seen: &Observed| seen.each(quantity).get(rope).copied().unwrap_or(f64::NAN);
-            // Asked so that what is not a number stays so.
-            let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
-            Demand {
-                guideline: self.loaded(rope).map(|rope| rope.weak.unwrap_or(rope.state).stroke),
-                simulation: spread(self.governing, &value).map(|spread| stopped(spread.upper())),
-                characteristic: self.characteristic(&value).map(stopped),
-                cap: None,
-            }
-        };
-        (0..self.ropes(quantity)).map(of).collect()
+        let by_equations = |rope: usize| self.loaded(rope).map(|rope| rope.weak.unwrap_or(rope.state).stroke);
+        (0..self.ropes(quantity)).map(|rope| self.stroke(quantity, rope, by_equations(rope), stop)).collect()
+    }
+
+    /// A stroke, which ends at its stop (m), whatever the scatter says.
+    fn stroke(&self, quantity: &Quantity, number: usize, guideline: Option<f64>, stop: f64) -> Demand {
+        let value = |seen: &Observed| seen.nth(quantity, number);
+        // Asked so that what is not a number stays so.
+        let stopped = |stroke: f64| if stroke > stop { stop } else { stroke };
+        Demand {
+            guideline,
+            simulation: spread(self.governing, &value).map(|spread| stopped(spread.upper())),
+            characteristic: self.characteristic(&value).map(stopped),
+            cap: None,
+        }
     }
 }

@@ -26,6 +26,17 @@ impl Demand {
         Self { simulation, cap: self.cap.zip(other.cap).map(|(a, b)| a.max(b)), ..*self }
     }
 
+    /// The larger of two loads on one part, by each route; NaN if either is.
+    pub fn or_larger(&self, other: &Self) -> Self {
+        let larger = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(larger_or_nan);
+        Self {
+            guideline: larger(self.guideline, other.guideline),
+            simulation: larger(self.simulation, other.simulation),
+            characteristic: larger(self.characteristic, other.characteristic),
+            cap: None,
+        }
+    }
+
     /// The same with what is there without the flow, with partial factors and without.
     pub fn with_own(&self, own: f64, characteristic: f64) -> Self {
         Self {

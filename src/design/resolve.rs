@@ -20,9 +20,9 @@ use crate::design::sizes::SizeCurve;
 use crate::design::surge_entries::{surges, volume_of, volume_of_all};
 use crate::design::terrain_file::FINE;
 use crate::design::{
-    Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Channel, CurveCut, DamBreak, Design, Factors, FidelityWish,
-    FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, MeshShape, OtherLoads, OutsideRange, OwnSizes,
-    PoreFluid, Project, RigidWall, RunUp, SideExtension, SimulationWishes, Stability, Surge,
+    Arrival, BarrierDesign, BarrierModel, BedBolts, Bottom, Boulders, Channel, CurveCut, DamBreak, Design, Factors,
+    FidelityWish, FlexibleNet, Flow, LaterSurge, LateralTo, Limits, MainRopes, MeshShape, OtherLoads, OutsideRange,
+    OwnSizes, PoreFluid, Project, RigidWall, RunUp, SideExtension, SimulationWishes, Stability, Surge,
 };
 
 /// Builds the design. `None` only if a required entry is missing, which reading has then reported.
@@ -90,8 +90,14 @@ fn flow(e: &Entries) -> Option<Flow> {
         pore_fluid: pore_fluid(e),
         arrival: arrival(e)?,
         hydrograph: hydrograph(e),
-        boulders: boulders(e)?,
+        boulders: largest_first(boulders(e)?),
     })
+}
+
+/// In whatever order they are listed they are the same boulders.
+fn largest_first(mut boulders: Vec<Boulders>) -> Vec<Boulders> {
+    boulders.sort_by(|a, b| b.diameter.total_cmp(&a.diameter).then(b.density.total_cmp(&a.density)));
+    boulders
 }
 
 fn pore_fluid(e: &Entries) -> Option<PoreFluid> {

@@ -26,6 +26,13 @@ pub struct HeadState {
     pub tension: f64,
     /// Compression of the post.
     pub compression: f64,
+    /// Share of the pull along the main rope that the retaining ropes hold before one of them goes slack.
+    pub along: f64,
+}
+
+impl HeadState {
+    /// Of a head that nothing holds in equilibrium.
+    const UNKNOWN: Self = Self { tension: f64::NAN, compression: f64::NAN, along: f64::NAN };
 }
 
 impl PostInput {
@@ -70,9 +77,10 @@ impl PostInput {
                 .reduce(|a, b| HeadState {
                     tension: larger_or_nan(a.tension, b.tension),
                     compression: larger_or_nan(a.compression, b.compression),
+                    along: -larger_or_nan(-a.along, -b.along),
                 })
                 .unwrap_or_default(),
-            _ => HeadState { tension: f64::NAN, compression: f64::NAN },
+            _ => HeadState::UNKNOWN,
         }
     }
 
@@ -81,8 +89,8 @@ impl PostInput {
         // Normal to the net: T u·n + R = 0; along the post: T u·s + N = 0.
         let tension = -load / rope.dot(&normal);
         let held = tension >= 0.0;
-        let state = HeadState { tension, compression: -tension * rope.dot(&axis) };
-        if held { state } else { HeadState { tension: f64::NAN, compression: f64::NAN } }
+        let state = HeadState { tension, compression: -tension * rope.dot(&axis), along: 0.0 };
+        if held { state } else { HeadState::UNKNOWN }
     }
 
     /// The pull along the rope is limited to what makes one of the retaining ropes go slack.
@@ -93,7 +101,7 @@ impl PostInput {
             matrix.lu().solve(&-(self.normal() * load + Vector3::y() * along))
         };
         let (Some(by_load), Some(by_along)) = (solve(load, 0.0), solve(0.0, along)) else {
-            return HeadState { tension: f64::NAN, compression: f64::NAN };
+            return HeadState::UNKNOWN;
         };
         // The share of the pull along the rope at which one of the ropes goes slack.
         let slackens = |rope: usize| if by_along[rope] < 0.0 { -by_load[rope] / by_along[rope] } else { f64::INFINITY };
@@ -101,8 +109,8 @@ impl PostInput {
         let sum = by_load + by_along * share;
         let held = by_load[0] >= 0.0 && by_load[1] >= 0.0;
         match held {
-            true => HeadState { tension: larger_or_nan(sum[0], sum[1]), compression: sum[2] },
-            false => HeadState { tension: f64::NAN, compression: f64::NAN },
+            true => HeadState { tension: larger_or_nan(sum[0], sum[1]), compression: sum[2], along: share },
+            false => HeadState::UNKNOWN,
         }
     }
 }

@@ -62,6 +62,8 @@ pub const QUANTITIES: &[&Quantity] = &[
     &bed::BOLT,
     &bed::BOLT_AT_ONCE,
     &bed::BOLT_LIFT,
+    &bed::SPACE,
+    &bed::SPACE_AT_ONCE,
     &other_ropes::NET,
     &other_ropes::NET_AT_ONCE,
     &other_ropes::NET_RESIDUAL,

@@ -77,6 +77,11 @@ impl Observed {
         self.values.get(quantity.id).map_or(&[], Vec::as_slice)
     }
 
+    /// One of them, counted from 0; what a run does not give is not a number, so that nothing is judged by it.
+    pub fn nth(&self, quantity: &Quantity, number: usize) -> f64 {
+        self.each(quantity).get(number).copied().unwrap_or(f64::NAN)
+    }
+
     /// Shares of the mass that went through, under, beside and over the barrier.
     pub fn lost(&self) -> [f64; 4] {
         mass::WAYS.map(|(_, quantity)| self.one(quantity))

@@ -9,7 +9,6 @@ use crate::guideline::posts::input;
 use crate::pipeline::Run;
 use crate::quantities::anchor_load::{ACROSS, ALONG, EACH, UP};
 use crate::quantities::observed::Observed;
-use crate::quantities::quantity::Quantity;
 use crate::report::numbers::with_unit;
 use crate::report::row::used;
 use crate::report::table::Table;
@@ -27,7 +26,7 @@ pub fn table(run: &Run) -> Option<Table> {
             resistance(net, anchor),
             by_equations(check(run, anchor)),
             load.map_or("–".into(), |load| parts(&load)),
-            seen.map_or("–".into(), |seen| with_unit(value(seen, &EACH, number), "N")),
+            seen.map_or("–".into(), |seen| with_unit(seen.nth(&EACH, number), "N")),
             load.map_or("–".into(), |load| angle(run, net, anchor, &load)),
             utilisation(net, anchor, check(run, anchor)),
         ]
@@ -52,13 +51,9 @@ pub fn table(run: &Run) -> Option<Table> {
     })
 }
 
-fn value(seen: &Observed, quantity: &Quantity, number: usize) -> f64 {
-    seen.each(quantity).get(number).copied().unwrap_or(f64::NAN)
-}
-
 /// Down the valley, to the left, up (N).
 fn vector(seen: &Observed, number: usize) -> Vec3 {
-    Vec3::new(value(seen, &ALONG, number), value(seen, &ACROSS, number), value(seen, &UP, number))
+    Vec3::new(seen.nth(&ALONG, number), seen.nth(&ACROSS, number), seen.nth(&UP, number))
 }
 
 /// Three parts of a force, in kN.

@@ -245,9 +245,9 @@ pub fn bolted_rope(run: &Run) -> String {
     let simulated = run
         .simulated
         .as_ref()
-        .map_or(String::new(), |seen| format!(", {} in the first run", with_unit(seen.first().one(&bed::BOLT), "N")));
+        .map_or(String::new(), |seen| format!(", {} in the first run", with_unit(seen.first().one(&bed::SPACE), "N")));
     format!(
-        "Rope 1, bolted to the bed: its strip, {:.2} to {:.2} m, carries {:.1} kN in all, so P = {:.2} kN on each of {spaces} spaces of {spacing:.3} m between bolts, with m = {:.0} rings in each; along the rope H = (c P² EA/24)^⅓ = ({more:.2} · {:.2}² · {:.0}/24)^⅓ = {:.1} kN, c = 1 + 2/m² for a load that comes in at the m rings of a space; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst bolt{simulated}, H and T follow likewise, and the pull of the lateral rope is added to the bolt at the end.{together}",
+        "Rope 1, bolted to the bed: its strip, {:.2} to {:.2} m, carries {:.1} kN in all, so P = {:.2} kN on each of {spaces} spaces of {spacing:.3} m between bolts, with m = {:.0} rings in each; along the rope H = (c P² EA/24)^⅓ = ({more:.2} · {:.2}² · {:.0}/24)^⅓ = {:.1} kN, c = 1 + 2/m² for a load that comes in at the m rings of a space; T = √(H² + (P/2)²) = {:.1} kN. A bolt at an end of the rope bears the whole T, as no rope pulls from its other side. The simulation gives P of the worst space{simulated}, H and T follow likewise, and the pull of the lateral rope is added to the bolt at the end.{together}",
         run.guideline.ropes.first().map_or(0.0, |rope| rope.strip[0]),
         run.guideline.ropes.first().map_or(0.0, |rope| rope.strip[1]),
         run.guideline.bed_force.unwrap_or(0.0) / 1e3,

@@ -20,7 +20,7 @@ pub fn table(run: &Run) -> Option<Table> {
     let seen = run.simulated.as_ref().map(|simulated| simulated.first());
     let row = |(number, load): (usize, &PostLoad)| {
         let value = |quantity: &Quantity| {
-            let value = |seen: &Observed| seen.each(quantity).get(number).copied().unwrap_or(f64::NAN);
+            let value = |seen: &Observed| seen.nth(quantity, number);
             seen.map(value)
         };
         let judged = |id: &str| {

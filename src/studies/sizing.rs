@@ -377,7 +377,7 @@ mod tests {
     /// Designs that differ in resistances alone are one to the simulation, and others are not.
     #[test]
     fn resistances_do_not_move_a_barrier() {
-        let text = include_str!("../../designs/small_net.yaml");
+        let text = include_str!("../../tests/fixtures/even_net.yaml");
         let bare = |text: &str| mechanics(&read_design("x", text.as_bytes()).unwrap().design);
         let own = bare(text);
         for (from, to) in [

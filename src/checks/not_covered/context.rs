@@ -15,6 +15,8 @@ pub struct FirstSurge {
     pub hardest_push: f64,
     /// The largest force of one boulder on the barrier, as the next packing may exceed it with a probability of 5 % (N); 0 where the flow has none.
     pub boulder: f64,
+    /// The least that one boulder presses on the barrier with at its largest in any packing (N): 0 where none comes to it. Nothing where the flow has none.
+    pub gentlest_boulder: Option<f64>,
     /// The largest moment of the first surge about the foot of a wall, per width (N m/m).
     pub moment: f64,
     /// Largest force, and moment, of one sample over the largest of the smoothed signal, which is judged (ratio, at least 1).

@@ -6,6 +6,9 @@ use crate::checks::outcome::{OpenReason, Outcome};
 /// Share of the largest discharge below which the last of a table is its end.
 const ENDED: f64 = 0.05;
 
+/// Share of it below which its peak is past.
+const FALLS: f64 = 0.5;
+
 pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let Some(hydrograph) = &design.flow.hydrograph else { return };
     let section = design.channel.section();
@@ -14,13 +17,14 @@ pub fn leave_open(CheckContext { design, .. }: CheckContext, outcomes: &mut [Out
     let last = discharges.next_back().unwrap_or(0.0);
     // Asked as "ended", so that what is not a number has not.
     let ended = last <= ENDED * largest;
-    // A larger event is told of by its volume: what comes later has rules of its own.
-    if ended || design.flow.is_part_of_its_event() {
+    // A larger event is told of by its volume, and what comes later has rules of its own; but no volume tells of a peak that is still to come.
+    let falls = last <= FALLS * largest;
+    if ended || falls && design.flow.is_part_of_its_event() {
         return;
     }
     for outcome in outcomes.iter_mut().filter(|outcome| outcome.holds()) {
         outcome.leave_open(OpenReason::NotGiven(format!(
-            "the table of the hydrograph ends while {last:.1} m³/s still flow, {:.0} % of its largest discharge, so that the rest of the event is not known (add rows until the flow ends, or give flow.event_volume)",
+            "the table of the hydrograph ends while {last:.1} m³/s still flow, {:.0} % of its largest discharge, so that the rest of the event is not known (add rows until the flow ends, or until half of the largest discharge and give flow.event_volume)",
             100.0 * last / largest
         )));
     }
@@ -54,6 +58,9 @@ mod tests {
         };
         assert_eq!([0.0, 0.05].map(|last| verdict(last, 1.0)), [CheckVerdict::Pass; 2]);
         assert_eq!([0.1, 1.0].map(|last| verdict(last, 1.0)), [CheckVerdict::Open; 2]);
-        assert_eq!(verdict(1.0, 3.0), CheckVerdict::Pass);
+        assert_eq!(
+            [0.5, 0.6, 1.0].map(|last| verdict(last, 3.0)),
+            [CheckVerdict::Pass, CheckVerdict::Open, CheckVerdict::Open]
+        );
     }
 }

@@ -169,7 +169,7 @@ mod tests {
         // As hard as is asked for.
         design.flow.modulus = 1e9;
         let crate::design::BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
-        let rope = net.main_ropes.levels[2].rope;
+        let rope = net.main_ropes.levels[0].rope;
         let holds = rope.breaking_load * design.factors.rope_end / design.factors.rope;
         let first = guideline(&design).largest_force / 2.0;
         let verdict = |used: f64| {
@@ -177,7 +177,9 @@ mod tests {
             // Of a space with one ring in it.
             let axial = rope.axial_stiffness() * concentration(1.0);
             let load = ((used * holds).powi(3) * 24.0 / axial).sqrt();
-            let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() }).with(&bed::BOLT, &[load]);
+            let observed = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() })
+                .with(&bed::SPACE, &[load])
+                .with(&bed::BOLT, &[load]);
             simulated_verdict(&design, "rope_1_tension", &observed, pushing(first))
         };
         assert_eq!(verdict(0.59), CheckVerdict::Warn);

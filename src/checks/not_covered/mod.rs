@@ -11,11 +11,13 @@ pub(crate) mod harder_flow;
 pub(crate) mod heaped;
 pub(crate) mod largest_grain;
 pub(crate) mod load_factor;
+pub(crate) mod missed_boulder;
 pub(crate) mod not_simulated;
 pub(crate) mod pore_fluid;
 pub(crate) mod rigid_wall;
 pub(crate) mod short_peaks;
 pub(crate) mod side_strips;
+pub(crate) mod slack_posts;
 pub(crate) mod soft_contacts;
 pub(crate) mod thinner_flow;
 
@@ -35,6 +37,8 @@ const RULES: &[fn(CheckContext, &mut [Outcome])] = &[
     soft_contacts::leave_open,
     rigid_wall::leave_open,
     largest_grain::leave_open,
+    missed_boulder::leave_open,
+    slack_posts::leave_open,
     load_factor::leave_open,
     not_simulated::leave_open,
     side_strips::leave_open,

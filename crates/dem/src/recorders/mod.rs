@@ -62,6 +62,8 @@ pub const CHANNELS: &[&Channel] = &[
     &of_ropes::LATERAL_AT_ONCE,
     &of_anchors::LOAD_AT_ONCE,
     &of_anchors::BOLT_AT_ONCE,
+    &of_anchors::SPACE,
+    &of_anchors::SPACE_AT_ONCE,
     &of_posts::COMPRESSION_AT_ONCE,
     &of_posts::RETAINING_AT_ONCE,
 ];

@@ -6,7 +6,7 @@ use crate::Vec3;
 use crate::elements::segment::SegmentKind;
 use crate::larger_or_nan;
 use crate::recorders::body::{BodyRecorder, add_shares, keep_larger, means};
-use crate::recorders::bolts::share_between_bolts;
+use crate::recorders::bolts::BoltedRope;
 use crate::recorders::channels::{Channel, Channels, Rows};
 use crate::recorders::setup::RecorderSetup;
 use crate::simulation::Simulation;
@@ -29,6 +29,9 @@ pub const BED: Channel = Channel { name: "bed_force", unit: "n", rows: Rows::One
 pub const BOLT: Channel = Channel { name: "bolt_largest", unit: "n", rows: Rows::One };
 pub const BOLT_AT_ONCE: Channel = Channel { name: "bolt_largest_at_once", unit: "n", rows: Rows::One };
 pub const BOLT_LIFT: Channel = Channel { name: "bolt_lift", unit: "n", rows: Rows::One };
+/// Largest force on that rope in one of the spaces between its bolts, and the same at any instant of a sample; likewise.
+pub const SPACE: Channel = Channel { name: "bolt_space_largest", unit: "n", rows: Rows::One };
+pub const SPACE_AT_ONCE: Channel = Channel { name: "bolt_space_largest_at_once", unit: "n", rows: Rows::One };
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct OfAnchors {
@@ -36,9 +39,11 @@ pub struct OfAnchors {
     each: Vec<Vec3>,
     bed: Vec3,
     bolts: Vec<Vec3>,
-    /// Largest at any instant: load of each rope's anchor, and force on a bolt.
+    spaces: Vec<Vec3>,
+    /// Largest at any instant: load of each rope's anchor, force on a bolt, and on the rope in a space between bolts.
     at_once: Vec<f64>,
     bolt_at_once: f64,
+    space_at_once: f64,
 }
 
 impl BodyRecorder for OfAnchors {
@@ -56,12 +61,16 @@ impl BodyRecorder for OfAnchors {
             *sum += forces[anchor.node as usize] / barrier.sharing(anchor.kind);
         }
         if setup.bolt_spaces > 0 {
-            let loads = bolt_loads(barrier, setup, forces);
-            self.bolts.resize(loads.len(), Vec3::zeros());
-            self.bolts.iter_mut().zip(&loads).for_each(|(sum, load)| *sum += load);
+            let BoltedRope { bolts, spaces } = bolted_rope(barrier, setup, forces);
+            for (sums, loads) in [(&mut self.bolts, &bolts), (&mut self.spaces, &spaces)] {
+                sums.resize(loads.len(), Vec3::zeros());
+                sums.iter_mut().zip(loads).for_each(|(sum, load)| *sum += load);
+            }
             for net in substeps {
-                let loads = bolt_loads(barrier, setup, &net.forces);
-                self.bolt_at_once = loads.iter().map(Vec3::norm).fold(self.bolt_at_once, larger_or_nan);
+                let BoltedRope { bolts, spaces } = bolted_rope(barrier, setup, &net.forces);
+                for (largest, loads) in [(&mut self.bolt_at_once, &bolts), (&mut self.space_at_once, &spaces)] {
+                    *largest = loads.iter().map(Vec3::norm).fold(*largest, larger_or_nan);
+                }
             }
         }
     }
@@ -79,10 +88,13 @@ impl BodyRecorder for OfAnchors {
         }
         channels.push(&BED, &means(&[done.bed.norm()], steps));
         if setup.bolt_spaces > 0 {
-            let most = |of: fn(&Vec3) -> f64| means(&[done.bolts.iter().map(of).fold(0.0, larger_or_nan)], steps);
-            channels.push(&BOLT, &most(|load| load.norm()));
+            let most =
+                |loads: &[Vec3], of: fn(&Vec3) -> f64| means(&[loads.iter().map(of).fold(0.0, larger_or_nan)], steps);
+            channels.push(&BOLT, &most(&done.bolts, |load| load.norm()));
             channels.push(&BOLT_AT_ONCE, &[done.bolt_at_once]);
-            channels.push(&BOLT_LIFT, &most(|load| load.z));
+            channels.push(&BOLT_LIFT, &most(&done.bolts, |load| load.z));
+            channels.push(&SPACE, &most(&done.spaces, |load| load.norm()));
+            channels.push(&SPACE_AT_ONCE, &[done.space_at_once]);
         }
     }
 }
@@ -104,10 +116,10 @@ fn anchor_loads(barrier: &Barrier, forces: &[Vec3], ropes: usize) -> Vec<f64> {
     loads
 }
 
-/// Force on each bolt of the lowest rope (N).
-fn bolt_loads(barrier: &Barrier, setup: &RecorderSetup, forces: &[Vec3]) -> Vec<Vec3> {
+/// The lowest rope between its bolts.
+fn bolted_rope(barrier: &Barrier, setup: &RecorderSetup, forces: &[Vec3]) -> BoltedRope {
     let lowest = setup.net_rows.first().into_iter().flatten().map(|&node| node as usize);
     let held = lowest.filter(|&node| barrier.nodes[node].fixed);
     let knots = held.map(|node| (barrier.nodes[node].position.y, forces[node]));
-    share_between_bolts(knots, setup.bolt_spaces, setup.bolted)
+    BoltedRope::of(knots, setup.bolt_spaces, setup.bolted)
 }

@@ -2,6 +2,8 @@
 
 #![allow(unsafe_code)]
 
+use std::sync::atomic::{AtomicU8, Ordering};
+
 use crate::simd::eight::Eight;
 use crate::simd::plain::Plain;
 #[cfg(target_arch = "x86_64")]
@@ -15,34 +17,64 @@ pub trait Work {
     fn run<E: Eight>(self) -> Self::Output;
 }
 
-/// Does the work. The result is the same, bit for bit, with any vectors.
+/// Vectors, from the narrowest to the widest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Vectors {
+    /// What the compiler makes of plain numbers: on x86-64 those of SSE2.
+    Plain,
+    Avx2,
+    Avx512,
+}
+
+/// No wider ones than these are used, as numbers of [`Vectors`].
+static LIMIT: AtomicU8 = AtomicU8::new(Vectors::Avx512 as u8);
+
+/// Uses no wider vectors from now on: a benchmark tells with it what the instructions give. The results stay the same.
+pub fn limit(vectors: Vectors) {
+    LIMIT.store(vectors as u8, Ordering::Relaxed);
+}
+
 #[inline(always)]
-pub fn with_widest<W: Work>(work: W) -> W::Output {
+fn allows(vectors: Vectors) -> bool {
+    LIMIT.load(Ordering::Relaxed) >= vectors as u8
+}
+
+/// The widest vectors that this processor has, and the limit allows.
+#[inline(always)]
+pub fn vectors() -> Vectors {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::is_x86_feature_detected as has;
-        if has!("avx2") {
-            if has!("avx512f") && has!("avx512vl") {
-                // SAFETY: the processor was just asked for these features.
-                return unsafe { with_avx512(work) };
-            }
-            // SAFETY: as above.
-            return unsafe { with_avx2(work) };
+        if allows(Vectors::Avx2) && has!("avx2") {
+            let widest = allows(Vectors::Avx512) && has!("avx512f") && has!("avx512vl");
+            return if widest { Vectors::Avx512 } else { Vectors::Avx2 };
         }
     }
-    work.run::<Plain>()
+    Vectors::Plain
+}
+
+/// Does the work. The result is the same, bit for bit, with any vectors.
+#[inline(always)]
+pub fn with_widest<W: Work>(work: W) -> W::Output {
+    match vectors() {
+        // SAFETY: the processor was just asked for these features.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx512 => unsafe { with_avx512(work) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx2 => unsafe { with_avx2(work) },
+        _ => work.run::<Plain>(),
+    }
 }
 
 /// The vectors that work is done with here, by their name.
 pub fn instructions() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::is_x86_feature_detected as has;
-        if has!("avx2") {
-            return if has!("avx512f") && has!("avx512vl") { "AVX-512" } else { "AVX2" };
-        }
+    match vectors() {
+        Vectors::Plain => "none",
+        Vectors::Avx2 => "AVX2",
+        Vectors::Avx512 => "AVX-512",
     }
-    "none"
 }
 
 #[cfg(target_arch = "x86_64")]

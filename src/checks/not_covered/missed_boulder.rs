@@ -1,0 +1,48 @@
+//! A boulder that comes to rest before the barrier, or passes it by, loads nothing of it in the simulation; and on a net the equations have no boulder
+//! of the flow. Another packing may bring it: what the simulation has shown of the net is then not all of the flow that was asked for.
+
+use super::context::CheckContext;
+use crate::checks::outcome::{Kind, OpenReason, Outcome};
+use crate::design::BarrierDesign;
+
+pub fn leave_open(CheckContext { design, seen, .. }: CheckContext, outcomes: &mut [Outcome]) {
+    let (Some(seen), BarrierDesign::FlexibleNet(_)) = (seen, &design.barrier) else { return };
+    let Some(hit) = seen.gentlest_boulder else { return };
+    // Asked as "hits", so that what is not a number does not.
+    let hits = hit > 0.0;
+    if hits || design.loads.point_load.is_some() {
+        return;
+    }
+    let of_the_flow = |outcome: &&mut Outcome| {
+        let alone = matches!(outcome.kind, Kind::MassHeld | Kind::Level);
+        outcome.holds() && outcome.resistance.is_some() && !outcome.of_parts && !alone
+    };
+    for outcome in outcomes.iter_mut().filter(of_the_flow) {
+        outcome.leave_open(OpenReason::NotGiven(
+            "in a simulation no boulder of flow.boulders comes to the net, and no load of the equations stands for one (let them come at the front: `where: front`, or give loads.point_load)".into(),
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::not_covered::context::FirstSurge;
+    use crate::checks::not_covered::tests::{pushing, small_net, verdict_after};
+    use crate::checks::outcome::CheckVerdict;
+    use crate::guideline::guideline;
+
+    #[test]
+    fn a_net_that_a_boulder_of_the_flow_never_touches_is_open() {
+        let mut design = small_net();
+        let verdict = |design: &crate::design::Design, hit: Option<f64>| {
+            let seen = FirstSurge { gentlest_boulder: hit, ..pushing(guideline(design).first_surge()) };
+            verdict_after(leave_open, design, "rope_3_tension", seen)
+        };
+        let hits = [None, Some(1e3), Some(0.0), Some(f64::NAN)];
+        let [pass, open] = [CheckVerdict::Pass, CheckVerdict::Open];
+        assert_eq!(hits.map(|hit| verdict(&design, hit)), [pass, pass, open, open]);
+        design.loads.point_load = Some((1e3, Some(0.5)));
+        assert_eq!(verdict(&design, Some(0.0)), pass);
+    }
+}
