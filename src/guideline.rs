@@ -6,7 +6,7 @@ pub(crate) mod rope_load;
 pub(crate) mod ropes;
 
 pub use self::face::height_over_bed;
-use self::face::lean;
+pub use self::face::lean;
 pub use self::posts::PostLoad;
 pub use self::rope_load::RopeLoad;
 use self::ropes::Cases;

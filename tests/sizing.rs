@@ -66,7 +66,7 @@ fn the_cheapest_net_is_that_of_trying_them_all() {
     // Four anchors at 2 CHF per kN, and the steel.
     let price = json["cheapest"]["price"].as_f64().expect("a price");
     let anchor: f64 = ANCHORS[number].trim_end_matches(" kN").parse().expect("a number");
-    assert!((price - 8.0 * anchor - 121.65).abs() < 0.1, "{price}");
+    assert!((price - 8.0 * anchor - 124.46).abs() < 0.1, "{price}");
 
     // What is written as a design is that design: it costs and passes the same.
     let written = read("cheapest.yaml");

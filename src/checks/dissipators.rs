@@ -1,9 +1,12 @@
 //! Dissipators: stroke against what is available, force against the plateau.
 
-use crate::checks::outcome::{CheckName, CheckVerdict, Kind, LoadScaling, OpenReason, Outcome, Resistance};
+use crate::checks::outcome::{
+    CheckName, CheckVerdict, Kind, LoadScaling, OpenReason, Outcome, Resistance, YieldingRope,
+};
 use crate::checks::ropes::OVER_POSTS;
 use crate::demand::{CAP_TOLERANCE, Demand, Demands, USED_UP};
 use crate::design::{BarrierDesign, Design, DissipatorDesign, FlexibleNet};
+use crate::guideline::lean;
 use crate::quantities::quantity::Unit;
 use crate::quantities::{dissipator, rope_tension};
 use crate::sources::{PLATEAU_DATA, STROKE_DATA};
@@ -41,8 +44,9 @@ pub fn check_stroke(design: &Design, demands: &Demands) -> Vec<Outcome> {
             let stroke = Resistance { characteristic: given.stroke, factor: 1.0 };
             let outcome = Outcome::at_most(name, *demand, stroke, design.limits.dissipator_utilisation);
             let tension = demands.each(&rope_tension::PEAK).get(index).copied().unwrap_or_default();
-            // A rope on which the equations have no load may begin to yield under more of it.
-            let growth = growth_of(given, demand, &tension).unwrap_or(outcome.growth);
+            let to_the_stop = growth_of(given, demand, &tension).filter(|_| net.runs_over_posts(index));
+            let hangs = || growth_of_hanging(design, net, given, index, &tension);
+            let growth = to_the_stop.or_else(hangs).unwrap_or(outcome.growth);
             let outcome = Outcome { kind: Kind::Stroke, growth, ..outcome.of_rope(index) };
             let outcome = if net.runs_over_posts(index) { outcome.only_by_simulation(OVER_POSTS) } else { outcome };
             open_without_least_force(given, outcome, "barrier.flexible_net.dissipators.lower_bound")
@@ -58,6 +62,26 @@ pub fn open_without_least_force(given: &DissipatorDesign, mut outcome: Outcome, 
         )));
     }
     outcome
+}
+
+/// How the stroke of the dissipators of a main rope that hangs from bank to bank grows with the load.
+fn growth_of_hanging(
+    design: &Design,
+    net: &FlexibleNet,
+    given: &DissipatorDesign,
+    index: usize,
+    tension: &Demand,
+) -> Option<LoadScaling> {
+    let level = net.main_ropes.levels.get(index)?;
+    let yields_at = given.lower_bound.unwrap_or(1.0) * given.plateau * given.curve.least();
+    let span = design.channel.section().width(level.height * libm::cos(lean(design)));
+    let elastic = yields_at * (span / level.rope.axial_stiffness() + 2.0 / given.stiffness);
+    Some(LoadScaling::OfYieldingRope(YieldingRope {
+        tension: tension.simulation?,
+        yields_at,
+        elastic,
+        stroke: given.stroke,
+    }))
 }
 
 /// How the stroke of dissipators grows with the load where the equations see none: nothing where they do.
@@ -128,6 +152,28 @@ mod tests {
         assert_eq!(told(100e3, 0.9), CheckVerdict::Fail);
         assert_eq!(told(100e3, f64::NAN), CheckVerdict::Fail);
         assert_eq!(told(160e3, 0.5), CheckVerdict::Fail);
+    }
+
+    /// A rope that is pulled with 120 of the 150 kN with which its dissipators yield, 2 cm longer then: 1.2 times the load leaves it elastic, twice the
+    /// load is 1.6 times what makes it yield, 0.02 (1.6² − 1) = 31 mm. One that yields already, by 10 mm, goes to 4 · 10 + 20 · 3 = 100 mm.
+    #[test]
+    fn a_dissipator_that_was_idle_yields_under_more_load() {
+        let stroke = |tension: f64, stroke: f64, more: f64| {
+            let rope = YieldingRope { tension, yields_at: 150e3, elastic: 0.02, stroke: 0.9 };
+            let name = CheckName::new("x", "x", Unit::Metre, "x");
+            let demand = Demand { simulation: Some(stroke), ..Demand::default() };
+            let resistance = Resistance { characteristic: 0.9, factor: 1.0 };
+            let outcome = Outcome::at_most(name, demand, resistance, 1.0);
+            let outcome = Outcome { growth: LoadScaling::OfYieldingRope(rope), ..outcome };
+            outcome.demand_under(crate::checks::outcome::Route::Simulation, more).expect("a stroke")
+        };
+        let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
+        close(stroke(120e3, 0.0, 1.2), 0.0);
+        close(stroke(120e3, 0.0, 2.0), 0.0312);
+        close(stroke(151e3, 0.01, 2.0), 0.1);
+        close(stroke(151e3, 0.01, 1.0), 0.01);
+        close(stroke(120e3, 0.0, 100.0), 0.9);
+        assert!(stroke(f64::NAN, 0.0, 2.0).is_nan());
     }
 
     /// A plateau of 150 kN: at it and 1 % above, which is rounding, a dissipator works; above that its stroke is used up.

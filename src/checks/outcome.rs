@@ -84,8 +84,34 @@ pub enum LoadScaling {
     /// As the stroke of a dissipator beside which nothing else holds: in proportion up to where its rope is pulled with its force (N), and then all of
     /// it (m).
     ToItsStop { tension: f64, yields_at: f64, stroke: f64 },
+    /// As the stroke (m) of the dissipators of a rope that hangs between two anchors.
+    OfYieldingRope(YieldingRope),
     /// As the compression of a post whose moment grows with its compression.
     PostInteraction(PostInteraction),
+}
+
+/// A rope whose dissipators yield. Pulled with their force it sags in proportion to the load, and is longer than its span in proportion to the square of
+/// that: with a stroke s and an elastic elongation e at that force, s + e grows with the square of the load beyond the one at which they begin to
+/// yield. An elastic rope's tension grows less than in proportion, which makes that load larger than it is taken here.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct YieldingRope {
+    /// As it was simulated, and with which the dissipators yield (N).
+    pub tension: f64,
+    pub yields_at: f64,
+    /// Elongation of rope and dissipators at that, and the stroke that there is (m).
+    pub elastic: f64,
+    pub stroke: f64,
+}
+
+impl YieldingRope {
+    /// The stroke (m) under so many times the load under which it is the given one. What is not a number stays so.
+    fn stroke_under(&self, stroke: f64, more: f64) -> f64 {
+        let pulled = self.tension / self.yields_at;
+        let beyond = more * if pulled > 1.0 { 1.0 } else { pulled };
+        let stays = more <= 1.0 || beyond <= 1.0;
+        let grown = if stays { stroke * more } else { stroke * more * more + self.elastic * (beyond * beyond - 1.0) };
+        if grown > self.stroke { self.stroke } else { grown }
+    }
 }
 
 /// Compression (N) and moment (N m) of a post, by the equations and by the simulation, and what it withstands.
@@ -395,7 +421,8 @@ impl Outcome {
                 let stays = more <= 1.0 || more * tension < yields_at;
                 Some(if stays { demand * more } else { stroke })
             }
-            LoadScaling::ToItsStop { .. } => Some(demand * more),
+            LoadScaling::OfYieldingRope(rope) if route == Route::Simulation => Some(rope.stroke_under(demand, more)),
+            LoadScaling::ToItsStop { .. } | LoadScaling::OfYieldingRope(_) => Some(demand * more),
         }
     }
 

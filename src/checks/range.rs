@@ -190,9 +190,10 @@ mod tests {
         for rope in main.chain([&mut net.lateral_rope]) {
             rope.breaking_load = 1e12;
         }
-        let (lateral, main) = (net.lateral_rope.axial_stiffness(), net.main_ropes.levels[1].rope.axial_stiffness());
+        let of_level = |level: usize| net.main_ropes.levels[level].rope.axial_stiffness();
+        let (lateral, bolted, main) = (net.lateral_rope.axial_stiffness(), of_level(0), of_level(1));
         let guideline = guideline(&design);
-        for (id, axial) in [("lateral_tension", lateral), ("rope_1_tension", main), ("rope_2_tension", main)] {
+        for (id, axial) in [("lateral_tension", lateral), ("rope_1_tension", bolted), ("rope_2_tension", main)] {
             let verdict = |strain: f64| {
                 let mut outcomes = check_all(&design, &Demands::by_equations(&guideline, &design.factors));
                 let outcome = outcomes.iter_mut().find(|outcome| outcome.id == id).expect("a check");

@@ -175,10 +175,10 @@ mod tests {
     use crate::design::read::read_design;
     use approx::assert_relative_eq;
 
-    /// By hand, of `small_net.yaml`: two free ropes with two anchors and two dissipators each, anchors of 150 kN or whatever the file gives.
+    /// By hand, of a net with three ropes alike: two free ropes with two anchors and two dissipators each, anchors of 150 kN or whatever the file gives.
     #[test]
     fn a_net_is_counted_as_by_hand() {
-        let design = read_design("x", include_bytes!("../../designs/small_net.yaml")).unwrap().design;
+        let design = read_design("x", include_bytes!("../../tests/fixtures/even_net.yaml")).unwrap().design;
         let BarrierDesign::FlexibleNet(net) = &design.barrier else { panic!("a net") };
         assert_eq!([Measure::Anchors, Measure::Dissipators, Measure::Posts].map(|of| of.of(&design)), [4.0, 4.0, 0.0]);
         assert_relative_eq!(Measure::NetArea.of(&design), 1.8 * 3.0, max_relative = 1e-9);
@@ -188,7 +188,7 @@ mod tests {
         let energy = 4.0 * dissipator.plateau * dissipator.stroke / 1e3;
         assert_relative_eq!(Measure::DissipatorEnergy.of(&design), energy, max_relative = 1e-9);
         // Two in series and three side by side are six devices, and take up six times as much.
-        let text = include_str!("../../designs/small_net.yaml");
+        let text = include_str!("../../tests/fixtures/even_net.yaml");
         let several =
             text.replacen("      plateau_force:", "      in_series: 2\n      side_by_side: 3\n      plateau_force:", 1);
         assert_ne!(several, text);
