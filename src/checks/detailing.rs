@@ -143,7 +143,7 @@ fn of_pressures(design: &Design, input: &GuidelineInput) -> Vec<Rule> {
                 design.channel.slope.to_degrees(),
                 STEEPEST_CHANNEL,
                 "deg",
-                "a limit set here: no barrier that the equations were compared with stands in a channel as steep",
+                "a limit set here by judgement; no source was found",
                 "what comes down so steep a slope falls onto the barrier rather than flows against it: give the slope of the reach in which the barrier stands",
             )
         },

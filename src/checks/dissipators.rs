@@ -172,6 +172,8 @@ mod tests {
         close(stroke(120e3, 0.0, 2.0), 0.0312);
         close(stroke(151e3, 0.01, 2.0), 0.1);
         close(stroke(151e3, 0.01, 1.0), 0.01);
+        // One that has yielded under a peak, with a mean below its force, has yielded all the same.
+        close(stroke(120e3, 0.01, 1.2), 0.0144);
         close(stroke(120e3, 0.0, 100.0), 0.9);
         assert!(stroke(f64::NAN, 0.0, 2.0).is_nan());
     }

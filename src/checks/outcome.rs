@@ -108,8 +108,8 @@ impl YieldingRope {
     fn stroke_under(&self, stroke: f64, more: f64) -> f64 {
         let pulled = self.tension / self.yields_at;
         let beyond = more * if pulled > 1.0 { 1.0 } else { pulled };
-        let stays = more <= 1.0 || beyond <= 1.0;
-        let grown = if stays { stroke * more } else { stroke * more * more + self.elastic * (beyond * beyond - 1.0) };
+        let begins = if beyond <= 1.0 { 0.0 } else { self.elastic * (beyond * beyond - 1.0) };
+        let grown = if more <= 1.0 { stroke * more } else { stroke * more * more + begins };
         if grown > self.stroke { self.stroke } else { grown }
     }
 }

@@ -346,5 +346,15 @@ mod tests {
             block.velocity_at_barrier = Some(2.0);
         });
         assert!(slow.is_some_and(|(_, velocity)| velocity > 5.0), "{slow:?}");
+        // A dam break that is said to come with a tenth of the depth at its gate, or with a third of it.
+        let depth = |share: f64| {
+            let mut design = design.clone();
+            let crate::design::Arrival::DamBreak(block) = &mut design.flow.arrival else { panic!("a dam break") };
+            let released = 4.0 / 9.0 * block.height;
+            block.depth_at_barrier = Some(share * released);
+            let found = without_a_simulation(&design, &guideline(&design));
+            found.first().map_or(0.0, |input| input.depth / released)
+        };
+        assert!((depth(0.1) - 1.0).abs() < 1e-9 && depth(0.3) < 0.5, "{} {}", depth(0.1), depth(0.3));
     }
 }

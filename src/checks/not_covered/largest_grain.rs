@@ -21,8 +21,7 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
         return;
     }
     // As fast as any surge of the design, and as the flow is seen to come.
-    let given = flows(design, guideline.input).iter().map(|flow| flow.velocity).fold(0.0, larger_or_nan);
-    let velocity = larger_or_nan(seen.map_or(0.0, |seen| seen.velocity), given);
+    let velocity = larger_or_nan(seen.map_or(0.0, |seen| seen.velocity), fastest(design, guideline));
     let known = |force: f64| if design.flow.tells_the_largest() { force } else { f64::NAN };
     let on_the_base = known(design.loads.impact_reduction.unwrap_or(1.0) * elastic_hit(design, velocity));
     let given = design.loads.point_load;
@@ -59,11 +58,16 @@ pub fn leave_open(context: CheckContext, outcomes: &mut [Outcome]) {
     }
 }
 
+/// Velocity of the fastest surge of the design (m/s).
+fn fastest(design: &Design, guideline: &Guideline) -> f64 {
+    flows(design, guideline.input).iter().map(|flow| flow.velocity).fold(0.0, larger_or_nan)
+}
+
 /// The hit of the largest stone on a metre of a wall, where no point load of the design stands for it: its force (N) and the share of what that metre
-/// holds that it uses. Nothing where nobody knows the stone.
+/// holds that it uses. Nothing where the stone is not known or the design gives no loads.impact_reduction.
 pub fn hit_on_a_metre(design: &Design, guideline: &Guideline) -> Option<[f64; 2]> {
     let context = CheckContext { design, guideline, seen: None };
-    let velocity = flows(design, guideline.input).iter().map(|flow| flow.velocity).fold(0.0, larger_or_nan);
+    let velocity = fastest(design, guideline);
     let reduced = design.loads.impact_reduction? * elastic_hit(design, velocity);
     let given = design.loads.point_load;
     if !design.flow.tells_the_largest()
@@ -122,7 +126,8 @@ impl Stone {
 }
 
 fn unknown(design: &Design, may: &str) -> String {
-    let (what, give) = match design.flow.sizes.continued_from() {
+    let cut_short = design.flow.sizes.continued_from().filter(|_| !design.flow.tells_the_largest());
+    let (what, give) = match cut_short {
         Some(share) => (
             format!("the grain sizes are given up to D{:.0}", 100.0 * share),
             "flow.grain_sizes up to d84 or coarser".to_string(),
