@@ -106,6 +106,14 @@ fn where_a_boulder_comes_is_a_matter_of_chance() {
     assert_eq!(place(1), places[0]);
 }
 
+/// In whatever order boulders are listed they are the same flow.
+#[test]
+fn the_order_of_a_list_of_boulders_changes_nothing() {
+    let [one, other] = ["{diameter: 0.5 m, number: 1}", "{diameter: 0.4 m, number: 2}"];
+    let listed = |first: &str, then: &str| with(NET, &format!("{first}, {then}")).design.flow.boulders;
+    assert_eq!(listed(one, other), listed(other, one));
+}
+
 /// Spread ones lie in the flow, none overlaps, and their mass is there.
 #[test]
 fn spread_boulders_are_packed_with_the_grains() {

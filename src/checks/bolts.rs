@@ -154,6 +154,21 @@ mod tests {
         assert_eq!(verdicts(&design, 40e3), [CheckVerdict::Fail, CheckVerdict::Pass]);
     }
 
+    /// The rope and the bolts at its ends are pulled by what hangs in the worst space, and a bolt along it may bear more than both.
+    #[test]
+    fn the_load_of_a_space_pulls_the_rope_and_that_of_a_bolt_the_bolts() {
+        let design = read_design("x", include_bytes!("../../tests/fixtures/even_net.yaml")).unwrap().design;
+        let demand = |bolt: f64, space: f64| {
+            let of = |value: f64| [Demand { simulation: Some(value), ..Demand::default() }];
+            let demands = Demands::default().with(&bed::BOLT, &of(bolt)).with(&bed::SPACE, &of(space));
+            let outcomes = check(&design, &demands);
+            [0, 1].map(|place| outcomes[place].demand.simulation.expect("a load"))
+        };
+        let [[bolt, rope], [same, other]] = [demand(20e3, 20e3), demand(20e3, 40e3)];
+        assert!(other > 1.5 * rope && same > 1.5 * bolt, "{bolt} {rope} {same} {other}");
+        assert_eq!(demand(900e3, 20e3), [900e3, rope]);
+    }
+
     /// Rings every 0.3 m: bolts 1 m apart hold the rope, bolts 1.5 m apart do not. In a channel of 3 m both are whole spaces.
     #[test]
     fn bolts_further_apart_than_four_rings_leave_their_checks_open() {

@@ -207,6 +207,19 @@ mod tests {
         }
     }
 
+    /// In a bed of 49° pressures are those of a flow, in one of 51° nobody knows.
+    #[test]
+    fn a_bed_that_is_too_steep_is_outside_the_range() {
+        let steep = |slope: f64| {
+            let mut design = design();
+            design.channel.slope = slope.to_radians();
+            let rules = rules(&design, &guideline(&design));
+            let rule = rules.into_iter().find(|rule| rule.title.starts_with("Slope of the bed")).expect("a rule");
+            (rule.holds(), rule.bearing)
+        };
+        assert_eq!([49.0, 51.0].map(steep), [(true, Bearing::Pressures), (false, Bearing::Pressures)]);
+    }
+
     /// What fails or is open already stays so; a simulated demand above that of the equations is theirs no longer, unless surges come until
     /// the barrier is full.
     #[test]

@@ -98,4 +98,21 @@ mod tests {
         assert_eq!(verdict(None, Some(2.5)), CheckVerdict::Open);
         assert_eq!(verdict(Some(125e3), Some(2.0)), CheckVerdict::Fail);
     }
+
+    /// The shear of a founded wall is that of the flow and of the ground on its buried face; the metre that a point load hits bears its share of both.
+    #[test]
+    fn a_founded_wall_bears_the_ground_on_its_buried_face_as_well() {
+        let mut design = read_design("x", include_bytes!("../../designs/gravity_wall.yaml")).unwrap().design;
+        let BarrierDesign::RigidWall(wall) = &mut design.barrier else { panic!("a wall") };
+        wall.resistance = Some(1e9);
+        let ground = buried_thrust(&design, true)[0];
+        assert!(ground > 1e3, "{ground}");
+        let of = |value: f64| Demand { simulation: Some(value), ..Demand::default() };
+        let demands =
+            Demands::default().with(&total_force::PEAK, &[of(7e5)]).with(&total_force::ON_A_METRE, &[of(7e4)]);
+        let whole = check(&design, &demands)[0].demand.simulation.expect("a force");
+        assert!((whole - 7e5 - design.channel.width * ground).abs() < 1e-3, "{whole}");
+        let metre = crate::checks::wall_local::check(&design, &demands)[0].demand.simulation.expect("a force");
+        assert!((metre - 7e4 - ground).abs() < 1e-3, "{metre}");
+    }
 }
