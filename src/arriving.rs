@@ -130,22 +130,23 @@ fn like_the_design(given_flux: Option<f64>, given: f64, velocity: f64, flux: f64
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use crate::design::read::read_design;
     use crate::quantities::counts::Counts;
 
-    fn small_net() -> Design {
+    pub fn small_net() -> Design {
         read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design
     }
 
-    fn simulated(observed: Vec<Observed>) -> Simulated {
+    /// Starts from seed 7 on, each with what it showed.
+    pub fn simulated(observed: Vec<Observed>) -> Simulated {
         let starts = observed.into_iter().zip(7..).map(|(observed, seed)| Start { seed, observed, surges: Vec::new() });
         Simulated { starts: starts.collect(), ..Simulated::default() }
     }
 
     /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
-    fn arriving(velocity: f64, flux: f64) -> Observed {
+    pub fn arriving(velocity: f64, flux: f64) -> Observed {
         let mut seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() });
         (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
         seen

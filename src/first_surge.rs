@@ -125,27 +125,9 @@ pub fn at_once(simulated: &Simulated) -> AtOnce {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::read::read_design;
+    use crate::arriving::tests::{arriving, simulated, small_net};
     use crate::fidelity::ladder::RUNGS;
     use crate::guideline::guideline as guideline_of;
-    use crate::quantities::counts::Counts;
-
-    fn small_net() -> Design {
-        read_design("x", include_bytes!("../designs/small_net.yaml")).unwrap().design
-    }
-
-    /// Starts from seed 7 on, each with what it showed.
-    fn simulated(observed: Vec<Observed>) -> Simulated {
-        let starts = observed.into_iter().zip(7..).map(|(observed, seed)| Start { seed, observed, surges: Vec::new() });
-        Simulated { starts: starts.collect(), ..Simulated::default() }
-    }
-
-    /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
-    fn arriving(velocity: f64, flux: f64) -> Observed {
-        let mut seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() });
-        (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
-        seen
-    }
 
     #[test]
     fn an_instant_is_never_less_than_the_mean() {

@@ -305,6 +305,7 @@ fn verdict(outcomes: &[Outcome], doubts: &[String]) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arriving::tests::{arriving, simulated};
     use crate::checks::outcome::{CheckName, OpenReason, Resistance};
     use crate::demand::Demand;
     use crate::quantities::counts::Counts;
@@ -335,20 +336,6 @@ mod tests {
     }
 
     use crate::design::read::read_design;
-    use crate::simulated::Start;
-
-    /// Starts from seed 7 on, each with what it showed.
-    fn simulated(observed: Vec<Observed>) -> Simulated {
-        let starts = observed.into_iter().zip(7..).map(|(observed, seed)| Start { seed, observed, surges: Vec::new() });
-        Simulated { starts: starts.collect(), ..Simulated::default() }
-    }
-
-    /// What was seen of a flow that arrives with a velocity (m/s) and a momentum flux (m³/s²).
-    fn arriving(velocity: f64, flux: f64) -> Observed {
-        let mut seen = Observed::of_nothing(Counts { ropes: 3, ..Counts::default() });
-        (seen.incoming.velocity, seen.incoming.flux, seen.incoming.depth) = (velocity, flux, 0.4);
-        seen
-    }
 
     #[test]
     fn a_doubt_says_of_which_packing_and_flow_it_is() {

@@ -73,7 +73,7 @@ fn growth_of_hanging(
     tension: &Demand,
 ) -> Option<LoadScaling> {
     let level = net.main_ropes.levels.get(index)?;
-    let yields_at = given.lower_bound.unwrap_or(1.0) * given.plateau * given.curve.least();
+    let yields_at = given.yields_at();
     let span = design.channel.section().width(level.height * libm::cos(lean(design)));
     let elastic = yields_at * (span / level.rope.axial_stiffness() + 2.0 / given.stiffness);
     Some(LoadScaling::OfYieldingRope(YieldingRope {
@@ -89,7 +89,7 @@ pub fn growth_of(given: &DissipatorDesign, stroke: &Demand, tension: &Demand) ->
     if stroke.guideline.is_some_and(|stroke| stroke > 0.0) {
         return None;
     }
-    let yields_at = given.lower_bound.unwrap_or(1.0) * given.plateau * given.curve.least();
+    let yields_at = given.yields_at();
     Some(LoadScaling::ToItsStop { tension: tension.simulation?, yields_at, stroke: given.stroke })
 }
 

@@ -20,6 +20,11 @@ pub struct DissipatorDesign {
 }
 
 impl DissipatorDesign {
+    /// Least force (N) with which it may begin to yield.
+    pub fn yields_at(&self) -> f64 {
+        self.lower_bound.unwrap_or(1.0) * self.plateau * self.curve.least()
+    }
+
     /// The same with the least forces of its tests; nothing where they are not less.
     pub fn weakest(&self) -> Option<Self> {
         let least = self.lower_bound.filter(|least| *least < 1.0)?;

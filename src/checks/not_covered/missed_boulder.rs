@@ -8,19 +8,24 @@ use crate::design::BarrierDesign;
 pub fn leave_open(CheckContext { design, seen, .. }: CheckContext, outcomes: &mut [Outcome]) {
     let (Some(seen), BarrierDesign::FlexibleNet(_)) = (seen, &design.barrier) else { return };
     let Some(hit) = seen.gentlest_boulder else { return };
-    // Asked as "hits", so that what is not a number does not.
+    // Asked as "hits", so that what is not a number does not. What is recorded is the hardest of all: of those within the flow some may come late and
+    // softly, or not at all, behind one that hits.
     let hits = hit > 0.0;
-    if hits {
+    let all_at_front = design.flow.boulders.iter().all(|boulders| boulders.at_front);
+    if hits && all_at_front {
         return;
     }
+    let why = if hits {
+        "boulders within the flow may come to rest before they reach the net, so that their impact may be in no load (let boulders come at the front: `where: front`)"
+    } else {
+        "in a simulation no boulder of flow.boulders reaches the net, so that its impact is in no load (let boulders come at the front: `where: front`)"
+    };
     // No load that the design gives stands for it: how hard it would hit the net is not known.
     let of_the_flow = |outcome: &&mut Outcome| {
         outcome.holds() && !outcome.of_parts && !matches!(outcome.kind, Kind::MassHeld | Kind::Level)
     };
     for outcome in outcomes.iter_mut().filter(of_the_flow) {
-        outcome.leave_open(OpenReason::NotGiven(
-            "in a simulation no boulder of flow.boulders reaches the net, so that its impact is in no load (let boulders come at the front: `where: front`)".into(),
-        ));
+        outcome.leave_open(OpenReason::NotGiven(why.into()));
     }
 }
 
@@ -42,6 +47,12 @@ mod tests {
         let hits = [None, Some(1e3), Some(0.0), Some(f64::NAN)];
         let [pass, open] = [CheckVerdict::Pass, CheckVerdict::Open];
         assert_eq!(hits.map(|hit| verdict(&design, hit)), [pass, pass, open, open]);
+        let boulder = |at_front: bool| crate::design::Boulders { diameter: 0.5, number: 1, at_front, density: 2650.0 };
+        design.flow.boulders = vec![boulder(true)];
+        assert_eq!(verdict(&design, Some(1e3)), pass);
+        // Of one within the flow beside it nobody knows.
+        design.flow.boulders.push(boulder(false));
+        assert_eq!(verdict(&design, Some(1e3)), open);
         // A token load changes nothing.
         design.loads.point_load = Some((1.0, Some(0.5)));
         assert_eq!(verdict(&design, Some(0.0)), open);
